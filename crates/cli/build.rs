@@ -31,11 +31,9 @@ fn main() {
 /// The archives of the HDF5 that the crate `hdf5-sys` finds, where a program is built from them.
 fn archives() -> Result<Option<PathBuf>, Box<dyn Error>> {
     let target = env::var("TARGET")?;
-    let is_bundled = env::var_os("CARGO_FEATURE_STATIC").is_some();
-    if is_bundled || !target.ends_with("-linux-gnu") || env::var("HOST")? != target {
-        return Ok(None);
-    }
-    if env::var_os("HDF5_NO_PKG_CONFIG").is_some() || env::var_os("PKG_CONFIG").is_some() {
+    let other = ["CARGO_FEATURE_STATIC", "HDF5_NO_PKG_CONFIG", "PKG_CONFIG"];
+    let is_other = other.into_iter().any(|name| env::var_os(name).is_some());
+    if is_other || !target.ends_with("-linux-gnu") || env::var("HOST")? != target {
         return Ok(None);
     }
     let found = if let Ok(prefix) = env::var("HDF5_DIR") {

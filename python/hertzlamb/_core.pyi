@@ -130,7 +130,7 @@ def tabulate(
     overwrite: bool = False,
     threads: int | None = None,
     progress: _Tell = None,
-) -> tuple[int, int, float]: ...
+) -> None: ...
 def extend(
     path: _Path,
     nu: list[float] | None = None,
@@ -139,4 +139,4 @@ def extend(
     time_factor: float | None = None,
     threads: int | None = None,
     progress: _Tell = None,
-) -> tuple[int, int, float]: ...
+) -> None: ...

@@ -35,19 +35,22 @@ pub(crate) struct Kernels {
 
 impl Kernels {
     /// The table among the files that are read.
-    pub(crate) fn inputs(&self) -> impl Iterator<Item = Role> {
-        let table = self.table.iter();
-        table.map(|table| ("the kernel table", table.clone()))
+    pub(crate) fn input(&self) -> Option<Role> {
+        Some(("the kernel table", self.table.clone()?))
+    }
+
+    /// The table, where kernels may be looked up.
+    fn looked_up(&self) -> Option<&Path> {
+        let table = self.table.as_deref();
+        table.filter(|_| self.kernel != Kernel::Direct)
     }
 
     /// Of one impact.
     pub(crate) fn choice(&self) -> Result<KernelChoice, Failure> {
-        let table = match &self.table {
-            Some(path) => Some(Arc::new(open_table(path)?)),
-            None => None,
-        };
+        let table = self.table.as_deref().map(open_table);
+        let table = table.transpose()?.map(Arc::new);
         match (self.kernel, table) {
-            (Kernel::Table, None) => Err(no_table()),
+            (Kernel::Table, None) => Err(Failure::input(NO_TABLE)),
             (Kernel::Direct, _) | (Kernel::Auto, None) => Ok(KernelChoice::Direct),
             (Kernel::Table, Some(table)) => Ok(KernelChoice::Table(table)),
             (Kernel::Auto, Some(table)) => Ok(KernelChoice::Auto(table)),
@@ -56,10 +59,8 @@ impl Kernels {
 
     /// Whether a finished result may have computed kernels, and the id of the table whose kernels it may have.
     pub(crate) fn allowed(&self) -> Result<(bool, Option<String>), Failure> {
-        let table = self.table.as_deref();
-        let table = table.filter(|_| self.kernel != Kernel::Direct);
-        let id = table.map(|path| Ok::<_, Failure>(open_table(path)?.id().to_owned()));
-        let id = id.transpose()?;
+        let table = self.looked_up().map(open_table).transpose()?;
+        let id = table.map(|table| table.id().to_owned());
         Ok((id.is_none() || self.kernel != Kernel::Table, id))
     }
 
@@ -68,23 +69,20 @@ impl Kernels {
         if !spec.has_probes() {
             return match (self.kernel, &self.table) {
                 (Kernel::Auto, None) => Ok(spec),
-                (_, _) => Err(Failure::input(
+                _ => Err(Failure::input(
                     "--table and --kernel are for the fields at probes, and the base scene of the sweep has no [[probe]]",
                 )),
             };
         }
-        let table = self.table.as_deref();
-        if self.kernel == Kernel::Table && table.is_none() {
-            return Err(no_table());
+        if self.kernel == Kernel::Table && self.table.is_none() {
+            return Err(Failure::input(NO_TABLE));
         }
-        let table = table.filter(|_| self.kernel != Kernel::Direct);
-        Ok(spec.with_fields(table, self.kernel == Kernel::Auto)?)
+        Ok(spec.with_fields(self.looked_up(), self.kernel == Kernel::Auto)?)
     }
 }
 
-fn no_table() -> Failure {
-    Failure::input("--kernel table needs a table: give --table FILE, made with hertzlamb tabulate")
-}
+const NO_TABLE: &str =
+    "--kernel table needs a table: give --table FILE, made with hertzlamb tabulate";
 
 /// The table at `path`.
 pub(crate) fn open_table(path: &Path) -> Result<TableFile, Failure> {
@@ -119,14 +117,11 @@ impl Overwrite {
 
 /// Whether a name is that of a file of rows that this program can write.
 pub(crate) fn check_rows(path: &Path) -> Result<(), Failure> {
+    const BUILD: &str =
+        ": build it with `cargo build --release --package hertzlamb-cli --features parquet`";
     formats::sweep::check_rows(path).map_err(|error| {
-        let hint = match error {
-            OutputError::Unbuilt(..) => {
-                ": build it with `cargo build --release --package hertzlamb-cli --features parquet`"
-            }
-            _ => "",
-        };
-        Failure::from(error).hint(hint)
+        let unbuilt = matches!(error, OutputError::Unbuilt(..));
+        Failure::from(error).hint_if(unbuilt, BUILD)
     })
 }
 
@@ -158,17 +153,15 @@ impl MemoryLimit {
         if needed <= limit {
             return Ok(());
         }
+        let [needed, limit] = [needed, limit].map(|bytes| 1e-9 * bytes);
         Err(Failure::input(format!(
-            "{what} needs about {:.3} GB of memory, more than the {:.3} GB allowed: {change}, or give --max-memory GB",
-            1e-9 * needed,
-            1e-9 * limit
+            "{what} needs about {needed:.3} GB of memory, more than the {limit:.3} GB allowed: {change}, or give --max-memory GB"
         )))
     }
 }
 
-fn gigabytes(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(number) if number > 0.0 && number.is_finite() => Ok(number),
-        Ok(_) | Err(_) => Err("it is outside (0, inf)".to_owned()),
-    }
+fn gigabytes(text: &str) -> Result<f64, &'static str> {
+    let number = text.parse().ok();
+    let number = number.filter(|x: &f64| *x > 0.0 && x.is_finite());
+    number.ok_or("it is outside (0, inf)")
 }

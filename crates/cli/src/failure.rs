@@ -5,6 +5,7 @@ use output::OutputError;
 use serde_json::{Map, Value, json};
 use std::error::Error;
 use std::fmt::Display;
+use std::io::{ErrorKind, Write};
 use std::path::Path;
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -44,15 +45,15 @@ impl Failure {
 
     /// Work of many parts failed; an output that cannot be written is told as everywhere.
     pub(crate) fn in_part(error: Box<dyn Error + Send + Sync>) -> Self {
-        match error.downcast::<OutputError>() {
-            Ok(output) => (*output).into(),
-            Err(other) => Self::work(other),
-        }
+        let output = error.downcast::<OutputError>();
+        output.map_or_else(Self::work, |output| (*output).into())
     }
 
-    /// The same with what to do.
-    pub(crate) fn hint(mut self, words: &str) -> Self {
-        self.sentence.push_str(words);
+    /// The same with what to do, where it is this error that it helps against.
+    pub(crate) fn hint_if(mut self, helps: bool, words: &str) -> Self {
+        if helps {
+            self.sentence += words;
+        }
         self
     }
 
@@ -68,11 +69,10 @@ impl Failure {
     }
 
     /// Prints it on standard error, as an object where the command was to print one, and gives the exit code.
-    pub(crate) fn report(&self) -> ExitCode {
+    pub(crate) fn report(mut self) -> ExitCode {
         if wants_json() {
-            let mut error = self.about.clone();
-            error.insert("message".to_owned(), self.sentence.as_str().into());
-            tell(json!({ "error": error }));
+            (self.about).insert("message".to_owned(), self.sentence.into());
+            tell(json!({ "error": self.about }));
         } else {
             tell(format!("error: {}", self.sentence));
         }
@@ -87,18 +87,16 @@ impl Failure {
 impl<E: Fault> From<E> for Failure {
     fn from(error: E) -> Self {
         let culprit = error.culprit();
-        let failure = Self {
-            sentence: cut(&error.to_string()),
+        let hint = match (culprit.class, culprit.remedy) {
+            (Class::Exists, _) => "; give --force to replace it",
+            (Class::Memory, _) => ", or give --max-memory GB",
+            (Class::OutsideTable, Remedy::Change) => "; use --kernel direct or another table",
+            _ => "",
+        };
+        Self {
+            sentence: cut(&error.to_string()) + hint,
             remedy: culprit.remedy,
             about: about(&culprit),
-        };
-        match (culprit.class, culprit.remedy) {
-            (Class::Exists, _) => failure.hint("; give --force to replace it"),
-            (Class::Memory, _) => failure.hint(", or give --max-memory GB"),
-            (Class::OutsideTable, Remedy::Change) => {
-                failure.hint("; use --kernel direct or another table")
-            }
-            _ => failure,
         }
     }
 }
@@ -153,13 +151,11 @@ pub(crate) fn say(text: impl Display) {
 
 /// Writes a line on standard error; where nobody takes it, the work goes on all the same.
 pub(crate) fn tell(text: impl Display) {
-    use std::io::Write;
     let _ = writeln!(std::io::stderr(), "{}", visible(text));
 }
 
 /// Writes a line on standard output; a closed pipe ends the program quietly.
 pub(crate) fn print(text: impl Display) -> Result<(), Failure> {
-    use std::io::{ErrorKind, Write};
     match writeln!(std::io::stdout(), "{}", visible(text)) {
         Ok(()) => Ok(()),
         Err(error) if error.kind() == ErrorKind::BrokenPipe => std::process::exit(0),
@@ -174,10 +170,9 @@ pub(crate) fn show(json: bool, value: &Value, text: impl Display) -> Result<(), 
 
 /// Lines of a report, each with its name.
 pub(crate) fn lines<T: Display>(named: impl IntoIterator<Item = (&'static str, T)>) -> String {
-    let lines = named
-        .into_iter()
-        .map(|(name, text)| format!("{name:15}{text}"));
-    lines.collect::<Vec<_>>().join("\n")
+    let line = |(name, text)| format!("{name:15}{text}");
+    let lines: Vec<String> = named.into_iter().map(line).collect();
+    lines.join("\n")
 }
 
 /// A text as it is, but for control characters, which names of files may have and which terminals obey.
@@ -198,15 +193,11 @@ pub(crate) fn check_stdout() -> Result<(), Failure> {
     let of = |what: &str| format!("/proc/self/{what}/1");
     let to_nothing = std::fs::read_link(of("fd")).is_ok_and(|path| path.ends_with("null"));
     let described = std::fs::read_to_string(of("fdinfo")).unwrap_or_default();
-    let flags = described
-        .lines()
-        .find_map(|line| line.strip_prefix("flags:"));
     // open for reading too, as nobody opens it for output
-    let both = flags.is_some_and(|flags| flags.trim().ends_with('2'));
-    if to_nothing && both {
-        return Err(Failure::work(
-            "cannot write to standard output: it is closed",
-        ));
+    let reads = |line: &str| line.starts_with("flags:") && line.trim_end().ends_with('2');
+    if to_nothing && described.lines().any(reads) {
+        let closed = "cannot write to standard output: it is closed";
+        return Err(Failure::work(closed));
     }
     Ok(())
 }

@@ -1,4 +1,4 @@
-//! The `hertzlamb` command: `commands` has one file per subcommand, the other files are what they share.
+//! The `hertzlamb` command: `commands` has one file per subcommand but the completions, the other files are what they share.
 
 mod arguments;
 mod commands;
@@ -8,9 +8,11 @@ mod progress;
 mod report;
 
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
+use clap_complete::{Shell, generate};
 use commands::{
-    chart, completions, demo, export, impact, infer, materials, paper, plot, sweep, table, tabulate,
+    chart, demo, export, impact, infer, materials, paper, plot, sweep, table, tabulate,
 };
+use failure::Failure;
 use std::process::ExitCode;
 use std::sync::atomic::Ordering;
 
@@ -55,7 +57,13 @@ enum Command {
     /// Lists and searches the materials library.
     Materials(materials::Arguments),
     /// Writes a completion script for a shell to standard output.
-    Completions(completions::Arguments),
+    #[command(
+        after_help = "Example:\n  hertzlamb completions bash > ~/.local/share/bash-completion/completions/hertzlamb"
+    )]
+    Completions {
+        /// The shell.
+        shell: Shell,
+    },
 }
 
 fn main() -> ExitCode {
@@ -75,12 +83,16 @@ fn main() -> ExitCode {
         Command::Table(arguments) => table::run(&arguments),
         Command::Chart(arguments) => chart::run(&arguments),
         Command::Materials(arguments) => materials::run(&arguments),
-        Command::Completions(arguments) => completions::run(&arguments),
+        Command::Completions { shell } => completions(shell),
     };
-    match done {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(failure) => failure.report(),
-    }
+    done.map_or_else(Failure::report, |()| ExitCode::SUCCESS)
+}
+
+/// Writes a completion script.
+fn completions(shell: Shell) -> Result<(), Failure> {
+    let mut script = Vec::new();
+    generate(shell, &mut Cli::command(), "hertzlamb", &mut script);
+    failure::print(String::from_utf8_lossy(&script).trim_end())
 }
 
 /// The command line; every command has the version, and the name, of the program.
@@ -95,7 +107,7 @@ fn parsed() -> Cli {
                 let sentence = text.split("\n\nUsage").next().unwrap_or(&text);
                 let sentence = sentence.trim().trim_start_matches("error: ");
                 let sentence = sentence.replace("\n\n  tip: ", "; ");
-                failure::Failure::input(sentence).report();
+                Failure::input(sentence).report();
                 std::process::exit(2);
             }
             error.exit()

@@ -14,10 +14,6 @@ use std::sync::{Arc, Mutex, PoisonError};
 /// What is kept when the command is stopped now.
 static NOTE: Mutex<Option<Box<dyn Fn() -> String + Send>>> = Mutex::new(None);
 
-/// Signal of a file that grows beyond the limit of the process; without a handler it ends the process.
-#[cfg(unix)]
-const FILE_TOO_LARGE: std::ffi::c_int = signal_hook::consts::SIGXFSZ;
-
 /// From now on says what is kept when the command is stopped.
 pub(crate) fn say_then(note: impl Fn() -> String + Send + 'static) {
     *NOTE.lock().unwrap_or_else(PoisonError::into_inner) = Some(Box::new(note));
@@ -25,24 +21,23 @@ pub(crate) fn say_then(note: impl Fn() -> String + Send + 'static) {
 
 /// Listens for Ctrl-C and its like until the program ends; where that is not possible, they end it as ever.
 pub(crate) fn listen() {
+    // a file that grows beyond the limit of the process would end it without a handler
     #[cfg(unix)]
-    let _ = signal_hook::flag::register(FILE_TOO_LARGE, Arc::new(AtomicBool::new(false)));
+    let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, Arc::default());
     let Ok(mut signals) = Signals::new([SIGINT, SIGTERM, SIGHUP]) else {
         return;
     };
-    let _ = std::thread::Builder::new()
-        .name("interrupt".to_owned())
-        .spawn(move || {
-            for signal in signals.forever() {
-                let note = NOTE.lock().unwrap_or_else(PoisonError::into_inner);
-                let kept = note
-                    .as_ref()
-                    .map_or_else(|| "nothing was written".to_owned(), |note| note());
-                tell(format!("\nstopped: {kept}"));
-                output::abandon();
-                let _ = emulate_default_handler(signal);
-            }
-        });
+    let ear = std::thread::Builder::new().name("interrupt".to_owned());
+    let _ = ear.spawn(move || {
+        for signal in signals.forever() {
+            let note = NOTE.lock().unwrap_or_else(PoisonError::into_inner);
+            let kept = note.as_ref().map(|note| note());
+            let kept = kept.as_deref().unwrap_or("nothing was written");
+            tell(format!("\nstopped: {kept}"));
+            output::abandon();
+            let _ = emulate_default_handler(signal);
+        }
+    });
 }
 
 /// Exit code of a program that met a fault of its own.
@@ -65,15 +60,12 @@ pub(crate) fn end_in_one_sentence() {
 
 fn sentence(info: &PanicHookInfo<'_>) -> String {
     let payload = info.payload();
-    let what = payload
-        .downcast_ref::<&str>()
-        .map(|text| (*text).to_owned())
-        .or_else(|| payload.downcast_ref::<String>().cloned())
-        .unwrap_or_default();
+    let text = payload.downcast_ref::<String>().map(String::as_str);
+    let text = text.or(payload.downcast_ref::<&str>().copied());
     let place = info.location().map(ToString::to_string);
     format!(
         "error: this is a fault of the program, please report it with its input: {} at {}",
-        what.replace('\n', " "),
+        text.unwrap_or_default().replace('\n', " "),
         place.unwrap_or_default()
     )
 }

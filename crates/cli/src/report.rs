@@ -1,76 +1,66 @@
 //! The results of an impact as text.
 
+use crate::failure::lines;
 use contact::{Material, Shape};
 use formats::{choices, kernel_name};
-use impact::{Cause, Load, Outcome, ProbeFields, RecordResults, Scene, Strike, Treated};
+use impact::{Cause, Load, Outcome, ProbeFields, RecordResults, Scene, Treated};
 
 /// The results for people.
 pub(crate) fn text_report(scene: &Scene, outcome: &Outcome) -> String {
     let [model, scheme, share, deflection, reason] = choices(scene, outcome);
-    let mut lines = vec![
-        understood(scene),
-        format!("model          {model} ({reason})"),
+    let mut told = vec![
+        ("impact", understood(scene)),
+        ("model", format!("{model} ({reason})")),
     ];
     match &outcome.cause {
         Cause::Contact { results, .. } => {
-            let mut scheme = format!("scheme         {scheme}");
+            let mut scheme = scheme.to_owned();
             if scene.settings.disc_radius_m.is_some() {
-                scheme.push_str(&format!(", static share {share}, deflection {deflection}"));
+                scheme += &format!(", static share {share}, deflection {deflection}");
             }
-            lines.push(scheme);
-            lines.extend(contact_lines(results));
+            told.push(("scheme", scheme));
+            told.extend(of_contact(results));
         }
         Cause::Record(results) => {
             let treated = scene.record().and_then(|record| record.treated);
-            lines.extend(treated.iter().map(treated_line));
-            lines.extend(record_lines(results));
+            told.extend(treated.map(|done| ("treatment", treatment(&done))));
+            told.extend(of_record(results));
         }
     }
-    lines.extend(output_lines(outcome));
-    lines.join("\n")
+    told.extend(of_output(outcome));
+    lines(told)
 }
 
 /// What is computed, as it was understood.
 pub(crate) fn understood(scene: &Scene) -> String {
+    let metres = |length_m| short(length_m, "m");
     let load = match &scene.load {
-        Load::Strike(Strike {
-            striker,
-            velocity_m_s,
-        }) => {
+        Load::Strike(strike) => {
+            let striker = &strike.striker;
             let name = named(&striker.material);
             let body = match striker.shape {
-                Some(Shape::Ball { diameter_m }) => {
-                    format!("{name}ball of {}", short(diameter_m, "m"))
-                }
+                Some(Shape::Ball { diameter_m }) => format!("ball of {}", metres(diameter_m)),
                 Some(Shape::Rod {
                     diameter_m,
                     length_m,
                     ..
-                }) => format!(
-                    "{name}rod of {} by {}",
-                    short(diameter_m, "m"),
-                    short(length_m, "m")
-                ),
-                None => format!("{name}tip of {} radius", short(striker.tip_radius_m, "m")),
+                }) => format!("rod of {} by {}", metres(diameter_m), metres(length_m)),
+                None => format!("tip of {} radius", metres(striker.tip_radius_m)),
             };
             let mass = short(1e3 * striker.mass_kg, "g");
-            format!("{body}, {mass}, at {}", short(*velocity_m_s, "m/s"))
+            let velocity = short(strike.velocity_m_s, "m/s");
+            format!("{name}{body}, {mass}, at {velocity}")
         }
         Load::Record(record) => {
-            let [from_s, to_s] = record.span_s();
-            let radius_m = scene.settings.disc_radius_m.unwrap_or(0.0);
-            format!(
-                "force of {} samples from {} to {}, over a disc of {} radius",
-                record.time_s().len(),
-                short(from_s, "s"),
-                short(to_s, "s"),
-                short(radius_m, "m")
-            )
+            let [from, to] = record.span_s().map(|time_s| short(time_s, "s"));
+            let count = record.time_s().len();
+            let radius = metres(scene.settings.disc_radius_m.unwrap_or(0.0));
+            format!("force of {count} samples from {from} to {to}, over a disc of {radius} radius")
         }
     };
     let target = scene.target.material();
     format!(
-        "impact         {load}, on {}E {}, nu {}, {} kg/m3",
+        "{load}, on {}E {}, nu {}, {} kg/m3",
         named(target).replace(' ', ": "),
         short(target.youngs_modulus_pa, "Pa"),
         (1e4 * target.poisson_ratio).round() / 1e4,
@@ -86,110 +76,91 @@ fn named(material: &Material) -> String {
     }
 }
 
-fn peak_line(force_n: f64, time_s: f64) -> String {
-    format!("peak force     {} at {}", si(force_n, "N"), si(time_s, "s"))
+fn peak(force_n: f64, time_s: f64) -> (&'static str, String) {
+    let at = format!("{} at {}", si(force_n, "N"), si(time_s, "s"));
+    ("peak force", at)
 }
 
-fn contact_lines(r: &contact::Results) -> Vec<String> {
-    let mut lines = vec![
-        peak_line(r.peak_force_n, r.peak_force_time_s),
-        format!("contact time   {}", si(r.contact_time_s, "s")),
-        format!(
-            "rebound        {}, restitution {:.6}",
-            si(r.rebound_velocity_m_s, "m/s"),
-            r.restitution
-        ),
-        format!("displacement   {}", si(r.peak_displacement_m, "m")),
-        format!("deflection     {}", si(r.peak_deflection_m, "m")),
-        format!(
-            "radiated       {} of {}; {:.1e} of it unaccounted for",
-            si(r.radiated_energy_j, "J"),
-            si(r.initial_energy_j, "J"),
-            r.energy_residual
-        ),
+fn of_contact(r: &contact::Results) -> Vec<(&'static str, String)> {
+    let rebound = si(r.rebound_velocity_m_s, "m/s");
+    let rebound = format!("{rebound}, restitution {:.6}", r.restitution);
+    let energies = [r.radiated_energy_j, r.initial_energy_j];
+    let ([radiated, initial], missing) = (energies.map(|x| si(x, "J")), r.energy_residual);
+    let radiated = format!("{radiated} of {initial}; {missing:.1e} of it unaccounted for");
+    let mut told = vec![
+        peak(r.peak_force_n, r.peak_force_time_s),
+        ("contact time", si(r.contact_time_s, "s")),
+        ("rebound", rebound),
+        ("displacement", si(r.peak_displacement_m, "m")),
+        ("deflection", si(r.peak_deflection_m, "m")),
+        ("radiated", radiated),
     ];
     let flow = &r.plastic;
-    if let (Some(from_m_s), Some(work_j), Some(left_m)) = (
-        flow.yield_velocity_m_s,
-        flow.plastic_work_j,
-        flow.residual_indentation_m,
-    ) {
-        lines.push(format!(
-            "yield          from {} on; {} of plastic work, an indentation of {} remains",
-            si(from_m_s, "m/s"),
-            si(work_j, "J"),
-            si(left_m, "m")
-        ));
-    }
+    let flowed = || {
+        Some(format!(
+            "from {} on; {} of plastic work, an indentation of {} remains",
+            si(flow.yield_velocity_m_s?, "m/s"),
+            si(flow.plastic_work_j?, "J"),
+            si(flow.residual_indentation_m?, "m")
+        ))
+    };
+    told.extend(flowed().map(|flowed| ("yield", flowed)));
     let error = r.relative_error_estimate;
-    lines.push(format!("error estimate {error:.1e} relative"));
-    lines
+    told.push(("error estimate", format!("{error:.1e} relative")));
+    told
 }
 
 /// What was done to a record.
-fn treated_line(done: &Treated) -> String {
+fn treatment(done: &Treated) -> String {
     let baseline = done.baseline_s.map(|length_s| {
-        format!(
-            "baseline {}, the mean of the first {}, taken away",
-            si(done.baseline_n, "N"),
-            si(length_s, "s")
-        )
+        let (mean, length) = (si(done.baseline_n, "N"), si(length_s, "s"));
+        format!("baseline {mean}, the mean of the first {length}, taken away")
     });
     let low_pass = done.low_pass_hz.map(|cutoff_hz| {
+        let (cutoff, rms) = (si(cutoff_hz, "Hz"), si(done.removed_rms_n, "N"));
         format!(
-            "low pass at {} (Butterworth, fourth order, forwards and backwards), took away {} rms",
-            si(cutoff_hz, "Hz"),
-            si(done.removed_rms_n, "N")
+            "low pass at {cutoff} (Butterworth, fourth order, forwards and backwards), took away {rms} rms"
         )
     });
     let parts: Vec<String> = baseline.into_iter().chain(low_pass).collect();
-    format!("treatment      {}", parts.join("; "))
+    parts.join("; ")
 }
 
-fn record_lines(r: &RecordResults) -> Vec<String> {
-    vec![
-        peak_line(r.peak_force_n, r.peak_force_time_s),
-        format!(
-            "pulse          {}, {}",
-            si(r.duration_s, "s"),
-            si(r.impulse_n_s, "N s")
-        ),
-        format!("deflection     {}", si(r.peak_deflection_m, "m")),
-        format!("radiated       {}", si(r.radiated_energy_j, "J")),
+fn of_record(r: &RecordResults) -> [(&'static str, String); 4] {
+    let [duration, impulse] = [si(r.duration_s, "s"), si(r.impulse_n_s, "N s")];
+    [
+        peak(r.peak_force_n, r.peak_force_time_s),
+        ("pulse", format!("{duration}, {impulse}")),
+        ("deflection", si(r.peak_deflection_m, "m")),
+        ("radiated", si(r.radiated_energy_j, "J")),
     ]
 }
 
-fn output_lines(outcome: &Outcome) -> Vec<String> {
-    let time_s = &outcome.series.time_s;
+fn of_output(outcome: &Outcome) -> Vec<(&'static str, String)> {
     let probes = outcome.probes.as_ref().map_or(0, |fields| fields.r_m.len());
-    let mut lines = vec![format!(
-        "output         {} steps of {}, {probes} probe{}, kernel {}",
-        time_s.len().saturating_sub(1),
+    let written = format!(
+        "{} steps of {}, {probes} probe{}, kernel {}",
+        outcome.series.time_s.len().saturating_sub(1),
         si(outcome.step_s(), "s"),
         if probes == 1 { "" } else { "s" },
         kernel_name(outcome)
-    )];
+    );
+    let mut told = vec![("output", written)];
     if let Some(section) = &outcome.section {
-        lines.push(format!(
-            "section        {} x {} points, {} frames",
-            section.r_m.len(),
-            section.z_m.len(),
-            section.time_s.len()
-        ));
+        let scales = [&section.r_m, &section.z_m, &section.time_s];
+        let [r, z, frames] = scales.map(Vec::len);
+        told.push(("section", format!("{r} x {z} points, {frames} frames")));
     }
     if let Some(used) = &outcome.used {
-        lines.push(format!(
-            "fields         {} ({}), {}",
-            used.kernel(),
-            used.reason,
-            used.convolution.name()
-        ));
+        let (kernel, convolution) = (used.kernel(), used.convolution.name());
+        let how = format!("{kernel} ({}), {convolution}", used.reason);
+        told.push(("fields", how));
     }
     if let Some(fields) = &outcome.probes {
-        lines.push(format!("field errors   {}", field_errors(fields)));
-        lines.extend(validity(fields));
+        told.push(("field errors", field_errors(fields)));
+        told.extend(validity(fields).map(|until| ("valid until", until)));
     }
-    lines
+    told
 }
 
 /// The largest estimated errors at the probes, over the largest value of their kind at the same probe.
@@ -207,17 +178,11 @@ fn field_errors(fields: &ProbeFields) -> String {
                 worst = (error / peak, probe);
             }
         }
-        format!(
-            "{:.1e} of the largest {kind} at probe {}",
-            worst.0,
-            worst.1 + 1
-        )
+        let (error, probe) = (worst.0, worst.1 + 1);
+        format!("{error:.1e} of the largest {kind} at probe {probe}")
     };
-    format!(
-        "at most {}, {}",
-        of("displacement", 0..2),
-        of("stress", 2..6)
-    )
+    let [displacement, stress] = [of("displacement", 0..2), of("stress", 2..6)];
+    format!("at most {displacement}, {stress}")
 }
 
 /// When the first echo comes to the probes, where the block has faces.
@@ -230,7 +195,7 @@ fn validity(fields: &ProbeFields) -> Option<String> {
         .collect();
     let more = if known.len() > SHOWN { ", ..." } else { "" };
     let shown = known[..known.len().min(SHOWN)].join(", ");
-    (!known.is_empty()).then(|| format!("valid until    {shown}{more} (first echo)"))
+    (!known.is_empty()).then(|| format!("{shown}{more} (first echo)"))
 }
 
 /// A number with seven digits and an SI prefix.
@@ -264,11 +229,9 @@ pub(crate) fn short(value: f64, unit: &str) -> String {
     let rounded: f64 = format!("{value:.3e}").parse().unwrap_or(value);
     let long = si(rounded, unit);
     let (digits, unit) = long.split_once(' ').unwrap_or((&long, ""));
-    match digits.split_once('.') {
-        Some(_) if !digits.contains('e') => {
-            let digits = digits.trim_end_matches('0').trim_end_matches('.');
-            format!("{digits} {unit}")
-        }
-        _ => long,
+    if !digits.contains('.') || digits.contains('e') {
+        return long;
     }
+    let digits = digits.trim_end_matches('0').trim_end_matches('.');
+    format!("{digits} {unit}")
 }

@@ -14,7 +14,7 @@ use halfspace::{Medium, Profile, Six};
 const MAX_COARSENING: u32 = 20;
 
 /// What comes with the cells of a trace.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct TraceInfo {
     /// Static field under a unit force, closed form.
     pub static_part: Six,

@@ -8,28 +8,23 @@ use serde_json::{Map, Value};
 use std::path::Path;
 
 /// An exception of a class of `hertzlamb._errors`.
-fn exception(py: Python<'_>, class: &str, message: &str, fields: Map<String, Value>) -> PyErr {
-    let made = || -> PyResult<PyErr> {
+fn exception(class: &str, message: &str, fields: Map<String, Value>) -> PyErr {
+    let made = |py: Python<'_>| -> PyResult<PyErr> {
         let class = py.import("hertzlamb._errors")?.getattr(class)?;
         let fields = from_json(py, &fields.into())?;
         let made = class.call((message,), Some(fields.cast::<PyDict>()?))?;
         Ok(PyErr::from_value(made))
     };
-    made().unwrap_or_else(|error| error)
+    Python::attach(made).unwrap_or_else(|error| error)
 }
 
 /// The exception of an error.
-pub(crate) fn raised(py: Python<'_>, error: impl Fault) -> PyErr {
-    raised_in(py, error, None)
-}
-
-/// Makes the exception of an error.
-pub(crate) fn raise<E: Fault>(py: Python<'_>) -> impl FnOnce(E) -> PyErr {
-    move |error| raised(py, error)
+pub(crate) fn raise(error: impl Fault) -> PyErr {
+    raised_in(error, None)
 }
 
 /// The same where work with a file fails, which the error may not name.
-pub(crate) fn raised_in(py: Python<'_>, error: impl Fault, file: Option<&Path>) -> PyErr {
+pub(crate) fn raised_in(error: impl Fault, file: Option<&Path>) -> PyErr {
     let culprit = error.culprit();
     let (class, key) = match culprit.class {
         Class::Scene => ("SceneError", "key"),
@@ -61,41 +56,35 @@ pub(crate) fn raised_in(py: Python<'_>, error: impl Fault, file: Option<&Path>) 
     ];
     let known = known.into_iter();
     let known = known.filter_map(|(name, value)| Some((name.to_owned(), value?)));
-    exception(py, class, &message, known.collect())
+    exception(class, &message, known.collect())
 }
 
 /// An exception of a class, with its sentence alone.
-pub(crate) fn plain(py: Python<'_>, class: &str, message: &str) -> PyErr {
-    exception(py, class, message, Map::new())
+pub(crate) fn plain(class: &str, message: &str) -> PyErr {
+    exception(class, message, Map::new())
 }
 
 /// What an argument names, of all that it may name.
-pub(crate) fn one_of<T: Copy>(
-    py: Python<'_>,
-    what: &str,
-    found: &str,
-    all: &[(&str, T)],
-) -> PyResult<T> {
+pub(crate) fn one_of<T: Copy>(what: &str, found: &str, all: &[(&str, T)]) -> PyResult<T> {
     let known = all.iter().find(|(name, _)| *name == found);
-    known.map(|(_, value)| *value).ok_or_else(|| {
-        let names: Vec<&str> = all.iter().map(|(name, _)| *name).collect();
-        unknown(py, what, found, &names)
-    })
+    let names = all.iter().map(|(name, _)| *name);
+    let otherwise = || unknown(what, found, &names.collect::<Vec<_>>());
+    known.map(|(_, value)| *value).ok_or_else(otherwise)
 }
 
 /// A profile, an integral or a deflection that does not exist.
-pub(crate) fn unknown(py: Python<'_>, what: &str, found: &str, allowed: &[&str]) -> PyErr {
+pub(crate) fn unknown(what: &str, found: &str, allowed: &[&str]) -> PyErr {
     let allowed = allowed.join(", ");
     let message = format!("{what} = \"{found}\" is not one of {allowed}");
     let fields = [("argument", what), ("value", found), ("range", &allowed)];
     let fields = fields.map(|(name, word)| (name.to_owned(), word.into()));
-    exception(py, "DomainError", &message, fields.into_iter().collect())
+    exception("DomainError", &message, fields.into_iter().collect())
 }
 
 /// Refuses arrays that the memory does not hold: so many places of so many bytes each.
-pub(crate) fn check_memory(py: Python<'_>, places: usize, bytes: usize) -> PyResult<()> {
-    shortage(places, "places", bytes)
-        .map_or(Ok(()), |short| Err(plain(py, "TooMuchMemory", &short)))
+pub(crate) fn check_memory(places: usize, bytes: usize) -> PyResult<()> {
+    let short = shortage(places, "places", bytes);
+    short.map_or(Ok(()), |short| Err(plain("TooMuchMemory", &short)))
 }
 
 /// What to say where the memory does not hold so many things of so many bytes each.

@@ -1,24 +1,22 @@
 //! One impact: computed, looked at by the names of results files, written.
 
-use crate::errors::{self, raise};
+use crate::errors::{one_of, plain, raise, raised_in, unknown};
 use crate::scene::{scene, spelled_out};
 use crate::table::{Opened, Table};
-use crate::values::{from_json, frozen, matrix, vector};
+use crate::values::{from_json, frozen, vector};
 use crate::work::run;
 use contact::{Choice, Unknown};
 use formats::quantities::{Kind, Labels, QUANTITIES, labels_of};
 use formats::results::schema;
 use formats::{Existing, Output, json_report, stage_results, stage_results_csv};
-use impact::{
-    Allowance, KernelChoice, Outcome as Computed, Peaks, ProbeFields, Scene, SectionFields,
-    simulate_within,
-};
+use impact::{Allowance, KernelChoice, Outcome as Computed, Peaks, Scene, simulate_within};
 use output::{CSV, HDF5};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
+use tabulator::Progress;
 
 /// The results of an impact.
 #[pyclass(module = "hertzlamb._core", frozen)]
@@ -42,20 +40,20 @@ pub(crate) fn run_impact(
     let (py, start) = (given.py(), Instant::now());
     let scene = scene(given)?;
     let opened = table.map(|table| Arc::clone(&table.get().opened));
-    let kernels = kernels(py, kernel, opened.clone())?;
+    let kernels = kernels(kernel, opened.clone())?;
     let (result, scene) = run(py, threads, progress, move |ticker| {
         let allowance = Allowance {
             memory_bytes: max_memory_bytes.unwrap_or_else(output::free_memory),
             go_on: &|forecast| {
-                ticker.of(forecast.points as u64);
+                ticker.total("fields", forecast.points as u64);
                 !ticker.is_stopped()
             },
-            watch: &|| ticker.more(1),
+            watch: &|| ticker.advance(1),
         };
         (simulate_within(&scene, &kernels, &allowance), scene)
     })?;
     let file = opened.as_ref().map(|opened| opened.file.path());
-    let computed = result.map_err(|error| errors::raised_in(py, error, file))?;
+    let computed = result.map_err(|error| raised_in(error, file))?;
     Ok(Outcome {
         found: Arc::new((scene, computed)),
         wall_s: start.elapsed().as_secs_f64(),
@@ -73,30 +71,24 @@ pub(crate) fn infer<'py>(
 ) -> PyResult<Bound<'py, PyAny>> {
     let py = given.py();
     let known: Vec<_> = Unknown::ALL.iter().map(|&one| (one.name(), one)).collect();
-    let unknown = errors::one_of(py, "unknown", unknown, &known)?;
+    let unknown = one_of("unknown", unknown, &known)?;
     let scene = scene(given)?;
     let found = run(py, None, None, move |_| {
         formats::infer(&scene, (&measured, &values), error, unknown)
     })?;
-    from_json(py, &found.map_err(raise(py))?.1)
+    from_json(py, &found.map_err(raise)?.1)
 }
 
-fn kernels(py: Python<'_>, name: &str, table: Option<Arc<Opened>>) -> PyResult<KernelChoice> {
+fn kernels(name: &str, table: Option<Arc<Opened>>) -> PyResult<KernelChoice> {
     match (name, table) {
         ("direct", _) | ("auto", None) => Ok(KernelChoice::Direct),
         ("table", Some(table)) => Ok(KernelChoice::Table(table)),
         ("auto", Some(table)) => Ok(KernelChoice::Auto(table)),
-        ("table", None) => Err(errors::plain(
-            py,
+        ("table", None) => Err(plain(
             "SceneError",
             "kernel = \"table\" needs a table: give table=hertzlamb.Table.open(...)",
         )),
-        _ => Err(errors::unknown(
-            py,
-            "kernel",
-            name,
-            &["auto", "direct", "table"],
-        )),
+        _ => Err(unknown("kernel", name, &["auto", "direct", "table"])),
     }
 }
 
@@ -143,19 +135,56 @@ impl Outcome {
         columns.transpose()
     }
 
-    /// Fields at the probes by name: (probe, time), with errors and places by probe.
+    /// Fields at the probes by name: (probe, time), with errors, places and, where they are asked for, peaks by probe.
     fn probes<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {
         let (scene, computed) = &*self.found;
-        let time_s = &computed.series.time_s;
-        let found = computed.probes.as_ref();
-        let found = found.map(|fields| at_probes(py, fields, time_s, scene.peaks));
-        found.transpose()
+        let Some(fields) = &computed.probes else {
+            return Ok(None);
+        };
+        let places = [&fields.r_m[..], &fields.z_m];
+        let found = columns_of(py, schema::PLACES.iter().zip(places))?;
+        let arrivals: Vec<f64> = fields.arrival_s.iter().flatten().copied().collect();
+        let shape = [fields.arrival_s.len(), 3];
+        found.set_item(schema::ARRIVALS.0, frozen(py, arrivals, &shape)?)?;
+        let valid = vector(py, fields.valid_until_s.clone())?;
+        found.set_item(schema::VALID_UNTIL.0, valid)?;
+        for ((name, ..), values, errors) in schema::histories(fields) {
+            let shape = [values.len(), values.first().map_or(0, Vec::len)];
+            found.set_item(name, frozen(py, values.concat(), &shape)?)?;
+            found.set_item(error_of(name), vector(py, errors.clone())?)?;
+            if scene.peaks {
+                let mut largest = Peaks::default();
+                for samples in values {
+                    largest.push(&computed.series.time_s, samples);
+                }
+                put_peaks(&found, name, largest, &shape[..1])?;
+            }
+        }
+        Ok(Some(found))
     }
 
-    /// Fields on the section by name: (time, z, r), with errors and arrivals by place.
+    /// Fields on the section by name: (time, z, r), with errors, arrivals and, where they are asked for, peaks by place.
     fn section<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {
-        let found = self.found.1.section.as_ref();
-        found.map(|section| on_section(py, section)).transpose()
+        let Some(section) = &self.found.1.section else {
+            return Ok(None);
+        };
+        let scales = [&section.time_s[..], &section.z_m, &section.r_m];
+        let found = columns_of(py, schema::MAP_SCALES.iter().zip(scales))?;
+        let place = [section.z_m.len(), section.r_m.len()];
+        let frames = [section.time_s.len(), place[0], place[1]];
+        let waves = [3, place[0], place[1]];
+        let arrivals = section.arrival_s.concat();
+        found.set_item(schema::ARRIVALS.0, frozen(py, arrivals, &waves)?)?;
+        let values = section.values.iter().zip(&section.errors);
+        let names: Vec<_> = labels_of(&section.quantities).map(|row| row.0).collect();
+        for (&name, (values, errors)) in names.iter().zip(values) {
+            found.set_item(name, frozen(py, values.clone(), &frames)?)?;
+            found.set_item(error_of(name), frozen(py, errors.clone(), &place)?)?;
+        }
+        for (name, largest) in names.into_iter().zip(section.peaks.iter().flatten()) {
+            put_peaks(&found, name, largest.clone(), &place)?;
+        }
+        Ok(Some(found))
     }
 
     /// Writes the command's results file.
@@ -176,21 +205,21 @@ impl Outcome {
             let ending = if csv { CSV } else { HDF5 };
             ending.check(&path)?;
             let output = Output::claim(&path, Existing::replaced(overwrite))?;
-            let (scene, computed) = &*found;
-            if csv {
-                stage_results_csv(&output, scene, computed)?.commit()
+            let stage = if csv {
+                stage_results_csv
             } else {
-                stage_results(&output, scene, computed)?.commit()
-            }
+                stage_results
+            };
+            stage(&output, &found.0, &found.1)?.commit()
         })?
-        .map_err(raise(py))
+        .map_err(raise)
     }
 }
 
 /// Columns by name.
-fn columns_of<'py, 'a>(
+fn columns_of<'py, 'a, 'b>(
     py: Python<'py>,
-    columns: impl Iterator<Item = (&'static Labels<'static>, &'a [f64])>,
+    columns: impl Iterator<Item = (&'a Labels<'static>, &'b [f64])>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let found = PyDict::new(py);
     for ((name, ..), column) in columns {
@@ -204,60 +233,6 @@ fn error_of(name: &str) -> String {
     format!("{name}{}", schema::ERROR_SUFFIX)
 }
 
-/// Fields at probes: (probe, time), with errors, places and, where they are asked for, peaks by probe.
-fn at_probes<'py>(
-    py: Python<'py>,
-    fields: &ProbeFields,
-    time_s: &[f64],
-    peaks: bool,
-) -> PyResult<Bound<'py, PyDict>> {
-    let found = PyDict::new(py);
-    for (place, column) in schema::PLACES.iter().zip([&fields.r_m, &fields.z_m]) {
-        found.set_item(place.0, vector(py, column.clone())?)?;
-    }
-    let arrivals: Vec<f64> = fields.arrival_s.iter().flatten().copied().collect();
-    let shape = [fields.arrival_s.len(), 3];
-    found.set_item(schema::ARRIVALS.0, frozen(py, arrivals, &shape)?)?;
-    let valid = vector(py, fields.valid_until_s.clone())?;
-    found.set_item(schema::VALID_UNTIL.0, valid)?;
-    for ((name, ..), values, errors) in schema::histories(fields) {
-        found.set_item(name, matrix(py, values)?)?;
-        found.set_item(error_of(name), vector(py, errors.clone())?)?;
-        if peaks {
-            let mut largest = Peaks::default();
-            for samples in values {
-                largest.push(time_s, samples);
-            }
-            put_peaks(&found, name, largest, &[values.len()])?;
-        }
-    }
-    Ok(found)
-}
-
-/// Fields on a section: (time, z, r), with errors, arrivals and, where they are asked for, peaks by place.
-fn on_section<'py>(py: Python<'py>, section: &SectionFields) -> PyResult<Bound<'py, PyDict>> {
-    let found = PyDict::new(py);
-    let scales = [&section.time_s, &section.z_m, &section.r_m];
-    for (scale, column) in schema::MAP_SCALES.iter().zip(scales) {
-        found.set_item(scale.0, vector(py, column.clone())?)?;
-    }
-    let place = [section.z_m.len(), section.r_m.len()];
-    let frames = [section.time_s.len(), place[0], place[1]];
-    let waves = [3, place[0], place[1]];
-    let arrivals = section.arrival_s.concat();
-    found.set_item(schema::ARRIVALS.0, frozen(py, arrivals, &waves)?)?;
-    let values = section.values.iter().zip(&section.errors);
-    let names: Vec<_> = labels_of(&section.quantities).map(|row| row.0).collect();
-    for (&name, (values, errors)) in names.iter().zip(values) {
-        found.set_item(name, frozen(py, values.clone(), &frames)?)?;
-        found.set_item(error_of(name), frozen(py, errors.clone(), &place)?)?;
-    }
-    for (name, largest) in names.into_iter().zip(section.peaks.iter().flatten()) {
-        put_peaks(&found, name, largest.clone(), &place)?;
-    }
-    Ok(found)
-}
-
 /// The largest values over time and their instants.
 fn put_peaks(
     found: &Bound<'_, PyDict>,
@@ -267,10 +242,8 @@ fn put_peaks(
 ) -> PyResult<()> {
     let columns = [largest.values, largest.time_s];
     for (suffix, column) in schema::PEAK_SUFFIXES.iter().zip(columns) {
-        found.set_item(
-            format!("{name}{suffix}"),
-            frozen(found.py(), column, shape)?,
-        )?;
+        let column = frozen(found.py(), column, shape)?;
+        found.set_item(format!("{name}{suffix}"), column)?;
     }
     Ok(())
 }

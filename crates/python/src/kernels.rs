@@ -1,7 +1,7 @@
 //! The exact kernels at many places and times, in reduced units.
 
-use crate::errors::{self, raise};
-use crate::values::{Array, frozen, numbers, vector};
+use crate::errors::{check_memory, one_of, plain, raise};
+use crate::values::{Array, fields, frozen, numbers, vector};
 use crate::work::{Ticker, run, run_short};
 use halfspace::{
     Arrivals, Deflection, DomainError, Estimate, Kernel, Medium, Profile, Six, SurfaceResponse,
@@ -11,25 +11,24 @@ use numpy::PyReadonlyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rayon::prelude::*;
+use tabulator::Progress;
 
 /// A medium, or the exception that names its range.
-fn medium_of(py: Python<'_>, nu: f64) -> PyResult<Medium> {
-    Medium::new(nu).map_err(raise(py))
+fn medium_of(nu: f64) -> PyResult<Medium> {
+    Medium::new(nu).map_err(raise)
 }
 
-fn profile_of(py: Python<'_>, name: &str) -> PyResult<Profile> {
+fn profile_of(name: &str) -> PyResult<Profile> {
     let all = [
         ("hertz", Profile::Hertz),
         ("punch", Profile::Punch),
         ("point", Profile::Point),
     ];
-    errors::one_of(py, "profile", name, &all)
+    one_of("profile", name, &all)
 }
 
-fn deflection_of(py: Python<'_>, name: &str) -> PyResult<Deflection> {
-    let all = [("centre", Deflection::Centre), ("mean", Deflection::Mean)];
-    errors::one_of(py, "deflection", name, &all)
-}
+const DEFLECTIONS: [(&str, Deflection); 2] =
+    [("centre", Deflection::Centre), ("mean", Deflection::Mean)];
 
 /// A function of time: as a kernel gives it at (r, z, t), and as the surface does.
 type Order = (
@@ -73,10 +72,6 @@ fn step(kernel: &Kernel, [r, z, t]: [f64; 3]) -> Result<Estimate, DomainError> {
 /// Values of kernels and their errors at places of equal number, one row of six fields a place.
 #[pyfunction]
 #[pyo3(signature = (order, nu, r, z, t, profile, tolerance, threads=None, progress=None))]
-#[allow(
-    clippy::too_many_arguments,
-    reason = "the Python layer gives them names"
-)]
 pub(crate) fn kernel<'py>(
     py: Python<'py>,
     order: &str,
@@ -89,19 +84,18 @@ pub(crate) fn kernel<'py>(
     threads: Option<usize>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<(Array<'py>, Array<'py>)> {
-    let (at, _) = errors::one_of(py, "order", order, &ORDERS)?;
-    let profile = profile_of(py, profile)?;
-    let kernel = Kernel::new(&medium_of(py, nu)?, profile, tolerance).map_err(raise(py))?;
+    let (at, _) = one_of("order", order, &ORDERS)?;
+    let profile = profile_of(profile)?;
+    let kernel = Kernel::new(&medium_of(nu)?, profile, tolerance).map_err(raise)?;
     let rows = r.len()?;
     if z.len()? != rows || t.len()? != rows {
-        let message = "r, z and t differ in their lengths";
-        return Err(errors::plain(py, "SceneError", message));
+        return Err(plain("SceneError", "r, z and t differ in their lengths"));
     }
     // the places, the estimates, and the two arrays that are made of them
-    errors::check_memory(py, rows, 3 * 8 + size_of::<Estimate>() + 2 * 6 * 8)?;
+    check_memory(rows, 3 * 8 + size_of::<Estimate>() + 2 * 6 * 8)?;
     let (r, z, t) = (numbers(&r), numbers(&z), numbers(&t));
     let one = move |ticker: &Ticker, i: usize| {
-        ticker.more(1);
+        ticker.advance(1);
         at(&kernel, [r[i], z[i], t[i]])
     };
     let found: Result<Vec<Estimate>, DomainError> = if rows < 8 {
@@ -111,17 +105,13 @@ pub(crate) fn kernel<'py>(
         })?
     } else {
         run(py, threads, progress, move |ticker| {
-            ticker.of(rows as u64);
+            ticker.total("places", rows as u64);
             (0..rows).into_par_iter().map(|i| one(ticker, i)).collect()
         })?
     };
-    let found = found.map_err(raise(py))?;
-    let values: Vec<f64> = found.iter().flat_map(|e| e.value).collect();
-    let limits: Vec<f64> = found.iter().flat_map(|e| e.error).collect();
-    Ok((
-        frozen(py, values, &[rows, 6])?,
-        frozen(py, limits, &[rows, 6])?,
-    ))
+    let found = found.map_err(raise)?;
+    let (values, limits) = found.iter().map(|e| (e.value, e.error)).unzip();
+    Ok((fields(py, values)?, fields(py, limits)?))
 }
 
 /// The static fields at places of equal number.
@@ -134,16 +124,15 @@ pub(crate) fn static_field<'py>(
     profile: &str,
 ) -> PyResult<Array<'py>> {
     // no quadrature: the tolerance is of no consequence
-    let profile = profile_of(py, profile)?;
-    let kernel = Kernel::new(&medium_of(py, nu)?, profile, 1e-6).map_err(raise(py))?;
+    let profile = profile_of(profile)?;
+    let kernel = Kernel::new(&medium_of(nu)?, profile, 1e-6).map_err(raise)?;
     let rows = r.len()?;
-    errors::check_memory(py, rows, 2 * 8 + 2 * 6 * 8)?;
+    check_memory(rows, 2 * 8 + 2 * 6 * 8)?;
     let (r, z) = (numbers(&r), numbers(&z));
-    let found: Result<Vec<Six>, DomainError> = run_short(py, || {
-        let places = r.iter().zip(&z);
-        places.map(|(&r, &z)| kernel.static_field(r, z)).collect()
-    })?;
-    frozen(py, found.map_err(raise(py))?.into_flattened(), &[rows, 6])
+    let at = |(&r, &z): (&f64, &f64)| kernel.static_field(r, z);
+    let found: Result<Vec<Six>, DomainError> =
+        run_short(py, || r.iter().zip(&z).map(at).collect())?;
+    frozen(py, found.map_err(raise)?.into_flattened(), &[rows, 6])
 }
 
 /// The deflection of the loaded surface over its static value, or its integral or impulse response.
@@ -155,9 +144,10 @@ pub(crate) fn surface<'py>(
     t: PyReadonlyArray1<'py, f64>,
     deflection: &str,
 ) -> PyResult<Array<'py>> {
-    let (_, at) = errors::one_of(py, "order", order, &ORDERS)?;
-    let response = SurfaceResponse::new(&medium_of(py, nu)?, deflection_of(py, deflection)?);
-    errors::check_memory(py, t.len()?, 2 * 8)?;
+    let (_, at) = one_of("order", order, &ORDERS)?;
+    let deflection = one_of("deflection", deflection, &DEFLECTIONS)?;
+    let response = SurfaceResponse::new(&medium_of(nu)?, deflection);
+    check_memory(t.len()?, 2 * 8)?;
     let t = numbers(&t);
     let found = run_short(py, || t.iter().map(|&t| at(&response, t)).collect())?;
     vector(py, found)
@@ -170,32 +160,28 @@ pub(crate) fn surface_centre<'py>(
     nu: f64,
     t: PyReadonlyArray1<'py, f64>,
 ) -> PyResult<Array<'py>> {
-    errors::check_memory(py, t.len()?, 2 * 8)?;
-    let (medium, t) = (medium_of(py, nu)?, numbers(&t));
-    let found = run_short(py, || {
-        let values = t.iter().map(|&t| kausel::centre_step(&medium, t));
-        values.collect()
-    })?;
+    check_memory(t.len()?, 2 * 8)?;
+    let (medium, t) = (medium_of(nu)?, numbers(&t));
+    let at = |&t: &f64| kausel::centre_step(&medium, t);
+    let found = run_short(py, || t.iter().map(at).collect())?;
     vector(py, found)
 }
 
 /// What follows from Poisson's ratio.
 #[pyfunction]
 pub(crate) fn medium(py: Python<'_>, nu: f64) -> PyResult<Bound<'_, PyDict>> {
-    let medium = medium_of(py, nu)?;
+    let medium = medium_of(nu)?;
     let found = PyDict::new(py);
     found.set_item("nu", medium.poisson_ratio())?;
     found.set_item("shear_speed", medium.kappa())?;
     found.set_item("rayleigh_speed", medium.rayleigh_speed())?;
     found.set_item("lambda_over_mu", medium.lambda_over_mu())?;
-    for (name, deflection) in [("centre", Deflection::Centre), ("mean", Deflection::Mean)] {
+    for (name, deflection) in DEFLECTIONS {
         let response = SurfaceResponse::new(&medium, deflection);
+        let relaxation_time = response.relaxation_time();
         found.set_item(format!("{name}_compliance"), response.static_compliance())?;
         found.set_item(format!("{name}_memory"), response.memory())?;
-        found.set_item(
-            format!("{name}_relaxation_time"),
-            response.relaxation_time(),
-        )?;
+        found.set_item(format!("{name}_relaxation_time"), relaxation_time)?;
     }
     Ok(found)
 }
@@ -209,8 +195,7 @@ pub(crate) fn arrivals<'py>(
     z: f64,
     profile: &str,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let found = Arrivals::new(&medium_of(py, nu)?, profile_of(py, profile)?, r, z);
-    let found = found.map_err(raise(py))?;
+    let found = Arrivals::new(&medium_of(nu)?, profile_of(profile)?, r, z).map_err(raise)?;
     let waves = PyDict::new(py);
     waves.set_item("above", found.above)?;
     waves.set_item("p", found.p)?;

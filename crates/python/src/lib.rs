@@ -9,6 +9,10 @@
     reason = "Python gives arguments by value"
 )]
 #![allow(
+    clippy::too_many_arguments,
+    reason = "the Python layer gives them names"
+)]
+#![allow(
     missing_docs,
     reason = "the stubs in python/hertzlamb document what Python sees"
 )]
@@ -30,19 +34,15 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _core {
     #[pymodule_export]
-    use crate::impact_outcome::{Outcome, infer, run_impact};
-    #[pymodule_export]
-    use crate::kernels::{arrivals, kernel, medium, static_field, surface, surface_centre};
-    #[pymodule_export]
-    use crate::library::{describe, materials};
-    #[pymodule_export]
-    use crate::scene::{resolved, sections_of};
-    #[pymodule_export]
-    use crate::sweep::{Plan, plan, plan_of_columns};
-    #[pymodule_export]
-    use crate::table::Table;
-    #[pymodule_export]
-    use crate::tabulate::{extend, tabulate};
+    use crate::{
+        impact_outcome::{Outcome, infer, run_impact},
+        kernels::{arrivals, kernel, medium, static_field, surface, surface_centre},
+        library::{describe, materials},
+        scene::{resolved, sections_of},
+        sweep::{Plan, plan, plan_of_columns},
+        table::Table,
+        tabulate::{extend, tabulate},
+    };
 
     #[pymodule_export]
     const VERSION: &str = env!("CARGO_PKG_VERSION");

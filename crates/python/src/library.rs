@@ -22,7 +22,7 @@ pub(crate) fn materials<'py>(
     let mut library = Library::built_in().clone();
     if let Some(path) = file {
         let own = py.detach(|| read_materials(&path));
-        library = library.extended(&own.map_err(raise(py))?);
+        library = library.extended(&own.map_err(raise)?);
     }
     let found: Value = library.search(search).map(material_report).collect();
     from_json(py, &found)

@@ -1,6 +1,6 @@
 //! Scenes and sweeps as people give them: a dictionary, a path, or TOML text.
 
-use crate::errors::{self, raise, raised};
+use crate::errors::{self, raise};
 use crate::values::from_json;
 use formats::SceneError;
 use formats::scene::{parse_table, read_text, scene_of};
@@ -20,32 +20,26 @@ pub(crate) struct Given {
 impl Given {
     /// A text has more than one line, or is one assignment or section; anything else is a path.
     pub(crate) fn new(given: &Bound<'_, PyAny>) -> PyResult<Self> {
-        let py = given.py();
-        let read = |path: PathBuf| -> PyResult<Self> {
-            let text = py.detach(|| read_text(&path)).map_err(raise(py))?;
-            let table = parse_table(&text)
-                .map_err(|error| error.in_file(&path))
-                .map_err(raise(py))?;
-            let file = Some(path);
-            Ok(Self { table, file })
-        };
-        if let Ok(text) = given.cast::<PyString>() {
+        let path: PathBuf = if let Ok(text) = given.cast::<PyString>() {
             let text: String = text.extract()?;
-            if !text.contains(['\n', '=']) && !text.trim_start().starts_with('[') {
-                return read(PathBuf::from(text));
+            if text.contains(['\n', '=']) || text.trim_start().starts_with('[') {
+                let (table, file) = (parse_table(&text).map_err(raise)?, None);
+                return Ok(Self { table, file });
             }
-            let (table, file) = (parse_table(&text).map_err(raise(py))?, None);
+            text.into()
+        } else if given.hasattr("__fspath__")? {
+            given.extract()?
+        } else if given.hasattr("items")? {
+            let (table, file) = (table(given, "", 0)?, None);
             return Ok(Self { table, file });
-        }
-        if given.hasattr("__fspath__")? {
-            return read(given.extract()?);
-        }
-        if !given.hasattr("items")? {
+        } else {
             let kind = given.get_type().name()?;
             let message = format!("a scene is a dictionary, a path or TOML text, not {kind}");
-            return Err(errors::plain(py, "SceneError", &message));
-        }
-        let (table, file) = (table(given, "", 0)?, None);
+            return Err(errors::plain("SceneError", &message));
+        };
+        let text = given.py().detach(|| read_text(&path)).map_err(raise)?;
+        let table = parse_table(&text).map_err(|error| raise(error.in_file(&path)))?;
+        let file = Some(path);
         Ok(Self { table, file })
     }
 
@@ -68,7 +62,7 @@ pub(crate) fn scene(given: &Bound<'_, PyAny>) -> PyResult<Scene> {
     let py = given.py();
     let given = Given::new(given)?;
     let found = py.detach(|| given.read(scene_of));
-    found.map_err(raise(py))
+    found.map_err(raise)
 }
 
 /// The scene with every default and material spelled out, as a dictionary.
@@ -119,67 +113,51 @@ fn to_toml(value: &Bound<'_, PyAny>, name: &str, deep: usize) -> PyResult<Option
     if deep > MOST_DEEP {
         return Err(wrong("a value", value, "at most 80 containers deep"));
     }
-    if value.cast::<PyDict>().is_ok() {
-        return Ok(Some(Value::Table(table(value, name, deep)?)));
-    }
-    // before the numbers: True is an int to Python
-    if let Ok(flag) = value.cast::<PyBool>() {
-        return Ok(Some(Value::Boolean(flag.is_true())));
-    }
-    if let Ok(number) = value.cast::<PyFloat>() {
-        return Ok(Some(Value::Float(number.extract()?)));
-    }
-    if value.cast::<PyInt>().is_ok() {
-        return Ok(Some(match value.extract::<i64>() {
-            Ok(number) => Value::Integer(number),
-            Err(_) => Value::Float(value.extract()?),
-        }));
-    }
-    if let Ok(text) = value.cast::<PyString>() {
-        return Ok(Some(Value::String(text.extract()?)));
-    }
-    // scalars and arrays of numpy, which know how to become Python's
-    if value.hasattr("tolist")? {
+    let found = if value.cast::<PyDict>().is_ok() {
+        Value::Table(table(value, name, deep)?)
+    } else if let Ok(flag) = value.cast::<PyBool>() {
+        // before the numbers: True is an int to Python
+        Value::Boolean(flag.is_true())
+    } else if let Ok(number) = value.cast::<PyFloat>() {
+        Value::Float(number.extract()?)
+    } else if value.cast::<PyInt>().is_ok() {
+        let whole = value.extract::<i64>().map(Value::Integer);
+        whole.or_else(|_| value.extract().map(Value::Float))?
+    } else if let Ok(text) = value.cast::<PyString>() {
+        Value::String(text.extract()?)
+    } else if value.hasattr("tolist")? {
+        // scalars and arrays of numpy, which know how to become Python's
         return to_toml(&value.call_method0("tolist")?, name, deep + 1);
-    }
-    if value.hasattr("__fspath__")? {
+    } else if value.hasattr("__fspath__")? {
         return to_toml(&value.call_method0("__fspath__")?, name, deep + 1);
-    }
-    if value.hasattr("items")? {
-        return Ok(Some(Value::Table(table(value, name, deep)?)));
-    }
-    let Ok(items) = value.try_iter() else {
+    } else if value.hasattr("items")? {
+        Value::Table(table(value, name, deep)?)
+    } else if let Ok(items) = value.try_iter() {
+        let mut found = Vec::new();
+        for (place, item) in items.enumerate() {
+            let name = format!("{name}[{}]", place + 1);
+            let none = || value.py().None().into_bound(value.py());
+            let known = to_toml(&item?, &name, deep + 1)?;
+            found.push(known.ok_or_else(|| wrong(&name, &none(), "a value"))?);
+        }
+        Value::Array(found)
+    } else {
         return Err(wrong(name, value, "a number, a word, a list or a section"));
     };
-    let mut found = Vec::new();
-    for (place, item) in items.enumerate() {
-        let name = format!("{name}[{}]", place + 1);
-        match to_toml(&item?, &name, deep + 1)? {
-            Some(item) => found.push(item),
-            None => {
-                return Err(wrong(
-                    &name,
-                    &value.py().None().into_bound(value.py()),
-                    "a value",
-                ));
-            }
-        }
-    }
-    Ok(Some(Value::Array(found)))
+    Ok(Some(found))
 }
 
 fn wrong(name: &str, value: &Bound<'_, PyAny>, expected: &'static str) -> PyErr {
-    let shown = value
-        .repr()
-        .map_or_else(|_| "?".to_owned(), |text| text.to_string());
+    let shown = value.repr().map(|text| text.to_string());
+    let shown = shown.unwrap_or_else(|_| "?".to_owned());
     let short: String = shown.chars().take(60).collect();
     let error = SceneError::wrong_kind(name.to_owned(), short, expected);
-    raised(value.py(), error)
+    raise(error)
 }
 
 /// What TOML text says, as a dictionary.
 pub(crate) fn from_toml<'py>(py: Python<'py>, text: &str) -> PyResult<Bound<'py, PyAny>> {
     let table: Result<Table, String> = text.parse().map_err(|e: toml::de::Error| e.to_string());
     let value = table.and_then(|table| serde_json::to_value(table).map_err(|e| e.to_string()));
-    from_json(py, &value.map_err(raise(py))?)
+    from_json(py, &value.map_err(raise)?)
 }

@@ -15,6 +15,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::path::PathBuf;
 use std::sync::Arc;
+use tabulator::Progress;
 
 /// A sweep: a base scene and what varies.
 #[pyclass(module = "hertzlamb._core", frozen)]
@@ -28,7 +29,7 @@ pub(crate) fn plan(given: &Bound<'_, PyAny>) -> PyResult<Plan> {
     let py = given.py();
     let given = Given::new(given)?;
     let spec = move |_: &Ticker| given.read(Spec::from_table);
-    wrapped(py, run(py, None, None, spec)?)
+    wrapped(run(py, None, None, spec)?)
 }
 
 /// The sweep of a scene whose keys (section, key) take values together, an array of numbers or a list of words each.
@@ -53,33 +54,28 @@ pub(crate) fn plan_of_columns(
     let columns: Vec<Column> = columns.collect::<PyResult<_>>()?;
     let of = |table: &_, folder: &_| Spec::of_columns(table, folder, columns);
     let spec = move |_: &Ticker| scene.read(of);
-    wrapped(py, run(py, None, None, spec)?)
+    wrapped(run(py, None, None, spec)?)
 }
 
 /// Values of an axis at most.
 const MOST_VALUES: usize = 10_000_000;
 
-fn wrapped(py: Python<'_>, spec: Result<Spec, SceneError>) -> PyResult<Plan> {
-    let spec = spec.map_err(raise(py))?;
+fn wrapped(spec: Result<Spec, SceneError>) -> PyResult<Plan> {
+    let spec = spec.map_err(raise)?;
     // the axes are handed over as arrays
     if let Some(axis) = spec.axes.iter().find(|axis| axis.len > MOST_VALUES) {
-        let error = SceneError::out_of_range(
+        return Err(raise(SceneError::out_of_range(
             format!("the length of the axis {}", axis.name),
             axis.len as f64,
             "[1, 10000000] in Python, which has the values of every axis as an array",
-        );
-        return Err(errors::raised(py, error));
+        )));
     }
-    Ok(Plan {
-        spec: Arc::new(spec),
-    })
+    let spec = Arc::new(spec);
+    Ok(Plan { spec })
 }
 
 /// Bytes that the reason of a failed row takes, in Python and beside it.
 const REASON: usize = 500;
-
-/// Results by row and quantity, models, and failed rows with their reasons.
-type Computed<'py> = (Array<'py>, Array<'py, u8>, Vec<(usize, String)>);
 
 #[pymethods]
 impl Plan {
@@ -95,15 +91,11 @@ impl Plan {
         for axis in &self.spec.axes {
             let columns = PyDict::new(py);
             for column in &axis.columns {
-                match &column.values {
-                    Values::Numbers(numbers) => {
-                        columns.set_item(column.name(), vector(py, numbers.clone())?)?;
-                    }
-                    Values::Drawn(drawn) => {
-                        let numbers = (0..drawn.count()).map(|i| drawn.at(i)).collect();
-                        columns.set_item(column.name(), vector(py, numbers)?)?;
-                    }
-                    Values::Texts(words) => columns.set_item(column.name(), words.clone())?,
+                if let Values::Texts(words) = &column.values {
+                    columns.set_item(column.name(), words)?;
+                } else {
+                    let numbers = (0..axis.len).filter_map(|i| column.values.number(i));
+                    columns.set_item(column.name(), vector(py, numbers.collect())?)?;
                 }
             }
             found.push((axis.name.clone(), axis.len, columns));
@@ -116,7 +108,8 @@ impl Plan {
         from_toml(py, &self.spec.resolved)
     }
 
-    /// Computes the rows from `start` on, every `step`-th.
+    /// Computes the rows from `start` on, every `step`-th: results by row and quantity, models, and failed rows with their
+    /// reasons.
     #[pyo3(signature = (start, step, count, threads=None, progress=None))]
     fn compute<'py>(
         &self,
@@ -126,12 +119,12 @@ impl Plan {
         count: usize,
         threads: Option<usize>,
         progress: Option<Py<PyAny>>,
-    ) -> PyResult<Computed<'py>> {
+    ) -> PyResult<(Array<'py>, Array<'py, u8>, Vec<(usize, String)>)> {
         // a row, and room for the reason of one that fails
-        errors::check_memory(py, count, 2 * 8 * (QUANTITIES.len() + 1))?;
+        errors::check_memory(count, 2 * 8 * (QUANTITIES.len() + 1))?;
         let spec = Arc::clone(&self.spec);
-        let found = run(py, threads, progress, move |ticker| {
-            ticker.of(count as u64);
+        let (found, short) = run(py, threads, progress, move |ticker| {
+            ticker.total("rows", count as u64);
             let mut short = None;
             let found = compute_rows(&spec, start, step, count, |done, failed| {
                 ticker.at(done as u64);
@@ -140,20 +133,17 @@ impl Plan {
             });
             (found, short)
         })?;
-        let (found, short) = found;
         if let Some(short) = short {
-            return Err(errors::plain(py, "TooMuchMemory", &short));
+            return Err(errors::plain("TooMuchMemory", &short));
         }
-        let block = found
-            .map_err(raise(py))?
-            .ok_or("the sweep was stopped")
-            .map_err(raise(py))?;
+        let block = found.map_err(raise)?;
+        let block = block.ok_or_else(|| raise("the sweep was stopped"))?;
         let shape = [block.len(), QUANTITIES.len()];
-        Ok((
+        let (numbers, models) = (
             frozen(py, block.numbers, &shape)?,
             vector(py, block.models)?,
-            block.failures,
-        ))
+        );
+        Ok((numbers, models, block.failures))
     }
 
     /// Writes the command's file of all rows, or its text.
@@ -186,6 +176,6 @@ impl Plan {
                 stage_rows(&output, &spec, &[block])?.commit()
             }
         })?
-        .map_err(raise(py))
+        .map_err(raise)
     }
 }

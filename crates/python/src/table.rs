@@ -1,7 +1,7 @@
 //! A kernel table: opened once, asked often; the parts that impacts have needed are kept for the next ones.
 
 use crate::errors::{self, raise};
-use crate::values::{Array, from_json, frozen, numbers};
+use crate::values::{Array, fields, from_json, frozen, numbers};
 use crate::work::{Ticker, run};
 use fault::AnyError;
 use formats::table_report;
@@ -12,6 +12,7 @@ use pyo3::prelude::*;
 use rayon::prelude::*;
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use tabulator::Progress;
 
 /// Points that a thread looks up at a time.
 const GRAIN: usize = 16;
@@ -27,14 +28,13 @@ impl Table {
     /// The table of a file.
     #[staticmethod]
     fn open(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
-        let file = run(py, None, None, move |_| TableFile::open(&path))?.map_err(raise(py))?;
-        Ok(Self {
-            opened: Arc::new(Opened {
-                file,
-                part: Mutex::default(),
-                whole: OnceLock::new(),
-            }),
-        })
+        let file = run(py, None, None, move |_| TableFile::open(&path))?.map_err(raise)?;
+        let opened = Arc::new(Opened {
+            file,
+            part: Mutex::default(),
+            whole: OnceLock::new(),
+        });
+        Ok(Self { opened })
     }
 
     /// Where it is.
@@ -48,7 +48,7 @@ impl Table {
         let opened = Arc::clone(&self.opened);
         let info = move |_: &Ticker| Ok(table_report(opened.file.path(), &*opened.whole()?));
         let found: Result<_, TableError> = run(py, None, None, info)?;
-        from_json(py, &found.map_err(raise(py))?)
+        from_json(py, &found.map_err(raise)?)
     }
 
     /// Identity of the settings that it was made with.
@@ -60,10 +60,6 @@ impl Table {
     /// Step responses at places of equal number, averaged over each of so many cells, with their static fields and errors, and
     /// the width of a cell.
     #[pyo3(signature = (nu, r, z, coarsening, cells, smooth, threads=None, progress=None))]
-    #[allow(
-        clippy::too_many_arguments,
-        reason = "the Python layer gives them names"
-    )]
     fn trace<'py>(
         &self,
         py: Python<'py>,
@@ -78,14 +74,13 @@ impl Table {
     ) -> PyResult<(Array<'py>, Array<'py>, Array<'py>, f64)> {
         let places = numbers(&r).into_iter().zip(numbers(&z));
         let points: Vec<[f64; 2]> = places.map(|(r, z)| [r, z]).collect();
-        let smoothness = if smooth {
-            Smoothness::Smooth
-        } else {
-            Smoothness::Linear
+        let smoothness = match smooth {
+            true => Smoothness::Smooth,
+            false => Smoothness::Linear,
         };
         let rows = points.len();
         let opened = Arc::clone(&self.opened);
-        let table = run(py, threads, None, move |_| opened.whole())?.map_err(raise(py))?;
+        let table = run(py, threads, None, move |_| opened.whole())?.map_err(raise)?;
         let held = table.content().slices.iter().map(|slice| slice.cells).max();
         let cells = cells.unwrap_or((held.unwrap_or(0) >> coarsening.min(31)).max(1));
         // asked for before it is taken: an allocation that fails would end the process
@@ -96,77 +91,45 @@ impl Table {
                 "{rows} points of {cells} cells need {:.3} GB of memory, more than there is: ask for fewer points or cells, or for a larger coarsening",
                 48e-9 * rows as f64 * cells as f64
             );
-            return Err(errors::plain(py, "TooMuchMemory", &message));
+            return Err(errors::plain("TooMuchMemory", &message));
         }
-        let one = move |values: &mut [_], infos: &mut [_], points: &[_]| {
-            table.traces(smoothness, nu, points, coarsening, values, infos)
-        };
+        // points, cells, fields; some points at a time
         let found = run(py, threads, progress, move |ticker| {
-            traces(&points, (values, cells), ticker, one)
+            ticker.total("points", rows as u64);
+            values.resize(rows * cells, [0.0; 6]);
+            let mut infos = vec![TraceInfo::default(); rows];
+            let chunks = values.par_chunks_mut((GRAIN * cells).max(1));
+            let chunks = chunks.zip(infos.par_chunks_mut(GRAIN));
+            let parts = chunks.zip(points.par_chunks(GRAIN));
+            let traced = parts.try_for_each(|((values, infos), points)| {
+                ticker.advance(points.len() as u64);
+                table.traces(smoothness, nu, points, coarsening, values, infos)?;
+                for (row, info) in values.chunks_exact_mut(cells).zip(infos) {
+                    for six in row {
+                        for (value, still) in six.iter_mut().zip(info.static_part) {
+                            *value += still;
+                        }
+                    }
+                }
+                Ok::<_, LookupError>(())
+            });
+            traced.map(|()| (values, infos))
         })?;
         let file = Some(self.opened.file.path());
-        let (values, infos) = found.map_err(|error| errors::raised_in(py, error, file))?;
+        let (values, infos) = found.map_err(|error| errors::raised_in(error, file))?;
         let width = infos.first().map_or(f64::NAN, |info| info.cell_width);
-        let still: Vec<f64> = infos.iter().flat_map(|i| i.static_part).collect();
-        let limits: Vec<f64> = infos.iter().flat_map(|i| i.error).collect();
-        Ok((
-            frozen(py, values.into_flattened(), &[rows, cells, 6])?,
-            frozen(py, still, &[rows, 6])?,
-            frozen(py, limits, &[rows, 6])?,
-            width,
-        ))
+        let (still, limits) = infos.iter().map(|i| (i.static_part, i.error)).unzip();
+        let values = frozen(py, values.into_flattened(), &[rows, cells, 6])?;
+        Ok((values, fields(py, still)?, fields(py, limits)?, width))
     }
-}
-
-/// Traces of so many cells, averaged over each, into memory that is reserved: points, cells, fields; some points at a time.
-fn traces(
-    points: &[[f64; 2]],
-    (mut values, cells): (Vec<[f64; 6]>, usize),
-    ticker: &Ticker,
-    some: impl Fn(&mut [[f64; 6]], &mut [TraceInfo], &[[f64; 2]]) -> Result<(), LookupError> + Sync,
-) -> Result<(Vec<[f64; 6]>, Vec<TraceInfo>), LookupError> {
-    let rows = points.len();
-    values.resize(rows * cells, [0.0; 6]);
-    let none = TraceInfo {
-        static_part: [0.0; 6],
-        cell_width: f64::NAN,
-        error: [0.0; 6],
-    };
-    let mut infos = vec![none; rows];
-    ticker.of(rows as u64);
-    let chunks = values.par_chunks_mut((GRAIN * cells).max(1));
-    let parts = chunks
-        .zip(infos.par_chunks_mut(GRAIN))
-        .zip(points.par_chunks(GRAIN));
-    parts.try_for_each(|((values, infos), points)| {
-        ticker.more(points.len() as u64);
-        some(values, infos, points)?;
-        for (row, info) in values.chunks_exact_mut(cells).zip(infos) {
-            for six in row {
-                for (value, still) in six.iter_mut().zip(info.static_part) {
-                    *value += still;
-                }
-            }
-        }
-        Ok::<_, LookupError>(())
-    })?;
-    Ok((values, infos))
-}
-
-/// A part that was loaded.
-#[derive(Debug)]
-struct Part {
-    poisson_ratio: f64,
-    span: [[f64; 2]; 2],
-    table: Arc<lookup::Table>,
 }
 
 /// A table on disk with what was loaded of it.
 #[derive(Debug)]
 pub(crate) struct Opened {
     pub(crate) file: TableFile,
-    /// The part of the last impact: a part answers as the whole does.
-    part: Mutex<Option<Part>>,
+    /// The part of the last impact, with its Poisson's ratio and span: a part answers as the whole does.
+    part: Mutex<Option<(f64, [[f64; 2]; 2], Arc<lookup::Table>)>>,
     whole: OnceLock<Arc<lookup::Table>>,
 }
 
@@ -191,20 +154,14 @@ impl Tables for Opened {
         span: [[f64; 2]; 2],
     ) -> Result<Arc<lookup::Table>, AnyError> {
         let mut kept = self.part.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(part) = &*kept
-            && part.poisson_ratio.to_bits() == poisson_ratio.to_bits()
-            && (0..2).all(|axis| {
-                part.span[0][axis] <= span[0][axis] && span[1][axis] <= part.span[1][axis]
-            })
+        if let Some((ratio, [first, last], table)) = &*kept
+            && ratio.to_bits() == poisson_ratio.to_bits()
+            && (0..2).all(|axis| first[axis] <= span[0][axis] && span[1][axis] <= last[axis])
         {
-            return Ok(Arc::clone(&part.table));
+            return Ok(Arc::clone(table));
         }
         let table = Arc::new(self.file.part(poisson_ratio, span)?);
-        *kept = Some(Part {
-            poisson_ratio,
-            span,
-            table: Arc::clone(&table),
-        });
+        *kept = Some((poisson_ratio, span, Arc::clone(&table)));
         Ok(table)
     }
 

@@ -7,7 +7,7 @@ use formats::Existing;
 use pyo3::prelude::*;
 use pyo3::types::PyString;
 use std::path::{Path, PathBuf};
-use tabulator::{BuildError, Extension, Grid, PRESETS, Summary, build_over, refine};
+use tabulator::{Extension, Grid, PRESETS, build_over, refine};
 
 /// The grid of a preset, a file or a dictionary.
 fn grid_of(given: &Bound<'_, PyAny>) -> PyResult<Grid> {
@@ -15,27 +15,23 @@ fn grid_of(given: &Bound<'_, PyAny>) -> PyResult<Grid> {
     if let Ok(name) = given.cast::<PyString>() {
         let name: String = name.extract()?;
         let path = Path::new(&name);
-        if let Some(grid) = Grid::preset(&name).map_err(raise(py))? {
+        if let Some(grid) = Grid::preset(&name).map_err(raise)? {
             return Ok(grid);
         } else if path.extension().is_some_and(|end| end == "toml") {
-            return Grid::from_file(path).map_err(raise(py));
+            return Grid::from_file(path).map_err(raise);
         }
         let words = format!("{}, or the name of a .toml file", PRESETS.join(", "));
-        return Err(errors::unknown(py, "grid", &name, &[&words]));
+        return Err(errors::unknown("grid", &name, &[&words]));
     }
     if given.hasattr("__fspath__")? {
-        return Grid::from_file(&given.extract::<PathBuf>()?).map_err(raise(py));
+        return Grid::from_file(&given.extract::<PathBuf>()?).map_err(raise);
     }
-    Grid::parse(&table(given, "", 0)?.to_string()).map_err(raise(py))
+    Grid::parse(&table(given, "", 0)?.to_string()).map_err(raise)
 }
 
-/// Builds a table; its points, bytes and time in s.
+/// Builds a table.
 #[pyfunction]
 #[pyo3(signature = (path, grid, nu=None, r_max=None, z_max=None, time_factor=None, accuracy=None, overwrite=false, threads=None, progress=None))]
-#[allow(
-    clippy::too_many_arguments,
-    reason = "the Python layer gives them names"
-)]
 pub(crate) fn tabulate(
     py: Python<'_>,
     path: PathBuf,
@@ -48,7 +44,7 @@ pub(crate) fn tabulate(
     overwrite: bool,
     threads: Option<usize>,
     progress: Option<Py<PyAny>>,
-) -> PyResult<(usize, u64, f64)> {
+) -> PyResult<()> {
     let mut grid = grid_of(grid)?.with(nu, [r_max, z_max, time_factor]);
     let built = run(py, threads, progress, move |ticker| {
         output::TABLE.check(&path)?;
@@ -57,16 +53,12 @@ pub(crate) fn tabulate(
         }
         build_over(&grid, &path, Existing::replaced(overwrite), ticker)
     })?;
-    summary(py, built)
+    built.map(drop).map_err(raise)
 }
 
-/// Adds slices and reach to a table; its points, bytes and time in s.
+/// Adds slices and reach to a table.
 #[pyfunction]
 #[pyo3(signature = (path, nu=None, r_max=None, z_max=None, time_factor=None, threads=None, progress=None))]
-#[allow(
-    clippy::too_many_arguments,
-    reason = "the Python layer gives them names"
-)]
 pub(crate) fn extend(
     py: Python<'_>,
     path: PathBuf,
@@ -76,7 +68,7 @@ pub(crate) fn extend(
     time_factor: Option<f64>,
     threads: Option<usize>,
     progress: Option<Py<PyAny>>,
-) -> PyResult<(usize, u64, f64)> {
+) -> PyResult<()> {
     let extension = Extension {
         exact_ratios: nu.unwrap_or_default(),
         r_max,
@@ -86,10 +78,5 @@ pub(crate) fn extend(
     let built = run(py, threads, progress, move |ticker| {
         tabulator::extend(&path, &extension, ticker)
     })?;
-    summary(py, built)
-}
-
-fn summary(py: Python<'_>, built: Result<Summary, BuildError>) -> PyResult<(usize, u64, f64)> {
-    let summary = built.map_err(raise(py))?;
-    Ok((summary.points, summary.bytes, summary.wall_s))
+    built.map(drop).map_err(raise)
 }

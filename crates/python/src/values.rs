@@ -27,10 +27,10 @@ pub(crate) fn vector<'py, T: Element>(py: Python<'py>, numbers: Vec<T>) -> PyRes
     frozen(py, numbers, &[length])
 }
 
-/// Rows of equal length as an array of two dimensions.
-pub(crate) fn matrix<'py>(py: Python<'py>, rows: &[Vec<f64>]) -> PyResult<Array<'py>> {
-    let columns = rows.first().map_or(0, Vec::len);
-    frozen(py, rows.concat(), &[rows.len(), columns])
+/// Six fields at each place.
+pub(crate) fn fields<'py>(py: Python<'py>, places: Vec<[f64; 6]>) -> PyResult<Array<'py>> {
+    let shape = [places.len(), 6];
+    frozen(py, places.into_flattened(), &shape)
 }
 
 /// The numbers of an array, in order.

@@ -3,7 +3,7 @@
 //! The work runs on a thread of its own while the caller's waits, attaches to the interpreter now and then, looks for
 //! signals, and calls the function that wants to know how far the work is.
 
-use crate::errors;
+use crate::errors::{plain, raise};
 use pyo3::prelude::*;
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
@@ -11,6 +11,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU32, AtomicU64, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::{Duration, Instant};
+use tabulator::Progress;
 
 /// Time between two looks for signals.
 const LOOK: Duration = Duration::from_millis(50);
@@ -34,21 +35,9 @@ pub(crate) struct Ticker {
 }
 
 impl Ticker {
-    /// So many units follow.
-    pub(crate) fn of(&self, total: u64) {
-        self.done.store(0, Ordering::Relaxed);
-        self.total.store(total, Ordering::Relaxed);
-    }
-
     /// So many are done.
     pub(crate) fn at(&self, done: u64) {
         self.done.store(done, Ordering::Relaxed);
-    }
-
-    /// More are done; work that shall stop ends here.
-    pub(crate) fn more(&self, done: u64) {
-        self.done.fetch_add(done, Ordering::Relaxed);
-        self.or_stop();
     }
 
     /// Work that shall stop ends here.
@@ -65,13 +54,15 @@ impl Ticker {
     }
 }
 
-impl tabulator::Progress for Ticker {
+impl Progress for Ticker {
     fn total(&self, _stage: &str, total: u64) {
-        self.of(total);
+        self.done.store(0, Ordering::Relaxed);
+        self.total.store(total, Ordering::Relaxed);
     }
 
     fn advance(&self, done: u64) {
-        self.more(done);
+        self.done.fetch_add(done, Ordering::Relaxed);
+        self.or_stop();
     }
 
     fn slice(&self, _poisson_ratio: f64) {
@@ -81,7 +72,7 @@ impl tabulator::Progress for Ticker {
 
 /// Does work that takes a millisecond at most.
 pub(crate) fn run_short<T: Send>(py: Python<'_>, work: impl FnOnce() -> T + Send) -> PyResult<T> {
-    own(py)?;
+    own()?;
     Ok(py.detach(work))
 }
 
@@ -93,18 +84,19 @@ pub(crate) fn run<T: Send + 'static>(
     progress: Option<Py<PyAny>>,
     work: impl FnOnce(&Ticker) -> T + Send + 'static,
 ) -> PyResult<T> {
-    own(py)?;
+    own()?;
     if let Some(threads) = threads.filter(|threads| !(1..=MOST_THREADS).contains(threads)) {
         let message = format!("threads = {threads} is outside [1, {MOST_THREADS}]");
-        return Err(errors::plain(py, "SceneError", &message));
+        return Err(plain("SceneError", &message));
     }
     let ticker = Arc::new(Ticker::default());
     let (sender, mut receiver) = channel();
     let watched = Arc::clone(&ticker);
     let body = move || {
         let work = AssertUnwindSafe(|| within(threads, || work(&watched)));
+        let done = catch_unwind(work).unwrap_or_else(|panic| Err(in_words(&*panic)));
         // nobody may be listening any more
-        let _ = sender.send(catch_unwind(work));
+        let _ = sender.send(done);
     };
     let worker = std::thread::Builder::new().name("hertzlamb".to_owned());
     worker.spawn(body)?;
@@ -113,14 +105,13 @@ pub(crate) fn run<T: Send + 'static>(
         let received;
         (received, receiver) = py.detach(move || (receiver.recv_timeout(LOOK), receiver));
         match received {
-            Ok(Ok(Ok(result))) => {
+            Ok(Ok(result)) => {
                 tell(py, progress.as_ref(), &ticker)?;
                 return Ok(result);
             }
-            Ok(Ok(Err(reason))) => return Err(errors::raised(py, reason)),
-            Ok(Err(panic)) => return Err(errors::raised(py, in_words(&*panic))),
+            Ok(Err(reason)) => return Err(raise(reason)),
             Err(RecvTimeoutError::Disconnected) => {
-                return Err(errors::raised(py, "the work ended without a result"));
+                return Err(raise("the work ended without a result"));
             }
             Err(RecvTimeoutError::Timeout) => {}
         }
@@ -150,24 +141,21 @@ fn within<T: Send>(threads: Option<usize>, work: impl FnOnce() -> T + Send) -> R
 /// Calls the function that wants to know.
 fn tell(py: Python<'_>, progress: Option<&Py<PyAny>>, ticker: &Ticker) -> PyResult<()> {
     let total = ticker.total.load(Ordering::Relaxed);
-    match progress {
-        Some(progress) if total > 0 => {
-            let done = ticker.done.load(Ordering::Relaxed);
-            progress.call1(py, (done, total)).map(drop)
-        }
-        Some(_) | None => Ok(()),
+    if let Some(progress) = progress.filter(|_| total > 0) {
+        progress.call1(py, (ticker.done.load(Ordering::Relaxed), total))?;
     }
+    Ok(())
 }
 
 /// Refuses more threads than a system has room for, and to work in a process that was forked from one whose threads it would wait for in vain.
-fn own(py: Python<'_>) -> PyResult<()> {
+fn own() -> PyResult<()> {
     let asked = std::env::var("RAYON_NUM_THREADS").unwrap_or_default();
     if asked
         .parse()
         .is_ok_and(|threads: usize| threads > MOST_THREADS)
     {
         let message = format!("RAYON_NUM_THREADS = {asked} is outside [1, {MOST_THREADS}]");
-        return Err(errors::plain(py, "SceneError", &message));
+        return Err(plain("SceneError", &message));
     }
     let process = std::process::id();
     match OWNER.compare_exchange(0, process, Ordering::Relaxed, Ordering::Relaxed) {
@@ -175,7 +163,7 @@ fn own(py: Python<'_>) -> PyResult<()> {
             let message = format!(
                 "this process was forked from process {owner} after that one had begun to compute, and the threads of hertzlamb do not survive a fork: start processes with multiprocessing.get_context(\"spawn\") or \"forkserver\""
             );
-            Err(errors::plain(py, "ForkError", &message))
+            Err(plain("ForkError", &message))
         }
         Ok(_) | Err(_) => Ok(()),
     }
@@ -183,9 +171,7 @@ fn own(py: Python<'_>) -> PyResult<()> {
 
 /// What a panic says.
 fn in_words(panic: &(dyn Any + Send)) -> String {
-    let text = panic
-        .downcast_ref::<String>()
-        .map(String::as_str)
-        .or_else(|| panic.downcast_ref::<&str>().copied());
+    let text = panic.downcast_ref::<String>().map(String::as_str);
+    let text = text.or(panic.downcast_ref::<&str>().copied());
     format!("the program is at fault: {}", text.unwrap_or("it gave up"))
 }

@@ -48,19 +48,16 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     let chart = Chart::run(effort, &Bar::new()).map_err(Failure::in_part)?;
     chart.write(&folder).map_err(Failure::in_part)?;
+    let report = arguments.output.join("report.md");
+    let (rows, pictures) = (chart.records.len(), chart.diagrams.len() + chart.maps.len());
+    let (report, wall_s, machine) = (report.display(), chart.wall_s, &chart.machine);
     print(format!(
-        "{}: {} rows, {} pictures, {:.0} s\n{}",
-        arguments.output.join("report.md").display(),
-        chart.records.len(),
-        chart.diagrams.len() + chart.maps.len(),
-        chart.wall_s,
-        chart.machine
+        "{report}: {rows} rows, {pictures} pictures, {wall_s:.0} s\n{machine}"
     ))?;
-    match chart.unexplained() {
-        ahead if arguments.check && !ahead.is_empty() => Err(Failure::work(format!(
-            "the default path is not on the Pareto front at {}",
-            ahead.join("; ")
-        ))),
-        _ => Ok(()),
+    let ahead = chart.unexplained().join("; ");
+    if arguments.check && !ahead.is_empty() {
+        let told = format!("the default path is not on the Pareto front at {ahead}");
+        return Err(Failure::work(told));
     }
+    Ok(())
 }

@@ -5,8 +5,8 @@ use crate::failure::{Failure, print, say};
 use crate::progress::Bar;
 use clap::Args;
 use figure::to_svg;
-use formats::{Existing, parse_scene, write_results, write_whole};
-use impact::{Allowance, KernelChoice, simulate, simulate_within};
+use formats::{Existing, OutputError, parse_scene, write_results, write_whole};
+use impact::{Allowance, KernelChoice, Outcome, Scene, simulate, simulate_within};
 use paper::Numbers;
 use plot::{Request, compose};
 use std::path::{Path, PathBuf};
@@ -32,43 +32,40 @@ pub(crate) struct Arguments {
 
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let folder = &arguments.output;
-    std::fs::create_dir_all(folder).map_err(|error| {
-        Failure::input(format!(
-            "cannot make the folder {}: {error}",
-            folder.display()
-        ))
-    })?;
-    let table_path = folder.join("kernels.h5");
-    make_table(&table_path)?;
-    let table = open_table(&table_path)?;
+    let shown = folder.display();
+    std::fs::create_dir_all(folder)
+        .map_err(|error| Failure::input(format!("cannot make the folder {shown}: {error}")))?;
+    let table = folder.join("kernels.h5");
+    if !table.exists() {
+        let shown = table.display();
+        say(format!("making the demo kernel table {shown} (once)"));
+        let summary = build(&Grid::demo(), &table, &Bar::new())?;
+        let (points, took_s, bytes) = (summary.points, summary.wall_s, summary.bytes);
+        say(format!("{points} points in {took_s:.1} s, {bytes} bytes"));
+    }
+    let table = open_table(&table)?;
     let table_1 = parse_scene(SCENE, Path::new(".")).map_err(Failure::work)?;
     let start = Instant::now();
     let coupled = simulate(&table_1, &KernelChoice::Table(Arc::new(table)))?;
     let wall_s = start.elapsed().as_secs_f64();
     let found = Numbers::compute().map_err(Failure::in_part)?;
     let numbers = folder.join("numbers.txt");
-    write_whole(&numbers, Existing::Replace, |part| {
-        std::fs::write(part, found.text())
-    })?;
+    replace(&numbers, found.text())?;
     print(found.short())?;
 
     let results = folder.join("copper-on-steel.h5");
-    write_results(&results, &table_1, &coupled, Existing::Replace)?;
-    let picture = drawn(&results, folder.join("copper-on-steel.svg"))?;
+    let [results, picture] = kept(&table_1, &coupled, results)?;
     let probes = coupled.probes.as_ref();
     say(format!(
         "the coupled impact with its {} probes took {:.1} ms",
         probes.map_or(0, |fields| fields.r_m.len()),
         1e3 * wall_s
     ));
-    let waves = waves(folder)?;
+    let [waves, drawn] = waves(folder)?;
+    let files = [&numbers, &results, &picture, &waves, &drawn];
+    let [numbers, results, picture, waves, drawn] = files.map(|path| path.display());
     print(format!(
-        "\nall numbers, with reasons  {}\nthe paper's impact         {}, {}\nwaves under a ball         {}, {}",
-        numbers.display(),
-        results.display(),
-        picture.display(),
-        waves[0].display(),
-        waves[1].display()
+        "\nall numbers, with reasons  {numbers}\nthe paper's impact         {results}, {picture}\nwaves under a ball         {waves}, {drawn}"
     ))
 }
 
@@ -87,34 +84,18 @@ fn waves(folder: &Path) -> Result<[PathBuf; 2], Failure> {
     };
     let outcome = simulate_within(&scene, &KernelChoice::Direct, &allowance)?;
     drop(bar);
-    let results = folder.join("waves.vtkhdf");
-    write_results(&results, &scene, &outcome, Existing::Replace)?;
-    let picture = drawn(&results, folder.join("waves.svg"))?;
+    kept(&scene, &outcome, folder.join("waves.vtkhdf"))
+}
+
+/// Writes a results file, and beside it a picture as `hertzlamb plot` draws it; gives both.
+fn kept(scene: &Scene, outcome: &Outcome, results: PathBuf) -> Result<[PathBuf; 2], Failure> {
+    write_results(&results, scene, outcome, Existing::Replace)?;
+    let drawn = compose(std::slice::from_ref(&results), &Request::default())?;
+    let picture = results.with_extension("svg");
+    replace(&picture, to_svg(&drawn.figure).map_err(Failure::work)?)?;
     Ok([results, picture])
 }
 
-/// Draws a results file as `hertzlamb plot` does.
-fn drawn(results: &PathBuf, picture: PathBuf) -> Result<PathBuf, Failure> {
-    let drawn = compose(std::slice::from_ref(results), &Request::default())?;
-    let svg = to_svg(&drawn.figure).map_err(Failure::work)?;
-    write_whole(&picture, Existing::Replace, |part| {
-        std::fs::write(part, svg)
-    })?;
-    Ok(picture)
-}
-
-fn make_table(path: &Path) -> Result<(), Failure> {
-    if path.exists() {
-        return Ok(());
-    }
-    say(format!(
-        "making the demo kernel table {} (once)",
-        path.display()
-    ));
-    let summary = build(&Grid::demo(), path, &Bar::new())?;
-    say(format!(
-        "{} points in {:.1} s, {} bytes",
-        summary.points, summary.wall_s, summary.bytes
-    ));
-    Ok(())
+fn replace(path: &Path, text: String) -> Result<(), OutputError> {
+    write_whole(path, Existing::Replace, |part| std::fs::write(part, text))
 }

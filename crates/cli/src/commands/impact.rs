@@ -1,15 +1,16 @@
 //! `hertzlamb impact`: one scene.
 
 use crate::arguments::{Kernels, MemoryLimit, Overwrite, say_complete};
-use crate::failure::{Failure, say, show};
+use crate::failure::{Failure, lines, say, show};
 use crate::progress::Bar;
 use crate::report::{text_report, understood};
 use clap::Args;
 use formats::{check_results, json_report, read_with_inputs, stage_results, stage_results_csv};
-use impact::{Allowance, Forecast, ImpactError, KernelChoice, Scene, simulate_within};
+use impact::{Allowance, Forecast, ImpactError, Scene, simulate_within};
 use output::{CSV, Existing, HDF5, Output, Role, Staged};
 use serde_json::json;
 use std::cell::Cell;
+use std::iter;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 use tabulator::Progress;
@@ -50,38 +51,36 @@ pub(crate) struct Arguments {
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let start = Instant::now();
     let (scene, inputs) = read_with_inputs(&arguments.scene)?;
-    if arguments.skip_complete && is_complete(arguments, &scene)? {
-        let output = arguments.output.as_deref().unwrap_or(Path::new(""));
+    if let Some(output) = complete(arguments, &scene)? {
         return say_complete(output, arguments.json);
     }
     let [output, csv] = outputs(arguments, inputs)?;
     let kernels = arguments.kernels.choice()?;
-    if arguments.dry_run {
-        return dry_run(arguments, &scene, &kernels);
-    }
-    let progress = Bar::after(PATIENCE);
+    let (forecast, progress) = (Cell::new(Forecast::least(&scene)), Bar::after(PATIENCE));
     let allowance = Allowance {
         memory_bytes: arguments.memory.bytes(),
-        go_on: &|forecast| {
-            if forecast.seconds > LONG_S {
-                say(takes(forecast));
+        go_on: &|found| {
+            forecast.set(*found);
+            if found.seconds > LONG_S && !arguments.dry_run {
+                say(takes(found));
             }
-            progress.total("fields", forecast.points as u64);
-            true
+            progress.total("fields", found.points as u64);
+            !arguments.dry_run
         },
         watch: &|| progress.advance(1),
     };
-    let outcome = simulate_within(&scene, &kernels, &allowance)?;
+    let outcome = match simulate_within(&scene, &kernels, &allowance) {
+        Err(ImpactError::GivenUp { .. }) => return plan(arguments, &scene, &forecast.get()),
+        found => found?,
+    };
     drop(progress);
     // all of them, or none where one fails
-    let mut staged = Vec::new();
-    if let Some(output) = &output {
-        staged.push(stage_results(output, &scene, &outcome)?);
-    }
-    if let Some(csv) = &csv {
-        staged.push(stage_results_csv(csv, &scene, &outcome)?);
-    }
-    staged.into_iter().try_for_each(Staged::commit)?;
+    let stage = |output| stage_results(output, &scene, &outcome);
+    let results = output.as_ref().map(stage).transpose()?;
+    let stage = |csv| stage_results_csv(csv, &scene, &outcome);
+    let text = csv.as_ref().map(stage).transpose()?;
+    let mut staged = results.into_iter().chain(text);
+    staged.try_for_each(Staged::commit)?;
     for warning in &outcome.warnings {
         say(format!("warning: {warning}"));
     }
@@ -90,21 +89,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 /// Says what a scene takes.
-fn dry_run(arguments: &Arguments, scene: &Scene, kernels: &KernelChoice) -> Result<(), Failure> {
-    let found = Cell::new(None);
-    let allowance = Allowance {
-        memory_bytes: arguments.memory.bytes(),
-        go_on: &|forecast| {
-            found.set(Some(*forecast));
-            false
-        },
-        ..Allowance::default()
-    };
-    match simulate_within(scene, kernels, &allowance) {
-        Ok(_) | Err(ImpactError::GivenUp { .. }) => {}
-        Err(error) => return Err(error.into()),
-    }
-    let forecast = found.get().unwrap_or(Forecast::least(scene));
+fn plan(arguments: &Arguments, scene: &Scene, forecast: &Forecast) -> Result<(), Failure> {
     let plan = json!({
         "points": forecast.points,
         "samples": forecast.samples,
@@ -113,19 +98,20 @@ fn dry_run(arguments: &Arguments, scene: &Scene, kernels: &KernelChoice) -> Resu
         "disk_bytes": forecast.disk_bytes,
         "threads": std::thread::available_parallelism().map_or(1, usize::from),
     });
-    let text = format!("{}\n{}", understood(scene), takes(&forecast));
+    let understood = lines([("impact", understood(scene))]);
+    let text = format!("{understood}\n{}", takes(forecast));
     show(arguments.json, &plan, text)
 }
 
-/// Whether the output is there already, as this command would write it.
-fn is_complete(arguments: &Arguments, scene: &Scene) -> Result<bool, Failure> {
-    let there = |path: &&PathBuf| path.exists();
-    let Some(output) = arguments.output.as_ref().filter(there) else {
-        return Ok(false);
+/// The output that may stay and is there already, as this command would write it.
+fn complete<'a>(arguments: &'a Arguments, scene: &Scene) -> Result<Option<&'a Path>, Failure> {
+    let may_stay = |path: &&Path| arguments.skip_complete && path.exists();
+    let Some(output) = arguments.output.as_deref().filter(may_stay) else {
+        return Ok(None);
     };
     HDF5.check(output)?;
     // also removes what a killed run has left beside them
-    for path in [Some(output), arguments.csv.as_ref()].into_iter().flatten() {
+    for path in iter::once(output).chain(arguments.csv.as_deref()) {
         Output::claim(path, Existing::Replace)?;
     }
     let (direct, id) = arguments.kernels.allowed()?;
@@ -136,41 +122,35 @@ fn is_complete(arguments: &Arguments, scene: &Scene) -> Result<bool, Failure> {
             output.display(),
             csv.display()
         ))),
-        Some(_) | None => Ok(true),
+        Some(_) | None => Ok(Some(output)),
     }
 }
 
 /// The results file and the table as text, where they are asked for.
 fn outputs(arguments: &Arguments, mut read: Vec<Role>) -> Result<[Option<Output>; 2], Failure> {
-    let wanted = [(&arguments.output, HDF5), (&arguments.csv, CSV)];
-    read.extend(arguments.kernels.inputs());
-    let mut claimed = [None, None];
-    let mut refused = None;
-    // both, also where one is refused: claiming removes what a killed run has left beside it
-    for (place, (path, ending)) in claimed.iter_mut().zip(wanted) {
-        if let Some(path) = path {
-            match arguments.overwrite.claim(path, ending, &read) {
-                Ok(output) => *place = Some(output),
-                Err(why) => refused = refused.or(Some(why)),
-            }
+    read.extend(arguments.kernels.input());
+    let mut claim = |path: &Option<PathBuf>, ending| {
+        let claimed = path.as_ref().map(|path| {
+            let claimed = arguments.overwrite.claim(path, ending, &read);
             read.push(("another output", path.clone()));
-        }
-    }
-    refused.map_or(Ok(claimed), Err)
+            claimed
+        });
+        claimed.transpose()
+    };
+    // both, also where one is refused: claiming removes what a killed run has left beside it
+    let (output, csv) = (claim(&arguments.output, HDF5), claim(&arguments.csv, CSV));
+    Ok([output?, csv?])
 }
 
 /// Seconds from which on a scene says what it will take.
 const LONG_S: f64 = 5.0;
 
 fn takes(forecast: &Forecast) -> String {
-    let decimals = if forecast.seconds > LONG_S { 0 } else { 2 };
+    let (points, samples, seconds) = (forecast.points, forecast.samples, forecast.seconds);
+    let ending = if points == 1 { "" } else { "s" };
+    let decimals = if seconds > LONG_S { 0 } else { 2 };
+    let [memory, disk] = [forecast.memory_bytes, forecast.disk_bytes].map(|bytes| 1e-9 * bytes);
     format!(
-        "{} point{} of {:.0} samples: about {:.decimals$} s, {:.3} GB of memory, {:.3} GB in a results file",
-        forecast.points,
-        if forecast.points == 1 { "" } else { "s" },
-        forecast.samples,
-        forecast.seconds,
-        1e-9 * forecast.memory_bytes,
-        1e-9 * forecast.disk_bytes
+        "{points} point{ending} of {samples:.0} samples: about {seconds:.decimals$} s, {memory:.3} GB of memory, {disk:.3} GB in a results file"
     )
 }

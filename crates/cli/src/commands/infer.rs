@@ -55,14 +55,12 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let (name, values) =
         given.unwrap_or_else(|| ("bounces", arguments.bounces.clone().unwrap_or_default()));
     let (found, value) = formats::infer(&scene, (name, &values), arguments.error, unknown)?;
-    let (results, [low, high]) = (&found.results, found.band);
+    let (name, results) = (unknown.name(), &found.results);
     let end = |end: Option<f64>| end.map_or("beyond yield".to_owned(), |x| format!("{x:.4e}"));
+    let [low, high] = found.band.map(end);
     let text = format!(
-        "{}  {:.6e}  ({} to {})\nvelocity over that of yield  {:.4}\nrestitution  {:.4}\ncontact time  {:.4e} s\npeak force  {:.4e} N",
-        unknown.name(),
+        "{name}  {:.6e}  ({low} to {high})\nvelocity over that of yield  {:.4}\nrestitution  {:.4}\ncontact time  {:.4e} s\npeak force  {:.4e} N",
         found.value,
-        end(low),
-        end(high),
         results.plastic.velocity_over_yield.unwrap_or(1.0),
         results.restitution,
         results.contact_time_s,

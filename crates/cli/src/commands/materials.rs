@@ -22,6 +22,11 @@ pub(crate) struct Arguments {
     json: bool,
 }
 
+/// Over the columns of [`text`].
+const HEAD: &str = "\
+name                     group            E     nu    rho     c1     c2     Ry     Rm    KIc  source
+                                        GPa         kg/m3    m/s    m/s    MPa    MPa  MPa√m";
+
 fn text(m: &Material) -> String {
     let number = |value: Option<f64>, scale: f64, decimals: usize| {
         value.map_or_else(|| "-".to_owned(), |v| format!("{:.decimals$}", v / scale))
@@ -45,8 +50,7 @@ fn text(m: &Material) -> String {
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let mut library = Library::built_in().clone();
     if let Some(path) = &arguments.file {
-        let own = read_materials(path)?;
-        library = library.extended(&own);
+        library = library.extended(&read_materials(path)?);
     }
     let word = arguments.search.as_deref().unwrap_or("");
     let found: Vec<&Material> = library.search(word).collect();
@@ -59,13 +63,6 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         let rows: Value = found.into_iter().map(material_report).collect();
         return print(format!("{rows:#}"));
     }
-    print(format!(
-        "{:<24} {:<9} {:>8} {:>6} {:>6} {:>6} {:>6} {:>6} {:>6} {:>6}  source",
-        "name", "group", "E", "nu", "rho", "c1", "c2", "Ry", "Rm", "KIc"
-    ))?;
-    print(format!(
-        "{:<24} {:<9} {:>8} {:>6} {:>6} {:>6} {:>6} {:>6} {:>6} {:>6}",
-        "", "", "GPa", "", "kg/m3", "m/s", "m/s", "MPa", "MPa", "MPa√m"
-    ))?;
+    print(HEAD)?;
     found.into_iter().try_for_each(|m| print(text(m)))
 }

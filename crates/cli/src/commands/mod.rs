@@ -1,7 +1,6 @@
 //! One file per subcommand; the arguments, the call of the library, and what is printed.
 
 pub(crate) mod chart;
-pub(crate) mod completions;
 pub(crate) mod demo;
 pub(crate) mod export;
 pub(crate) mod impact;

@@ -27,11 +27,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let folder = Folder::claim(&arguments.output, arguments.overwrite.existing())?;
     let redone = Redone::compute().map_err(Failure::in_part)?;
     redone.write(&folder).map_err(Failure::in_part)?;
-    let rows = redone
-        .numbers
-        .sections
-        .iter()
-        .map(|section| section.rows.len());
+    let sections = redone.numbers.sections.iter();
+    let rows = sections.map(|section| section.rows.len());
     print(format!(
         "{}: {} numbers, {} figures",
         arguments.output.join("report.md").display(),

@@ -66,10 +66,9 @@ pub(crate) struct Arguments {
 
 /// A key and its value.
 fn held(text: &str) -> Result<(String, String), String> {
-    let (key, value) = text
-        .split_once('=')
-        .ok_or_else(|| format!("{text} is not KEY=VALUE, such as target.material=steel"))?;
-    Ok((key.trim().to_owned(), value.trim().to_owned()))
+    let both = text.split_once('=');
+    let both = both.map(|(key, value)| (key.trim().to_owned(), value.trim().to_owned()));
+    both.ok_or_else(|| format!("{text} is not KEY=VALUE, such as target.material=steel"))
 }
 
 /// Two numbers.
@@ -94,17 +93,15 @@ fn kinds() -> PossibleValuesParser {
 fn ending(path: &Path) -> Result<String, Failure> {
     let ending = path.extension().map(|e| e.to_string_lossy().to_lowercase());
     let known = ending.filter(|end| ["svg", "png", "pdf", "gif"].contains(&end.as_str()));
-    known.ok_or_else(|| {
-        let path = path.display();
-        Failure::input(format!("{path} does not end in .svg, .png, .pdf or .gif"))
-    })
+    let path = path.display();
+    let otherwise = || Failure::input(format!("{path} does not end in .svg, .png, .pdf or .gif"));
+    known.ok_or_else(otherwise)
 }
 
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let ending = ending(&arguments.output)?;
-    let inputs: Vec<Role> = (arguments.files.iter())
-        .map(|path| ("a file", path.clone()))
-        .collect();
+    let files = arguments.files.iter().cloned();
+    let inputs: Vec<Role> = files.map(|path| ("a file", path)).collect();
     apart(&[&arguments.output], &inputs)?;
     let output = Output::claim(&arguments.output, arguments.overwrite.existing())?;
     let request = Request {
@@ -118,7 +115,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         logarithmic: arguments.log,
         title: arguments.title.clone(),
     };
-    let size = |figure: Figure| match arguments.width {
+    let size = |figure| match arguments.width {
         Some(width) => sized(figure, f64::from(width)),
         None => figure,
     };

@@ -6,11 +6,10 @@ use crate::failure::{Failure, print, show};
 use crate::progress::Bar;
 use clap::{Args, Subcommand};
 use formats::table_report;
-use lookup::Content;
-use output::TABLE;
+use output::{Existing, TABLE};
 use serde_json::json;
 use std::path::{Path, PathBuf};
-use tabulator::{CheckReport, check_table, differences, merge};
+use tabulator::{check_table, differences, merge};
 
 const EXAMPLES: &str = "Examples:
   hertzlamb table info kernels.h5
@@ -79,14 +78,13 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
             shards,
             output,
             overwrite,
-        } => join(shards, output, *overwrite, arguments.json),
+        } => join(shards, output, overwrite.existing(), arguments.json),
     }
 }
 
 fn info(path: &Path, json: bool) -> Result<(), Failure> {
     let table = lookup::Table::open(path).map_err(Failure::input)?;
     let content = table.content();
-    let origin = &content.origin;
     let value = table_report(path, &table);
     let cells: Vec<usize> = content.slices.iter().map(|slice| slice.cells).collect();
     let text = format!(
@@ -102,7 +100,7 @@ fn info(path: &Path, json: bool) -> Result<(), Failure> {
         value["bytes"].as_f64().unwrap_or(0.0) / 1e6,
         table.id(),
         table.format_version(),
-        origin.software_version,
+        content.origin.software_version,
         value["content_sha256"].as_str().unwrap_or(""),
         table.poisson_ratios(),
         table.r_max(),
@@ -122,24 +120,18 @@ fn verify(path: &Path, sample: usize, seed: Option<u64>, json: bool) -> Result<(
     let seed = seed.unwrap_or_else(|| time().map_or(1, |time| time.as_secs()));
     let report = check_table(path, sample, seed).map_err(tabulate::failure)?;
     let file = path.display().to_string();
-    let is_good = report.is_good();
-    let CheckReport {
-        nodes_checked: nodes,
-        largest_difference: largest,
-        hash_right,
-        bad,
-        damaged,
-    } = report;
+    let (nodes, largest) = (report.nodes_checked, report.largest_difference);
+    let (bad, damaged) = (&report.bad, &report.damaged);
     let value = json!({
         "file": file,
         "nodes_checked": nodes,
         "seed": seed,
         "largest_relative_difference": largest,
-        "hash_right": hash_right,
+        "hash_right": report.hash_right,
         "bad_nodes": bad,
         "damaged_patches": damaged,
     });
-    if is_good {
+    if report.is_good() {
         let text = format!(
             "{file}: complete, checksum right, {nodes} nodes of seed {seed} computed again, largest difference {largest:.1e}"
         );
@@ -149,76 +141,51 @@ fn verify(path: &Path, sample: usize, seed: Option<u64>, json: bool) -> Result<(
         print(value)?;
     }
     // what is wrong, in one line
-    let first = |list: &[String]| {
-        let more = match list.len() {
-            0..=5 => String::new(),
-            count => format!("; and {} more", count - 5),
-        };
-        list[..list.len().min(5)].join("; ") + &more
+    let first = |list: &[String]| match list.split_at_checked(5) {
+        Some((first, more @ [_, ..])) => format!("{}; and {} more", first.join("; "), more.len()),
+        _ => list.join("; "),
     };
     let mut parts = Vec::new();
     if !damaged.is_empty() {
-        let patches = first(&damaged);
+        let patches = first(damaged);
         parts.push(format!("damaged, nodes that cannot be read: {patches}"));
-    } else if !hash_right {
+    } else if !report.hash_right {
         parts.push("the content is not that of content_sha256, it was changed".to_owned());
     }
     if !bad.is_empty() {
-        parts.push(format!("{} wrong: {}", bad.len(), first(&bad)));
+        parts.push(format!("{} wrong: {}", bad.len(), first(bad)));
     } else if damaged.is_empty() {
-        parts.push(format!(
-            "no wrong node among {sample}, try a larger --sample"
-        ));
+        let advice = format!("no wrong node among {sample}, try a larger --sample");
+        parts.push(advice);
     }
     Err(Failure::work(format!("{file}: {}", parts.join("; "))))
 }
 
 fn diff(first: &Path, second: &Path, json: bool) -> Result<(), Failure> {
+    let read = |path: &Path| lookup::read(path).map_err(Failure::input);
     let found = differences(&read(first)?, &read(second)?);
-    let same = if found.is_empty() {
-        "the tables hold the same".to_owned()
-    } else {
-        found.join("\n")
-    };
     let value = json!({ "same": found.is_empty(), "differences": found });
-    show(json, &value, same)?;
     if found.is_empty() {
-        Ok(())
-    } else {
-        Err(Failure::work(format!(
-            "{} and {} differ",
-            first.display(),
-            second.display()
-        )))
+        return show(json, &value, "the tables hold the same");
     }
+    show(json, &value, found.join("\n"))?;
+    let (first, second) = (first.display(), second.display());
+    Err(Failure::work(format!("{first} and {second} differ")))
 }
 
-fn join(
-    shards: &[PathBuf],
-    output: &Path,
-    overwrite: Overwrite,
-    json: bool,
-) -> Result<(), Failure> {
+fn join(shards: &[PathBuf], output: &Path, existing: Existing, json: bool) -> Result<(), Failure> {
     TABLE.check(output)?;
-    let summary = merge(shards, output, overwrite.existing(), &Bar::new());
+    let summary = merge(shards, output, existing, &Bar::new());
     let summary = summary.map_err(tabulate::failure)?;
     let file = output.display().to_string();
+    let (id, points, megabytes) = (summary.id, summary.points, summary.bytes as f64 / 1e6);
     let value = json!({
         "file": file,
-        "id": summary.id,
+        "id": id,
         "content_sha256": summary.content_sha256,
-        "points": summary.points,
+        "points": points,
         "bytes": summary.bytes,
     });
-    let text = format!(
-        "{file}: {} points, {:.1} MB, id {}",
-        summary.points,
-        summary.bytes as f64 / 1e6,
-        summary.id
-    );
+    let text = format!("{file}: {points} points, {megabytes:.1} MB, id {id}");
     show(json, &value, text)
-}
-
-fn read(path: &Path) -> Result<Content, Failure> {
-    lookup::read(path).map_err(Failure::input)
 }

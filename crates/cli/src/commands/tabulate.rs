@@ -5,7 +5,7 @@ use crate::failure::{Failure, say, show};
 use crate::progress::Bar;
 use clap::Args;
 use formats::accuracy_report;
-use lookup::{Accuracy, Origin, Quantiles, schema};
+use lookup::{Accuracy, Quantiles, schema};
 use output::{Existing, Output, SHARD, TABLE, apart};
 use serde_json::json;
 use std::path::{Path, PathBuf};
@@ -65,11 +65,7 @@ pub(crate) struct Arguments {
 }
 
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let ending = if arguments.shard.is_some() {
-        SHARD
-    } else {
-        TABLE
-    };
+    let ending = arguments.shard.map_or(TABLE, |_| SHARD);
     ending.check(&arguments.output)?;
     if let Some(grid) = arguments.grid.as_deref().filter(|name| is_file(name)) {
         apart(&[&arguments.output], &[("the grid", grid.into())])?;
@@ -80,25 +76,21 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         return tell(&Grid::of(&content).map_err(failure)?, arguments, &summary);
     }
     let grid = grid(arguments)?;
-    // a shard ends at once where it has all its blocks
-    let is_shard = arguments.shard.is_some();
-    if arguments.skip_complete && !is_shard && arguments.output.exists() {
+    // ends at once where it has all its blocks
+    if let Some(shard) = arguments.shard {
+        let blocks = build_shard(&grid, shard, &arguments.output, &Bar::new()).map_err(failure)?;
+        let file = arguments.output.display().to_string();
+        let text = format!("{file}: {blocks} blocks; join all shards with hertzlamb table merge");
+        let value = json!({ "file": file, "blocks": blocks });
+        return show(arguments.json, &value, text);
+    }
+    if arguments.skip_complete && arguments.output.exists() {
         // also removes what a killed run has left beside it
         Output::claim(&arguments.output, Existing::Replace)?;
         check_complete(&arguments.output, &grid)?;
         return say_complete(&arguments.output, arguments.json);
     }
     let existing = arguments.overwrite.existing();
-    if let Some(shard) = arguments.shard {
-        let blocks = build_shard(&grid, shard, &arguments.output, &Bar::new()).map_err(failure)?;
-        let file = arguments.output.display().to_string();
-        let text = format!("{file}: {blocks} blocks; join all shards with hertzlamb table merge");
-        return show(
-            arguments.json,
-            &json!({ "file": file, "blocks": blocks }),
-            text,
-        );
-    }
     let needed = grid.memory_bytes().map_err(failure)?;
     let change = "ask for fewer nodes, fewer slices or wider cells";
     arguments.memory.check(needed, "the table", change)?;
@@ -108,35 +100,27 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
 
 /// Fails where a file is not the whole table of a grid, made by this version.
 fn check_complete(path: &Path, grid: &Grid) -> Result<(), Failure> {
-    let Origin {
-        grid: settings,
-        software_version: version,
-        numbers_revision: revision,
-        ..
-    } = &lookup::check_whole(path).map_err(Failure::work)?;
-    let other = if Grid::parse(settings).map_err(Failure::work)? != *grid {
+    let origin = lookup::check_whole(path).map_err(Failure::work)?;
+    let (version, revision) = (&origin.software_version, origin.numbers_revision);
+    let other = if Grid::parse(&origin.grid).map_err(Failure::work)? != *grid {
         "has another grid".to_owned()
     } else if version != env!("CARGO_PKG_VERSION") {
         format!("was made by version {version}")
-    } else if *revision != NUMBERS_REVISION {
+    } else if revision != NUMBERS_REVISION {
         format!(
             "has numbers of revision {revision}, where this version computes revision {NUMBERS_REVISION}"
         )
     } else {
         return Ok(());
     };
-    Err(Failure::work(format!(
-        "{} is a table that {other}",
-        path.display()
-    )))
+    let path = path.display();
+    Err(Failure::work(format!("{path} is a table that {other}")))
 }
 
 /// What to add to the output, if it exists and no new table was asked for.
 fn extension(arguments: &Arguments) -> Option<Extension> {
-    let more = arguments.nu.is_some()
-        || arguments.r_max.is_some()
-        || arguments.z_max.is_some()
-        || arguments.time_factor.is_some();
+    let most = [arguments.r_max, arguments.z_max, arguments.time_factor];
+    let more = arguments.nu.is_some() || most.iter().any(Option::is_some);
     let new = arguments.grid.is_some()
         || arguments.overwrite.force
         || arguments.skip_complete
@@ -153,7 +137,17 @@ fn extension(arguments: &Arguments) -> Option<Extension> {
 /// The settings of a new table.
 fn grid(arguments: &Arguments) -> Result<Grid, Failure> {
     let most = [arguments.r_max, arguments.z_max, arguments.time_factor];
-    let grid = resolve(arguments.grid.as_deref().unwrap_or("demo"))?;
+    let name = arguments.grid.as_deref().unwrap_or("demo");
+    let grid = match Grid::preset(name).map_err(failure)? {
+        Some(grid) => grid,
+        None if is_file(name) => Grid::from_file(name.as_ref()).map_err(failure)?,
+        None => {
+            let presets = tabulator::PRESETS.join(", ");
+            return Err(Failure::input(format!(
+                "--grid {name}: neither a preset ({presets}) nor a .toml file"
+            )));
+        }
+    };
     let grid = grid.with(arguments.nu.clone(), most);
     let (Some(tolerance), Some(pulse)) = (arguments.tol, arguments.pulse) else {
         return Ok(grid);
@@ -165,66 +159,46 @@ fn grid(arguments: &Arguments) -> Result<Grid, Failure> {
 
 fn tell(grid: &Grid, arguments: &Arguments, summary: &Summary) -> Result<(), Failure> {
     let file = arguments.output.display().to_string();
+    let (id, points, wall_s) = (&summary.id, summary.points, summary.wall_s);
     let value = json!({
         "file": file,
-        "id": summary.id,
+        "id": id,
         "content_sha256": summary.content_sha256,
         "format_version": schema::FORMAT_VERSION_VALUE,
         "poisson_ratios": grid.slices().iter().map(|slice| slice.0).collect::<Vec<f64>>(),
-        "points": summary.points,
+        "points": points,
         "bytes": summary.bytes,
-        "wall_s": summary.wall_s,
+        "wall_s": wall_s,
         "resumed_blocks": summary.resumed_blocks,
         "pulse_lengths": summary.pulse_lengths,
         "p99_relative_error": summary.p99_error,
         "relative_errors": accuracy_report(&summary.accuracy),
     });
-    let text = format!(
-        "{file}: {} points, {:.1} MB, {:.1} s, id {}\n{}",
-        summary.points,
-        summary.bytes as f64 / 1e6,
-        summary.wall_s,
-        summary.id,
-        errors_in_words(&summary.accuracy)
-    );
+    let megabytes = summary.bytes as f64 / 1e6;
+    let errors = errors_in_words(&summary.accuracy);
+    let text =
+        format!("{file}: {points} points, {megabytes:.1} MB, {wall_s:.1} s, id {id}\n{errors}");
     show(arguments.json, &value, text)
 }
 
 /// The errors of the worst field in each region, for each length of the pulse.
 pub(crate) fn errors_in_words(accuracy: &[Accuracy]) -> String {
-    let head =
-        "measured off the grid, error over the peak in time, of the worst field: 50 %, 99 %, most";
-    let mut text = head.to_owned();
+    let mut text =
+        "measured off the grid, error over the peak in time, of the worst field: 50 %, 99 %, most"
+            .to_owned();
     for measured in accuracy {
         let length = measured.pulse_length;
-        let regions = [
-            ("on slices", Some(measured.worst_on_slices())),
-            ("between slices", measured.worst_between_slices()),
-        ];
-        for (region, worst) in regions {
-            if let Some((field, Quantiles { p50, p99, max })) = worst {
-                let field = schema::FIELD_NAMES[field as usize];
-                text.push_str(&format!(
-                    "\n  pulses of {length:>5} r0/c1, {region:14}  {p50:.1e}  {p99:.1e}  {max:.1e}  {field}"
-                ));
-            }
+        let on = Some(("on slices", measured.worst_on_slices()));
+        let between = measured.worst_between_slices();
+        let between = between.map(|worst| ("between slices", worst));
+        for (region, (field, Quantiles { p50, p99, max })) in on.into_iter().chain(between) {
+            let field = schema::FIELD_NAMES[field as usize];
+            text += &format!(
+                "\n  pulses of {length:>5} r0/c1, {region:14}  {p50:.1e}  {p99:.1e}  {max:.1e}  {field}"
+            );
         }
     }
     text
-}
-
-/// The grid of a preset or a file.
-fn resolve(name: &str) -> Result<Grid, Failure> {
-    if let Some(grid) = Grid::preset(name).map_err(failure)? {
-        return Ok(grid);
-    }
-    if !is_file(name) {
-        return Err(Failure::input(format!(
-            "--grid {name}: neither a preset ({}) nor a .toml file",
-            tabulator::PRESETS.join(", ")
-        )));
-    }
-    Grid::from_file(name.as_ref()).map_err(failure)
 }
 
 /// Whether the name of a grid is that of a file.
@@ -234,9 +208,6 @@ fn is_file(name: &str) -> bool {
 
 /// A table that was not built.
 pub(crate) fn failure(error: BuildError) -> Failure {
-    let hint = match error {
-        BuildError::Journal(JournalError::Other(..)) => "; a new table with --force replaces it",
-        _ => "",
-    };
-    Failure::from(error).hint(hint)
+    let other = matches!(error, BuildError::Journal(JournalError::Other(..)));
+    Failure::from(error).hint_if(other, "; a new table with --force replaces it")
 }

@@ -50,30 +50,32 @@ impl Case {
             settings,
         };
         let mut balls = vec![[impact.striker.tip_radius_m, impact.striker.mass_kg]];
-        let mut notes = vec![understood(scene).replace("impact         ", "")];
+        let mut notes = vec![understood(scene)];
         if let Some(diameter_m) = target_diameter_m {
             notes.extend(onto_ball(&mut impact, &mut balls, diameter_m)?);
         }
         let run = impact.solve().map_err(ImpactError::from)?;
         let collision = Collision::new(&impact.half_space, &impact.striker, impact.velocity_m_s);
         let (groups, units) = (&run.solved.plan.groups, collision.units());
-        let lag = match impact.settings.model {
-            Model::Hertz => 0.0,
-            _ => groups.lag * units.length_m * units.time_s / units.force_n,
-        };
-        let elastic = run.solved.flow.is_none();
+        let lag_m_s_n = run
+            .solved
+            .flow
+            .is_none()
+            .then(|| match impact.settings.model {
+                Model::Hertz => 0.0,
+                _ => groups.lag * units.length_m * units.time_s / units.force_n,
+            });
         let mut case = Self {
-            lag_m_s_n: elastic.then_some(lag),
+            lag_m_s_n,
             impact,
             run,
             collision,
             balls,
             notes,
         };
-        case.notes
-            .push(case.law(case.run.solved.plan.groups.memory)?);
-        case.notes.extend(case.onset());
-        case.notes.push(case.outcome());
+        let law = case.law(case.run.solved.plan.groups.memory)?;
+        let told = [Some(law), case.onset(), Some(case.outcome())];
+        case.notes.extend(told.into_iter().flatten());
         Ok(case)
     }
 
@@ -111,9 +113,8 @@ impl Case {
                 short(v * ((1e-3 / LEFT_OUT).sqrt() / memory).powf(5.0 / 3.0), "m/s")
             ),
             None => {
-                let nearby = [v / 1.01, 1.01 * v].map(|v| Ok(self.at(v, false)?.loss.ln()));
-                let [below, above]: [Result<f64, Failure>; 2] = nearby;
-                let slope = (above? - below?) / (2.0 * 1.01_f64.ln());
+                let of = |v| Ok::<_, Failure>(self.at(v, false)?.loss.ln());
+                let slope = (of(1.01 * v)? - of(v / 1.01)?) / (2.0 * 1.01_f64.ln());
                 let [low, high] = [0.9_f64, 1.1]
                     .map(|off| short(v * off.powf(1.0 / slope).clamp(0.5, 2.0), "m/s"));
                 format!(
@@ -143,15 +144,11 @@ impl Case {
     }
 
     fn outcome(&self) -> String {
-        let run = &self.run;
+        let (run, velocity) = (&self.run, short(self.impact.velocity_m_s, "m/s"));
+        let [time, force] = [si(run.contact_time_s, "s"), si(run.peak_force_n, "N")];
         format!(
-            "at {}: restitution {:.8}, loss {:.6e}, contact time {}, peak force {}; estimated relative error {:.1e}",
-            short(self.impact.velocity_m_s, "m/s"),
-            run.restitution,
-            run.loss,
-            si(run.contact_time_s, "s"),
-            si(run.peak_force_n, "N"),
-            run.relative_error_estimate
+            "at {velocity}: restitution {:.8}, loss {:.6e}, contact time {time}, peak force {force}; estimated relative error {:.1e}",
+            run.restitution, run.loss, run.relative_error_estimate
         )
     }
 }
@@ -176,12 +173,10 @@ fn onto_ball(
     impact.striker = Striker::new(material, mass_kg, radius_m)
         .map_err(|error| Failure::input(format!("--target-diameter: {error}")))?;
     (impact.half_space.thickness_m, impact.half_space.radius_m) = (None, None);
+    let [diameter, radius] = [diameter_m, radius_m].map(|length_m| short(length_m, "m"));
+    let [own, mass] = [other.mass_kg, mass_kg].map(|mass_kg| short(1e3 * mass_kg, "g"));
     let geometry = format!(
-        "the target is a ball of {} and {}: Hertz's law with R = R1 R2/(R1 + R2) = {} and m = m1 m2/(m1 + m2) = {}",
-        short(diameter_m, "m"),
-        short(1e3 * other.mass_kg, "g"),
-        short(radius_m, "m"),
-        short(1e3 * mass_kg, "g")
+        "the target is a ball of {diameter} and {own}: Hertz's law with R = R1 R2/(R1 + R2) = {radius} and m = m1 m2/(m1 + m2) = {mass}"
     );
     let half_space = impact.solve().map_err(ImpactError::from)?;
     let echo_s = 2.0 * diameter_m / impact.half_space.longitudinal_speed_m_s();

@@ -44,14 +44,10 @@ pub(super) fn lammps(case: &Case) -> String {
     }
     text += LAMMPS_PAIR;
     if case.balls.len() == 1 {
-        let (law, other) = match case.lag_m_s_n {
-            Some(_) => (
-                LAMMPS_DASHPOT,
-                "# at V alone, the same by a stock model:\n# ",
-            ),
-            None => ("", ""),
-        };
-        text = text + law + other + LAMMPS_BLOCK;
+        if case.lag_m_s_n.is_some() {
+            text += LAMMPS_DASHPOT;
+        }
+        text += LAMMPS_BLOCK;
     }
     text + LAMMPS_RUN
 }
@@ -85,14 +81,16 @@ pair_style  granular
 pair_coeff  * * hertz $(4/3*v_ES) ${E0} tangential linear_nohistory 0 0 damping coeff_restitution
 ";
 
-/// The dashpot on the contact's area needs no memory: it is a force on each ball above the plane z = 0.
+/// The dashpot on the contact's area needs no memory: it is a force on each ball above the plane z = 0. It stands before
+/// the stock block, which it makes a comment.
 const LAMMPS_DASHPOT: &str = "
 # the block below z = 0, for balls of any radius at any velocity; d is the depth, fz not below zero
 variable    d  atom \"(z<radius)*(radius-z)\"
 variable    f  atom \"4/3*v_ES*sqrt(radius)*v_d*sqrt(v_d)-4*v_C*v_ES^2*radius*v_d*vz\"
 variable    fz atom \"(v_f>0)*v_f\"
 fix         block all addforce 0 0 v_fz
-";
+# at V alone, the same by a stock model:
+# ";
 
 const LAMMPS_BLOCK: &str = "fix block all wall/gran granular hertz $(4/3*v_ES) ${E0} tangential linear_nohistory 0 0 damping coeff_restitution zplane 0 NULL
 ";
@@ -111,13 +109,10 @@ pub(super) fn yade(case: &Case) -> String {
         Some(lag) => (lag, 0.0),
         None => (0.0, damping(restitution)),
     };
+    let modulus_pa = case.collision.effective_modulus_pa;
     let numbers = [
         ("V", case.impact.velocity_m_s, "velocity of approach, m/s"),
-        (
-            "E_STAR",
-            case.collision.effective_modulus_pa,
-            "1/E* = sum of (1 - nu^2)/E, Pa",
-        ),
+        ("E_STAR", modulus_pa, "1/E* = sum of (1 - nu^2)/E, Pa"),
         ("R", case.collision.tip_radius_m, "radius of Hertz's law, m"),
         ("M", case.collision.mass_kg, "mass of the motion, kg"),
         ("LAG", lag, "J/(mu c2) of the block, m s/N"),

@@ -60,7 +60,8 @@ enum Format {
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let Arguments { format, output, .. } = arguments;
     let is_table = *format == Format::Table;
-    if !is_table && (arguments.velocities.is_some() || arguments.rows.is_some()) {
+    let (velocities, rows) = (arguments.velocities.as_deref(), arguments.rows);
+    if !is_table && (velocities.is_some() || rows.is_some()) {
         return Err(Failure::input(
             "--velocities and --rows are those of a table: leave them out",
         ));
@@ -75,11 +76,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let text = match format {
         Format::Lammps => codes::lammps(&case),
         Format::Yade => codes::yade(&case),
-        Format::Table => table::table(
-            &case,
-            arguments.velocities.as_deref(),
-            arguments.rows.unwrap_or(41),
-        )?,
+        Format::Table => table::table(&case, velocities, rows.unwrap_or(41))?,
     };
     claimed.write(|part| std::fs::write(part, &text))?;
     for warning in &case.run.warnings {
@@ -95,9 +92,6 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         "notes": case.notes,
     });
     let written = lines([("written", output.display())]);
-    show(
-        arguments.json,
-        &value,
-        format!("{}\n{written}", case.notes.join("\n")),
-    )
+    let text = format!("{}\n{written}", case.notes.join("\n"));
+    show(arguments.json, &value, text)
 }

@@ -1,28 +1,27 @@
 //! `hertzlamb sweep`: many scenes.
 
-mod parts;
+mod merge;
 mod plan;
+mod status;
 
 use crate::arguments::{Kernels, MemoryLimit, Overwrite, check_rows, say_complete};
 use crate::failure::{Failure, check_stdout, lines, say, show};
 use crate::process;
 use crate::progress::Bar;
-use clap::Args;
+use clap::{Args, Subcommand};
 use fault::Fault as _;
 use formats::parts::check_complete;
 use formats::sweep::schema::COUNTED;
 use formats::sweep::{
-    Blocks, JournalError, Kept, Precision, Shard, Spec, SweepError, is_computed, print_csv,
+    Axis, Blocks, JournalError, Kept, Precision, Shard, Spec, SweepError, is_computed, print_csv,
     row_bytes, run_rows, stage_csv, stage_rows,
 };
 use formats::{Existing, Output, OutputError, QUANTITIES};
 use output::{CSV, Fault, Staged, apart, behind, free_disk, is_standard};
-use parts::Action;
 use serde_json::{Value, json};
-use std::io::{BufWriter, Write};
+use std::io::{BufWriter, ErrorKind, Write};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 use tabulator::Progress;
@@ -50,6 +49,14 @@ pub(crate) struct Arguments {
     action: Option<Action>,
     #[command(flatten)]
     run: Run,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Action {
+    /// Says which parts of a sweep a folder has, which are missing and what else lies there.
+    Status(status::Arguments),
+    /// Joins the parts of a sweep: byte by byte the file that one run would have written.
+    Merge(merge::Arguments),
 }
 
 #[derive(Debug, Args)]
@@ -109,7 +116,8 @@ fn range(text: &str) -> Result<Range<usize>, String> {
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let run = &arguments.run;
     match (&arguments.action, &run.sweep, &run.output) {
-        (Some(action), _, _) => parts::run(action),
+        (Some(Action::Status(arguments)), _, _) => status::run(arguments),
+        (Some(Action::Merge(arguments)), _, _) => merge::run(arguments),
         (None, Some(sweep), _) if run.plan => {
             plan::run(sweep, &spec(run, sweep)?, run.shards, run.json)
         }
@@ -121,10 +129,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
 fn compute(arguments: &Run, sweep: &Path, output: &Path) -> Result<(), Failure> {
     let start = Instant::now();
     let mut spec = spec(arguments, sweep)?;
-    let change = "ask for fewer values";
-    arguments
-        .memory
-        .check(spec.memory_bytes(), "the sweep", change)?;
+    let (memory, needed) = (arguments.memory, spec.memory_bytes());
+    memory.check(needed, "the sweep", "ask for fewer values")?;
     match (arguments.shard, &arguments.rows) {
         (Some(shard), _) => spec.select_shard(shard),
         (None, Some(rows)) => spec.select_rows(rows.clone())?,
@@ -137,28 +143,18 @@ fn compute(arguments: &Run, sweep: &Path, output: &Path) -> Result<(), Failure> 
         SweepError::Scene(scene) => scene.in_file(sweep).into(),
         other => failure(other),
     })?;
-    let Some(kept) = kept else {
-        return Err(Failure::work("the sweep was stopped"));
-    };
+    let kept = kept.ok_or_else(|| Failure::work("the sweep was stopped"))?;
     let computing_s = start.elapsed().as_secs_f64();
-    let tally =
-        Tally::of(&spec, &kept).map_err(|fault| OutputError::writing(&outputs.part, fault))?;
+    let tally = Tally::of(&kept).map_err(|fault| OutputError::writing(&outputs.part, fault))?;
     if let Some((row, reason)) = &tally.first {
+        let (failed, rows) = (tally.failed, spec.selected().len());
         say(format!(
-            "warning: {} of {} scenes failed, the first in row {row} (rows count from 0): {reason}",
-            tally.failed, tally.rows
+            "warning: {failed} of {rows} scenes failed, the first in row {row} (rows count from 0): {reason}"
         ));
     }
     outputs.write(&spec, &kept)?;
-    let wall_s = start.elapsed().as_secs_f64();
-    let (value, text) = report(
-        arguments,
-        &spec,
-        &outputs,
-        &tally,
-        [wall_s, computing_s],
-        kept.resumed,
-    );
+    let took_s = [start.elapsed().as_secs_f64(), computing_s];
+    let (value, text) = report(arguments, &spec, &outputs, &tally, took_s, kept.resumed);
     let done = if outputs.print {
         say(text);
         print_rows(&spec, &kept)
@@ -179,10 +175,9 @@ fn report(
     resumed: usize,
 ) -> (Value, String) {
     let [yielding, cracking] = tally.beyond;
-    let (rows, failed) = (tally.rows, tally.failed);
+    let (rows, failed) = (spec.selected().len(), tally.failed);
     let output = outputs.results.path().display().to_string();
     let part = spec.selection.as_ref();
-    let shard = part.and_then(|part| Some(part.shard?.to_string()));
     let lengths = spec.axes.iter().map(|axis| axis.len).collect();
     let mut value = json!({
         "output": output,
@@ -198,52 +193,43 @@ fn report(
         "wall_s": wall_s,
         "computing_s": computing_s,
     });
-    let axes = spec.axes.iter();
-    let axes: Vec<String> = axes
-        .map(|axis| format!("{} ({})", axis.name, axis.len))
-        .collect();
+    let axis = |axis: &Axis| format!("{} ({})", axis.name, axis.len);
+    let axes: Vec<String> = spec.axes.iter().map(axis).collect();
     let mut text = vec![("axes", axes.join(" x "))];
     if let Some(part) = part {
-        let first = part.rows.start;
-        value["first_row"] = first.into();
+        let Range { start, end } = part.rows;
+        value["first_row"] = start.into();
         let mut of = String::new();
-        if let Some(shard) = shard {
+        if let Some(shard) = part.shard {
             of = format!("shard {shard}: ");
-            value["shard"] = shard.into();
+            value["shard"] = shard.to_string().into();
         }
-        let rows = format!("{of}rows {first}:{} of {}", first + rows, spec.rows());
-        text.push(("part", rows));
+        text.push(("part", format!("{of}rows {start}:{end} of {}", spec.rows())));
     }
-    text.push((
-        "scenes",
-        format!("{rows}, {failed} failed, {resumed} resumed"),
-    ));
+    let scenes = format!("{rows}, {failed} failed, {resumed} resumed");
+    text.push(("scenes", scenes));
     if yielding + cracking > 0 {
-        text.push(("not elastic", format!(
+        let beyond = format!(
             "{yielding} yield (yield_onset above 1), {cracking} may crack (cone_crack_onset above 1)"
-        )));
+        );
+        text.push(("not elastic", beyond));
     }
-    if let Some(count) = tally.looked_up {
+    if spec.has_probes() {
+        let count = tally.looked_up;
         value["looked_up"] = count.into();
         let fields = format!("{count} of {rows} scenes looked up, the others computed");
         text.push(("fields", fields));
     }
-    text.push((
-        "time",
-        format!("{wall_s:.2} s, {computing_s:.2} s of it computing"),
-    ));
-    text.push(("written", output));
+    let time = format!("{wall_s:.2} s, {computing_s:.2} s of it computing");
+    text.extend([("time", time), ("written", output)]);
     (value, lines(text))
 }
 
 /// The sweep, and what of its results is written.
 fn spec(arguments: &Run, sweep: &Path) -> Result<Spec, Failure> {
     let spec = Spec::from_file(sweep).map_err(|error| {
-        let hint = match error.culprit().key {
-            Some("scene") => "; one scene is computed by `hertzlamb impact`",
-            _ => "",
-        };
-        Failure::from(error).hint(hint)
+        let is_scene = error.culprit().key == Some("scene");
+        Failure::from(error).hint_if(is_scene, "; one scene is computed by `hertzlamb impact`")
     })?;
     let mut spec = arguments.kernels.with_fields(spec)?;
     if let Some(names) = &arguments.columns {
@@ -257,21 +243,16 @@ fn spec(arguments: &Run, sweep: &Path) -> Result<Spec, Failure> {
 
 /// Computes the rows; what is done is kept from moment to moment.
 fn rows(overwrite: Overwrite, spec: &Spec, outputs: &Outputs) -> Result<Option<Kept>, SweepError> {
-    let kept = Arc::new(AtomicUsize::new(0));
-    let rows = spec.selected().len();
-    let (count, place) = (Arc::clone(&kept), outputs.part.clone());
+    static KEPT: AtomicUsize = AtomicUsize::new(0);
+    let (rows, place) = (spec.selected().len(), outputs.part.clone());
     process::say_then(move || {
-        format!(
-            "{} of {rows} scenes are kept in {}; the same command goes on with them",
-            count.load(Ordering::Relaxed),
-            place.display()
-        )
+        let (kept, place) = (KEPT.load(Ordering::Relaxed), place.display());
+        format!("{kept} of {rows} scenes are kept in {place}; the same command goes on with them")
     });
     let progress = Bar::new();
     progress.total("scenes", rows as u64);
-    let existing = overwrite.existing();
-    run_rows(spec, &outputs.part, existing, |rows| {
-        kept.store(rows, Ordering::Relaxed);
+    run_rows(spec, &outputs.part, overwrite.existing(), |rows| {
+        KEPT.store(rows, Ordering::Relaxed);
         progress.set(rows as u64);
         true
     })
@@ -279,14 +260,13 @@ fn rows(overwrite: Overwrite, spec: &Spec, outputs: &Outputs) -> Result<Option<K
 
 /// A sweep that could not be run or joined, with what to do.
 fn failure(error: SweepError) -> Failure {
-    let hint = match error {
-        SweepError::Journal(JournalError::Other(..)) => {
-            "; give --force to drop it, or another output to keep it"
-        }
-        SweepError::Missing(..) => "; hertzlamb sweep status lists them",
-        _ => "",
-    };
-    Failure::from(error).hint(hint)
+    let other = matches!(error, SweepError::Journal(JournalError::Other(..)));
+    let missing = matches!(error, SweepError::Missing(..));
+    let drop = "; give --force to drop it, or another output to keep it";
+    let list = "; hertzlamb sweep status lists them";
+    Failure::from(error)
+        .hint_if(other, drop)
+        .hint_if(missing, list)
 }
 
 /// Where a sweep goes, claimed before any work.
@@ -321,14 +301,11 @@ impl Outputs {
         let mut part = behind(output)?.into_os_string();
         part.push(".part");
         let part = PathBuf::from(part);
-        let mut outputs = vec![output, &part];
-        if let Some(csv) = csv {
-            CSV.check(csv)?;
-            outputs.push(csv);
-        }
+        csv.map_or(Ok(()), |csv| CSV.check(csv))?;
+        let outputs: Vec<&Path> = [output, &part].into_iter().chain(csv).collect();
         let mut inputs = vec![("the sweep", sweep.to_owned())];
-        inputs.extend(spec.inputs.iter().cloned());
-        inputs.extend(arguments.kernels.inputs());
+        inputs.extend_from_slice(&spec.inputs);
+        inputs.extend(arguments.kernels.input());
         apart(&outputs, &inputs)?;
         let claim = |path: &Path| Output::claim(path, Existing::KeepUnlessSame);
         let (results, csv) = (claim(output)?, csv.map(claim).transpose()?);
@@ -367,8 +344,7 @@ impl Outputs {
         let csv = self.csv.as_ref();
         let csv = csv.map(|csv| stage_csv(csv, spec, blocks)).transpose()?;
         results.commit()?;
-        csv.map_or(Ok(()), Staged::commit)?;
-        Ok(())
+        Ok(csv.map_or(Ok(()), Staged::commit)?)
     }
 }
 
@@ -392,9 +368,7 @@ fn check_disk(spec: &Spec, part: &Path) -> Result<(), Failure> {
 fn print_rows(spec: &Spec, blocks: &impl Blocks) -> Result<(), Failure> {
     let mut out = BufWriter::new(std::io::stdout().lock());
     match print_csv(&mut out, spec, blocks).and_then(|()| out.flush()) {
-        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
-            Err(Failure::unprintable(error))
-        }
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(Failure::unprintable(error)),
         Ok(()) | Err(_) => Ok(()),
     }
 }
@@ -402,32 +376,25 @@ fn print_rows(spec: &Spec, blocks: &impl Blocks) -> Result<(), Failure> {
 /// What is counted over all rows.
 #[derive(Debug, Default)]
 struct Tally {
-    rows: usize,
     failed: usize,
     first: Option<(usize, String)>,
     /// Scenes in which a ratio to what the bodies bear is above 1: those that yield, and those that may crack.
     beyond: [usize; 2],
-    /// Rows whose fields were looked up, of a sweep with probes.
-    looked_up: Option<usize>,
+    /// Rows whose fields were looked up.
+    looked_up: usize,
 }
 
 impl Tally {
-    fn of(spec: &Spec, rows: &impl Blocks) -> Result<Self, Fault> {
-        let mut tally = Self {
-            looked_up: spec.has_probes().then_some(0),
-            ..Self::default()
-        };
+    fn of(rows: &impl Blocks) -> Result<Self, Fault> {
+        let mut tally = Self::default();
         rows.each(&mut |block| {
-            tally.rows += block.len();
             tally.failed += block.failures.len();
             let first = || block.failures.first().cloned();
             tally.first = tally.first.take().or_else(first);
+            tally.looked_up += block.looked_up();
             for (count, name) in tally.beyond.iter_mut().zip(COUNTED) {
                 let place = QUANTITIES.iter().position(|quantity| quantity.name == name);
                 *count += place.map_or(0, |k| block.rows().filter(|row| row[k] > 1.0).count());
-            }
-            if let Some(count) = &mut tally.looked_up {
-                *count += block.looked_up();
             }
             Ok(())
         })?;

@@ -40,7 +40,6 @@ pub(crate) fn run(
     let bytes_per_shard = sealed(rows_per_shard * bytes);
     let disk_bytes_per_shard = bytes_per_shard + rows_per_shard * kept;
     let seconds_per_shard = rows_per_shard as f64 / rows_per_second;
-    let sha256 = spec.sha256.clone();
     let value = json!({
         "rows": rows,
         "shards": count,
@@ -53,37 +52,23 @@ pub(crate) fn run(
         "rows_per_second": rows_per_second,
         "threads": threads,
         "measured_rows": measured_rows,
-        "sweep_sha256": sha256,
+        "sweep_sha256": spec.sha256,
         "columns": column_names(spec),
     });
-    let gigabytes = |bytes: usize| format!("{:.3} GB", 1e-9 * bytes as f64);
+    let [each, all, disk] = [bytes_per_shard, all_bytes, disk_bytes_per_shard]
+        .map(|bytes| format!("{:.3} GB", 1e-9 * bytes as f64));
+    let shards =
+        format!("{count} of up to {rows_per_shard} rows, {each} and {seconds_per_shard:.3} s each");
+    let rate = format!(
+        "{rows_per_second:.0} rows a second on {threads} threads, from {measured_rows} rows"
+    );
     let text = lines([
-        ("sweep", sha256),
+        ("sweep", spec.sha256.clone()),
         ("rows", rows.to_string()),
-        (
-            "shards",
-            format!(
-                "{count} of up to {rows_per_shard} rows, {} and {seconds_per_shard:.3} s each",
-                gigabytes(bytes_per_shard)
-            ),
-        ),
-        (
-            "in all",
-            format!("{}, {seconds:.3} s on this machine", gigabytes(all_bytes)),
-        ),
-        (
-            "rate",
-            format!(
-                "{rows_per_second:.0} rows a second on {threads} threads, from {measured_rows} rows"
-            ),
-        ),
-        (
-            "disk",
-            format!(
-                "{} a shard while it is written",
-                gigabytes(disk_bytes_per_shard)
-            ),
-        ),
+        ("shards", shards),
+        ("in all", format!("{all}, {seconds:.3} s on this machine")),
+        ("rate", rate),
+        ("disk", format!("{disk} a shard while it is written")),
     ]);
     show(json, &value, text)
 }
@@ -96,9 +81,8 @@ fn measure(spec: &Spec, threads: usize) -> Result<(usize, f64), formats::SceneEr
         let step = (spec.rows() / count).max(1);
         let (began, spent_s) = (Instant::now(), processor_s());
         compute_rows(spec, 0, step, count, |_, _| true)?;
-        let spent_s = processor_s()
-            .zip(spent_s)
-            .map(|(after, before)| (after - before) / threads as f64);
+        let both = processor_s().zip(spent_s);
+        let spent_s = both.map(|(after, before)| (after - before) / threads as f64);
         let took_s = spent_s.unwrap_or(began.elapsed().as_secs_f64()).max(1e-6);
         let more = (count as f64 * (MEASURED_S / took_s).min(16.0)) as usize;
         if took_s > MEASURED_S / 2.0 || count >= spec.rows().min(1 << 20) {
