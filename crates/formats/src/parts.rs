@@ -84,8 +84,8 @@ impl Parts {
     /// Into how many shards the sweep was divided, where the parts agree on it.
     #[must_use]
     pub fn shards(&self) -> Option<usize> {
-        let shards = self.parts.iter().map(|part| part.selection.shard);
-        let mut counts = shards.map(|shard| shard.map(|s| s.count));
+        let parts = self.parts.iter();
+        let mut counts = parts.map(|part| Some(part.selection.shard?.count));
         let first = counts.next()??;
         counts.all(|count| count == Some(first)).then_some(first)
     }
@@ -221,12 +221,10 @@ fn seen_from(file: &Path, other: &Path) -> Option<String> {
         folder(file).canonicalize().ok()?,
         other.canonicalize().ok()?,
     );
-    let (from, to): (Vec<_>, Vec<_>) =
-        (folder.components().collect(), other.components().collect());
-    let common = from.iter().zip(&to).take_while(|(a, b)| a == b).count();
-    let up = from[common..].iter().map(|_| Path::new("..").as_os_str());
-    let down = to[common..].iter().map(|part| part.as_os_str());
-    let path: PathBuf = up.chain(down).collect();
+    let common = folder.ancestors().find(|above| other.starts_with(above))?;
+    let up = folder.strip_prefix(common).ok()?.components();
+    let up = up.map(|_| Path::new(".."));
+    let path: PathBuf = up.chain(other.strip_prefix(common).ok()).collect();
     path.to_str().map(str::to_owned)
 }
 
@@ -284,10 +282,10 @@ fn files(folder: &Path, named: impl Fn(&Path) -> bool) -> Result<Vec<PathBuf>, S
 fn most(parts: &[Part], unfinished: &[Unfinished]) -> Option<(String, usize)> {
     let of_parts = parts.iter().map(|part| (&part.sha256, part.sweep_rows));
     let of_runs = unfinished.iter().map(|run| (&run.sha256, run.sweep_rows));
-    let mut of: Vec<_> = of_parts.collect();
-    if of.is_empty() {
-        of = of_runs.collect();
-    }
+    let mut of: Vec<_> = match parts {
+        [] => of_runs.collect(),
+        _ => of_parts.collect(),
+    };
     of.sort_unstable();
     let same = of
         .chunk_by(|a, b| a == b)

@@ -15,7 +15,7 @@ pub struct Fields {
     /// Places among the known ones; ascending.
     pub(crate) places: Vec<usize>,
     /// All that could be written.
-    known: Arc<[Described]>,
+    pub(super) known: Arc<[Described]>,
     /// How exactly.
     pub precision: Precision,
 }
@@ -49,19 +49,9 @@ impl Fields {
         }
     }
 
-    /// The result at a place.
-    pub(crate) fn named(&self, place: usize) -> &Described {
-        &self.known[place]
-    }
-
     /// Numbers of a row, written or not: the results of a contact, and behind them what probes bring.
     pub(crate) fn width(&self) -> usize {
         self.known.len()
-    }
-
-    /// Whether probes bring some of them.
-    pub(crate) fn has_probes(&self) -> bool {
-        self.width() > QUANTITIES.len()
     }
 
     /// Those of these names alone.
@@ -92,7 +82,7 @@ impl Fields {
 
     /// The results, with their places.
     pub(crate) fn quantities(&self) -> impl Iterator<Item = (usize, &Described)> {
-        self.places.iter().map(|&place| (place, self.named(place)))
+        self.places.iter().map(|&place| (place, &self.known[place]))
     }
 }
 

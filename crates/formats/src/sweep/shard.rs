@@ -1,6 +1,7 @@
 //! Some rows of a sweep.
 
 use super::fields::Fields;
+use crate::quantities::QUANTITIES;
 use ledger::Shard;
 use std::ops::Range;
 use std::path::PathBuf;
@@ -11,7 +12,8 @@ pub const BLOCK: usize = 32_768;
 /// Rows that shards do not divide: with probes one may take seconds.
 #[must_use]
 pub fn grain(fields: &Fields) -> usize {
-    if fields.has_probes() { 1 } else { BLOCK }
+    let has_probes = fields.width() > QUANTITIES.len();
+    if has_probes { 1 } else { BLOCK }
 }
 
 /// Rows that are computed into one file.

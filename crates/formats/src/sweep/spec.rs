@@ -185,6 +185,15 @@ impl Spec {
         rows(&self.axes).unwrap_or(0)
     }
 
+    /// The dimensions of what is asked for: the axes, or the one of a part.
+    #[must_use]
+    pub fn shape(&self) -> Vec<usize> {
+        match &self.selection {
+            Some(selection) => vec![selection.rows.len()],
+            None => self.axes.iter().map(|axis| axis.len).collect(),
+        }
+    }
+
     /// Asks for the rows of a shard alone.
     pub fn select_shard(&mut self, shard: Shard) {
         let rows = shard.range(self.rows(), grain(&self.fields));

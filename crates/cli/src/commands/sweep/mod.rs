@@ -177,12 +177,10 @@ fn report(
     let [yielding, cracking] = tally.beyond;
     let (rows, failed) = (spec.selected().len(), tally.failed);
     let output = outputs.results.path().display().to_string();
-    let part = spec.selection.as_ref();
-    let lengths = spec.axes.iter().map(|axis| axis.len).collect();
     let mut value = json!({
         "output": output,
         "csv": arguments.csv.as_ref().map(|path| path.display().to_string()),
-        "shape": part.map_or(lengths, |part| vec![part.rows.len()]),
+        "shape": spec.shape(),
         "rows": rows,
         "sweep_rows": spec.rows(),
         "sweep_sha256": spec.sha256,
@@ -196,7 +194,7 @@ fn report(
     let axis = |axis: &Axis| format!("{} ({})", axis.name, axis.len);
     let axes: Vec<String> = spec.axes.iter().map(axis).collect();
     let mut text = vec![("axes", axes.join(" x "))];
-    if let Some(part) = part {
+    if let Some(part) = &spec.selection {
         let Range { start, end } = part.rows;
         value["first_row"] = start.into();
         let mut of = String::new();

@@ -112,7 +112,7 @@ impl What<'_> {
                 match spec.fields.precision {
                     Precision::Double => Cells::Double(numbers.collect()),
                     Precision::Single => {
-                        let name = &spec.fields.named(k).name;
+                        let name = &spec.fields.known[k].name;
                         let rounded = numbers.zip(rows).map(|(x, row)| single(x, row, name));
                         Cells::Single(rounded.collect::<Result<_, _>>()?)
                     }

@@ -99,16 +99,13 @@ fn begin<'a>(
 ) -> Result<Vec<Reserved<'a>>, hdf5::Error> {
     write_root(file, spec)?;
     let group = file.create_group(schema::RESULTS)?;
-    let (shape, words, mut scales, mut beside);
-    if let Some(selection) = &spec.selection {
-        shape = vec![selection.rows.len()];
-        words = Some(file.create_group(part::WORDS)?);
-        (scales, beside) = (Vec::new(), Vec::new());
-    } else {
-        shape = spec.axes.iter().map(|axis| axis.len).collect();
-        words = None;
-        (scales, beside) = write_scales(&group, &spec.axes)?;
-    }
+    let words = spec.selection.as_ref();
+    let words = words.map(|_| file.create_group(part::WORDS)).transpose()?;
+    let (mut scales, mut beside) = match words {
+        Some(_) => (Vec::new(), Vec::new()),
+        None => write_scales(&group, &spec.axes)?,
+    };
+    let shape = spec.shape();
     let mut reserved = Vec::new();
     for Column {
         mut described,
@@ -116,7 +113,7 @@ fn begin<'a>(
     } in columns(spec)
     {
         let is_key = matches!(what, What::Key { .. });
-        if spec.selection.is_none() && (is_key || matches!(what, What::Row)) {
+        if words.is_none() && (is_key || matches!(what, What::Row)) {
             continue;
         }
         let name = described.name.clone();
