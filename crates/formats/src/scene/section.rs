@@ -71,7 +71,7 @@ impl<'a> Section<'a> {
     }
 
     /// What a key holds, where it is there; otherwise it is not what was expected.
-    fn typed<T>(
+    pub(crate) fn typed<T>(
         &self,
         key: &str,
         expected: &'static str,

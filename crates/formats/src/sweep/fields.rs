@@ -109,11 +109,8 @@ pub(super) fn columns_of_probes(scene: &Table) -> Result<Vec<Described>, SceneEr
     let fields: Vec<_> = labels_of(&quantities).collect();
     let count = 1 + 3 * probes * fields.len();
     if count > MOST {
-        return Err(SceneError::out_of_range(
-            "the number of columns of the probes",
-            count as f64,
-            "[0, 2000]",
-        ));
+        let key = "the number of columns of the probes";
+        return Err(SceneError::out_of_range(key, count as f64, "[0, 2000]"));
     }
     let mut columns = vec![TABLE.into()];
     for probe in 1..=probes {

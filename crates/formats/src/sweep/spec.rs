@@ -95,18 +95,18 @@ impl Spec {
         in_range(&axes)?;
         let mut resolved = table.clone();
         resolved.insert("scene".into(), Value::Table(scene.clone()));
-        let mut spec = Self::new(scene, &directory, axes, resolved.to_string(), &[])?;
+        let mut spec = Self::new(scene, &directory, axes, resolved.to_string(), true)?;
         spec.inputs.extend(file);
         Ok(spec)
     }
 
-    /// One of a contact alone, with what makes it another one than its text says.
+    /// One of a contact alone; whether its text spells out the values of its axes.
     fn new(
         scene: Table,
         directory: &Path,
         axes: Vec<Axis>,
         resolved: String,
-        unspelled: &[Axis],
+        is_spelled: bool,
     ) -> Result<Self, SceneError> {
         let (mut inputs, mut libraries) = (Vec::new(), Libraries::new());
         for name in material_files(&scene, &axes) {
@@ -117,6 +117,7 @@ impl Spec {
             libraries.insert(name.to_owned(), (library, text));
             inputs.push(("a materials file", path));
         }
+        let unspelled = if is_spelled { &[] } else { &axes[..] };
         Ok(Self {
             sha256: identity(&resolved, &libraries, unspelled),
             fields: own_fields(&scene, &axes, Vec::new()),
@@ -158,8 +159,7 @@ impl Spec {
     ) -> Result<Self, SceneError> {
         let axes = vec![together(columns)?];
         check(&axes)?;
-        let (unspelled, resolved) = (axes.clone(), scene.to_string());
-        Self::new(scene.clone(), directory, axes, resolved, &unspelled)
+        Self::new(scene.clone(), directory, axes, scene.to_string(), false)
     }
 
     /// The materials of a scene.

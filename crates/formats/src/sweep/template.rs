@@ -41,21 +41,21 @@ const READY: usize = 4096;
 impl<'a> Templates<'a> {
     /// Parses the first template, so that a misspelt key is an error of the sweep and not of each row.
     pub(crate) fn new(spec: &'a Spec) -> Result<Self, SceneError> {
-        let mut templates = Self {
-            spec,
-            fast: Vec::new(),
-            slow: Vec::new(),
-            ready: Vec::new(),
-        };
+        let (mut fast, mut slow) = (Vec::new(), Vec::new());
         for (stride, axis) in spec.strides() {
+            let before = fast.len();
             let columns = axis.columns.iter();
-            let before = templates.fast.len();
-            let found = columns.filter_map(|column| fast(spec, stride, column));
-            templates.fast.extend(found);
-            if templates.fast.len() - before < axis.columns.len() {
-                templates.slow.push((stride, axis));
+            fast.extend(columns.filter_map(|column| as_numbers(spec, stride, column)));
+            if fast.len() - before < axis.columns.len() {
+                slow.push((stride, axis));
             }
         }
+        let mut templates = Self {
+            spec,
+            fast,
+            slow,
+            ready: Vec::new(),
+        };
         match templates.parse(0) {
             Ok(scene) => contact_only(&scene, spec.kernels.is_some())?,
             // a row that fails
@@ -81,12 +81,11 @@ impl<'a> Templates<'a> {
             let rows = if lists.is_empty() { 0 } else { axis.len };
             for i in 0..rows {
                 let words: Vec<&str> = lists.iter().map(|texts| texts[i].as_str()).collect();
-                if !known.insert(words) {
-                    continue;
-                }
-                match self.parse(i * stride) {
-                    Err(error) if error.is_of_words() => return Err(error),
-                    Ok(_) | Err(_) => {}
+                if known.insert(words)
+                    && let Err(error) = self.parse(i * stride)
+                    && error.is_of_words()
+                {
+                    return Err(error);
                 }
             }
         }
@@ -180,7 +179,7 @@ fn contacts_only(found: &str) -> SceneError {
 }
 
 /// The column as plain numbers, if that is what it is.
-fn fast<'a>(spec: &'a Spec, stride: usize, column: &'a Column) -> Option<Fast<'a>> {
+fn as_numbers<'a>(spec: &'a Spec, stride: usize, column: &'a Column) -> Option<Fast<'a>> {
     let key = keys_of(&column.section).find(|key| key.name == column.key)?;
     let (set, stand_in, range) = (key.set?, key.stand_in?, key.range?);
     let needs_ball = matches!(set, Set::Ball(_)) && column.section == "striker";
