@@ -21,7 +21,7 @@ impl Folder {
     /// writes into it.
     pub fn claim(path: &Path, existing: Existing) -> Result<Self, OutputError> {
         if path.exists() && !path.is_dir() {
-            return Err(OutputError::place(path, "it is not a folder".to_owned()));
+            return Err(OutputError::place(path, "it is not a folder"));
         }
         std::fs::create_dir_all(path).map_err(|error| OutputError::place(path, error))?;
         // a folder that takes no files is found now, not after minutes

@@ -5,7 +5,7 @@ use crate::error::SceneError;
 use crate::quantities::Described;
 use crate::results::schema::{
     ARRIVALS, ENERGIES, ENERGY, ERROR_SUFFIX, MAP, MAP_SCALES, PEAK_SUFFIXES, PLACES, PROBES,
-    SCENE_SHA256, SERIES,
+    SERIES,
 };
 use crate::scene::bodies_of;
 use crate::scene::section::{as_number, parse};
@@ -17,13 +17,11 @@ use toml::{Table, Value};
 /// An open results file with its time series; probes and section are read when they are asked for.
 #[derive(Debug, Clone)]
 pub struct StoredImpact {
-    stored: Stored,
+    pub(crate) stored: Stored,
     /// Contact model.
     pub model: String,
     /// Static share: `full` or `dynamic`.
     pub static_share: String,
-    /// Warnings, one a line.
-    pub warnings: String,
     /// The half-space.
     pub target: HalfSpace,
     /// The striker; none where the force was given.
@@ -49,24 +47,22 @@ impl StoredImpact {
             return Err(stored.damaged("it has fewer than 2 samples"));
         }
         let column = |i: usize| stored.numbers(SERIES[i].0, &[time_s.len()]);
-        let striker = match stored.shape(SERIES[2].0) {
-            Some(_) => Some(StrikerSeries {
+        let striker = stored.dataset(SERIES[2].0).map(|_| {
+            Ok::<_, SceneError>(StrikerSeries {
                 displacement_m: column(2)?,
                 velocity_m_s: column(3)?,
-            }),
-            None => None,
-        };
+            })
+        });
         let series = Series {
             force_n: column(1)?,
             deflection_m: column(4)?,
-            striker,
+            striker: striker.transpose()?,
             energy: energy_of(&stored, time_s.len())?,
             time_s,
         };
         Ok(Self {
             model: stored.text("model")?,
             static_share: stored.text("static_share")?,
-            warnings: stored.text("warnings")?,
             target,
             strike,
             scene,
@@ -81,20 +77,6 @@ impl StoredImpact {
         &self.stored.path
     }
 
-    /// Which scene it is of, whatever the kernels; nothing in files of versions before 1.7.
-    #[must_use]
-    pub fn scene_sha256(&self) -> Option<String> {
-        self.stored.text(SCENE_SHA256).ok()
-    }
-
-    /// The kernels of its fields, `none` without any, and the id of their table, empty without one.
-    ///
-    /// # Errors
-    /// [`SceneError`] for a file that is not as it was written.
-    pub fn kernels(&self) -> Result<(String, String), SceneError> {
-        Ok((self.stored.text("kernel")?, self.stored.text("table_id")?))
-    }
-
     /// A scalar result by its name, where the file has it.
     #[must_use]
     pub fn number(&self, name: &str) -> Option<f64> {
@@ -107,17 +89,18 @@ impl StoredImpact {
     /// Lists are left out: the probes, the points of a section.
     #[must_use]
     pub fn keys(&self) -> Vec<(String, Value)> {
-        let mut found = Vec::new();
-        for (section, keys) in &self.scene {
-            for (key, value) in keys.as_table().into_iter().flatten() {
+        let sections = self.scene.iter();
+        let keys = sections.flat_map(|(section, keys)| {
+            let keys = keys.as_table().into_iter().flatten();
+            keys.filter_map(move |(key, value)| {
                 let value = match value {
-                    Value::String(_) => Some(value.clone()),
-                    _ => as_number(value).map(Value::Float),
+                    Value::String(_) => value.clone(),
+                    _ => Value::Float(as_number(value)?),
                 };
-                found.extend(value.map(|value| (format!("{section}.{key}"), value)));
-            }
-        }
-        found
+                Some((format!("{section}.{key}"), value))
+            })
+        });
+        keys.collect()
     }
 
     /// The probes; none for a scene without.
@@ -174,7 +157,7 @@ fn energy_of(stored: &Stored, samples: usize) -> Result<Option<EnergySeries>, Sc
     }
     let path = |i: usize| format!("{ENERGY}/{}", ENERGIES[i].0);
     let column = |i: usize| stored.numbers(&path(i), &[samples]);
-    let existing = |i: usize| stored.shape(&path(i)).map(|_| column(i)).transpose();
+    let existing = |i: usize| stored.dataset(&path(i)).map(|_| column(i)).transpose();
     Ok(Some(EnergySeries {
         kinetic_j: existing(0)?,
         work_j: existing(1)?,

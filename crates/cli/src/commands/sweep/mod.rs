@@ -176,7 +176,7 @@ fn report(
 ) -> (Value, String) {
     let [yielding, cracking] = tally.beyond;
     let (rows, failed) = (tally.rows, tally.failed);
-    let output = outputs.results.path().display().to_string();
+    let output = outputs.results.path.display().to_string();
     let part = outputs.selection.as_ref();
     let shard = part.and_then(|part| Some(part.shard?.to_string()));
     let lengths = spec.axes.iter().map(|axis| axis.len).collect();
@@ -235,7 +235,7 @@ fn report(
 /// The sweep, and what of its results is written.
 fn spec(arguments: &Run, sweep: &Path) -> Result<Spec, Failure> {
     let spec = Spec::from_file(sweep).map_err(|error| {
-        let hint = match error.culprit().key {
+        let hint = match error.culprit().key.as_deref() {
             Some("scene") => "; one scene is computed by `hertzlamb impact`",
             _ => "",
         };
@@ -347,15 +347,15 @@ impl Outputs {
         let some = selection.as_ref().map(|some| some.rows.clone());
         let rows = some.unwrap_or(0..spec.rows());
         let finish = wanted == Existing::Keep && is_computed(spec, rows.clone(), &part);
-        if arguments.skip_complete && !finish && results.real().exists() {
+        if arguments.skip_complete && !finish && results.real.exists() {
             check_complete(output, spec, selection.as_ref()).map_err(Failure::work)?;
-            return match csv.filter(|csv| !csv.real().exists()) {
+            return match csv.filter(|csv| !csv.real.exists()) {
                 None if !print => Ok(None),
                 None => Err(Failure::work("--skip-complete has no rows for --csv -")),
                 Some(csv) => Err(Failure::work(format!(
                     "{} is complete, but {} is not there; give --force to compute both",
                     output.display(),
-                    csv.path().display()
+                    csv.path.display()
                 ))),
             };
         }

@@ -205,11 +205,11 @@ fn merge(
     let claimed = overwrite.claim(output, ROWS, &[])?;
     let mut parts = Parts::in_folder(folder, None).map_err(failure)?;
     // with --force the output itself may be a merged sweep of before
-    let own = |path: &Path| path.canonicalize().ok() == claimed.real().canonicalize().ok();
+    let own = |path: &Path| path.canonicalize().ok() == claimed.real.canonicalize().ok();
     if let Some(part) = parts
         .parts
         .iter()
-        .find(|part| claimed.real().exists() && own(&part.path))
+        .find(|part| claimed.real.exists() && own(&part.path))
     {
         return Err(Failure::input(format!(
             "{} is a part that this command reads: give the output another name",
@@ -218,7 +218,7 @@ fn merge(
     }
     parts
         .foreign
-        .retain(|(path, _)| !own(path) || !claimed.real().exists());
+        .retain(|(path, _)| !own(path) || !claimed.real.exists());
     let staged = parts.merge(&claimed, refer);
     staged.map_err(failure)?.commit()?;
     let empty = parts
