@@ -4,7 +4,7 @@
 use crate::place::{beside, folder};
 use std::collections::BTreeSet;
 use std::fs::{File, TryLockError};
-use std::hash::{BuildHasher, Hasher};
+use std::hash::{BuildHasher, RandomState};
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -96,9 +96,7 @@ pub(crate) fn sweep(path: &Path) {
 
 /// A number that differs from call to call and from process to process.
 fn random() -> u64 {
-    let mut hasher = std::hash::RandomState::new().build_hasher();
-    hasher.write_u32(std::process::id());
-    hasher.finish()
+    RandomState::new().hash_one(std::process::id())
 }
 
 /// The lock of a name, held until it is dropped: an advisory lock on `.NAME.lock`, which is removed with it.

@@ -42,7 +42,7 @@ pub fn parse_materials(text: &str) -> Result<Library, SceneError> {
             .text("source")?
             .ok_or_else(|| section.missing("source", "say where the numbers come from"))?;
         Ok(Material {
-            name: section.name().to_owned(),
+            name: section.name.to_owned(),
             group: section.text("group")?.unwrap_or("other").to_owned(),
             source: source.to_owned(),
             ..elastic(&section, None)?
@@ -89,7 +89,7 @@ fn elastic(section: &Section<'_>, base: Option<&Material>) -> Result<Material, S
         match speeds.map(|found| found[i]) {
             Some((value, _)) if section.value(key).is_none() => *own = value,
             Some((value, size)) if (*own - value).abs() > ROUNDING * size => {
-                let (name, by) = (section.name(), "longitudinal_speed_m_s and shear_speed_m_s");
+                let (name, by) = (section.name, "longitudinal_speed_m_s and shear_speed_m_s");
                 let sentence = format!(
                     "[{name}] gives {quantity} twice: {own} from {key} and {value} from {by}; leave one pair out"
                 );

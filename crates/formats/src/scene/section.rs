@@ -14,7 +14,7 @@ use toml::{Table, Value};
 /// One section of a scene, or its root.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Section<'a> {
-    name: &'a str,
+    pub(crate) name: &'a str,
     table: &'a Table,
 }
 
@@ -25,10 +25,6 @@ impl<'a> Section<'a> {
 
     pub(crate) fn of(name: &'a str, table: &'a Table) -> Self {
         Self { name, table }
-    }
-
-    pub(crate) fn name(&self) -> &'a str {
-        self.name
     }
 
     pub(crate) fn key(&self, key: &str) -> String {

@@ -109,18 +109,14 @@ impl StoredPart {
                 let key = &column.described.name;
                 let path = format!("{RESULTS}/{key}");
                 let wanted = column.what.cells(spec, &block, some.clone());
-                let same = match wanted.map_err(|fault| stored.damaged(fault.reason))? {
-                    Cells::Words(wanted) => {
-                        let words = stored.texts(&format!("{}/{key}", part::WORDS))?;
-                        let found = stored.some::<u32>(&path, &length, some.clone())?;
-                        column.what.words() == Some(&words) && found == wanted
+                let wanted = wanted.map_err(|fault| stored.damaged(fault.reason))?;
+                let same = match column.what.words() {
+                    Some(words) => {
+                        let known = stored.texts(&format!("{}/{key}", part::WORDS))?;
+                        let found = stored.some(&path, &length, some.clone())?;
+                        known == *words && wanted == Cells::Words(found)
                     }
-                    Cells::Double(wanted) => {
-                        wanted == stored.some::<f64>(&path, &length, some.clone())?
-                    }
-                    Cells::Whole(_) | Cells::Single(_) | Cells::Models(_) | Cells::Reasons(_) => {
-                        false
-                    }
+                    None => wanted == Cells::Double(stored.some(&path, &length, some.clone())?),
                 };
                 if !same {
                     let what = format!("{key} has other values than its sweep says");

@@ -45,7 +45,7 @@ impl Drawn {
                 let name = section.key(key);
                 keys.push((stream(seed, &name), Distribution::read(&inner)?));
                 names.push(name);
-                places.push((section.name().to_owned(), key.to_owned()));
+                places.push((section.name.to_owned(), key.to_owned()));
             }
         }
         let draws = Arc::new(Draws {

@@ -351,7 +351,7 @@ fn columns(section: &Section<'_>, most: Option<usize>) -> Result<Vec<Column>, Sc
                 return Err(too_many(rows));
             }
             found.push(Column {
-                section: keys.name().to_owned(),
+                section: keys.name.to_owned(),
                 key: key.to_owned(),
                 values,
             });
