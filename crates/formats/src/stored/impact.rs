@@ -47,16 +47,17 @@ impl StoredImpact {
             return Err(stored.damaged("it has fewer than 2 samples"));
         }
         let column = |i: usize| stored.numbers(SERIES[i].0, &[time_s.len()]);
-        let striker = stored.dataset(SERIES[2].0).map(|_| {
-            Ok::<_, SceneError>(StrikerSeries {
+        let striker = match stored.dataset(SERIES[2].0) {
+            Some(_) => Some(StrikerSeries {
                 displacement_m: column(2)?,
                 velocity_m_s: column(3)?,
-            })
-        });
+            }),
+            None => None,
+        };
         let series = Series {
             force_n: column(1)?,
             deflection_m: column(4)?,
-            striker: striker.transpose()?,
+            striker,
             energy: energy_of(&stored, time_s.len())?,
             time_s,
         };
@@ -89,18 +90,17 @@ impl StoredImpact {
     /// Lists are left out: the probes, the points of a section.
     #[must_use]
     pub fn keys(&self) -> Vec<(String, Value)> {
-        let sections = self.scene.iter();
-        let keys = sections.flat_map(|(section, keys)| {
-            let keys = keys.as_table().into_iter().flatten();
-            keys.filter_map(move |(key, value)| {
+        let mut found = Vec::new();
+        for (section, keys) in &self.scene {
+            for (key, value) in keys.as_table().into_iter().flatten() {
                 let value = match value {
-                    Value::String(_) => value.clone(),
-                    _ => Value::Float(as_number(value)?),
+                    Value::String(_) => Some(value.clone()),
+                    _ => as_number(value).map(Value::Float),
                 };
-                Some((format!("{section}.{key}"), value))
-            })
-        });
-        keys.collect()
+                found.extend(value.map(|value| (format!("{section}.{key}"), value)));
+            }
+        }
+        found
     }
 
     /// The probes; none for a scene without.
