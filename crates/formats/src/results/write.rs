@@ -112,10 +112,11 @@ fn write_probes(
         let samples: Vec<f64> = values.iter().flatten().copied().collect();
         let dataset = numbers(&group, &row, &[rows, columns], &samples)?;
         placed(&dataset, &[&probe, &time])?;
-        let mut found = peaks.then(Peaks::default);
-        for (found, samples) in found.iter_mut().zip(values) {
-            found.push(time_s, samples);
-        }
+        let found = peaks.then(|| {
+            let mut found = Peaks::default();
+            (values.iter()).for_each(|samples| found.push(time_s, samples));
+            found
+        });
         for (row, numbers) in beside(row, errors, found.as_ref()) {
             placed(&vector(&group, &row.labels(), numbers)?, &[&probe])?;
         }

@@ -308,11 +308,10 @@ pub fn read_text(path: &Path) -> Result<String, SceneError> {
 
 /// The text of a regular file of at most so many bytes: a pipe would wait for its other end, a device never ends.
 pub(crate) fn read_text_up_to(path: &Path, most: u64) -> Result<String, SceneError> {
-    let fault = |reason: String| SceneError::unreadable(path, reason);
-    let system = |error: io::Error| fault(error.to_string());
+    let system = |error: io::Error| SceneError::unreadable(path, error);
     let known = std::fs::metadata(path).map_err(system)?;
     if !known.is_file() {
-        return Err(fault("it is not a regular file".to_owned()));
+        return Err(SceneError::unreadable(path, "it is not a regular file"));
     }
     // files of the system itself say that they have nothing, and some, such as /proc/kmsg, wait for good
     if known.len() == 0 {
