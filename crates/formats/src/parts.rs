@@ -127,7 +127,7 @@ impl Parts {
     /// [`SweepError`] where rows are missing, or twice there, or a file is none of the sweep's parts, or none to refer to.
     pub fn merge<'a>(&self, output: &'a Output, refers: bool) -> Result<Staged<'a>, SweepError> {
         if refers {
-            HDF5.check(output.path())?;
+            HDF5.check(&output.path)?;
         }
         let spec = self.whole(output)?;
         let rows = Checked {
@@ -146,7 +146,7 @@ impl Parts {
             if !named_so || StoredPart::open(&part.path)?.failures().is_none() {
                 return Err(unreferred("it is no HDF5 file"));
             }
-            let path = seen_from(output.real(), &part.path);
+            let path = seen_from(&output.real, &part.path);
             let path = path.ok_or_else(|| unreferred("its path is no text"))?;
             Ok((path, part.selection.rows.clone()))
         });
@@ -169,7 +169,7 @@ impl Parts {
             return Err(SweepError::Missing(rows.clone(), missing.len() - 1));
         }
         let Some(first) = self.parts.first() else {
-            return Err(none(output.path()).into());
+            return Err(none(&output.path).into());
         };
         let sweep = StoredPart::open(&first.path)?.sweep()?;
         let mut spec = Spec::of_stored(&sweep, self.sha256.clone())?;

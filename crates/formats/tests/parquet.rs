@@ -53,7 +53,7 @@ fn merged(folder: &Path, output: &Path) -> Vec<u8> {
     let output = Output::claim(output, Existing::Replace).unwrap();
     let parts = Parts::in_folder(folder, None).unwrap();
     parts.merge(&output, false).unwrap().commit().unwrap();
-    std::fs::read(output.path()).unwrap()
+    std::fs::read(&output.path).unwrap()
 }
 
 #[test]

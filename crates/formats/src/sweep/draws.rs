@@ -38,7 +38,7 @@ impl Drawn {
             for key in section.names() {
                 let inner = section.inner(key).ok_or_else(|| SceneError::missing(format!("{}.distribution", section.key(key)), "a random key is a table such as { distribution = \"normal\", mean = 1.0, deviation = 0.1 }"))?;
                 names.push(section.key(key));
-                found.push((section.name(), key, Distribution::read(&inner)?));
+                found.push((section.name, key, Distribution::read(&inner)?));
             }
         }
         let factor = correlations(random, &names)?;

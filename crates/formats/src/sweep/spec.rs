@@ -382,7 +382,7 @@ fn columns(section: &Section<'_>, most: f64) -> Result<Vec<Column>, SceneError> 
                 return Err(too_many(rows));
             }
             found.push(Column {
-                section: keys.name().to_owned(),
+                section: keys.name.to_owned(),
                 key: key.to_owned(),
                 values,
             });

@@ -176,7 +176,7 @@ fn report(
 ) -> (Value, String) {
     let [yielding, cracking] = tally.beyond;
     let (rows, failed) = (spec.selected().len(), tally.failed);
-    let output = outputs.results.path().display().to_string();
+    let output = outputs.results.path.display().to_string();
     let mut value = json!({
         "output": output,
         "csv": arguments.csv.as_ref().map(|path| path.display().to_string()),
@@ -226,7 +226,7 @@ fn report(
 /// The sweep, and what of its results is written.
 fn spec(arguments: &Run, sweep: &Path) -> Result<Spec, Failure> {
     let spec = Spec::from_file(sweep).map_err(|error| {
-        let is_scene = error.culprit().key == Some("scene");
+        let is_scene = error.culprit().key.as_deref() == Some("scene");
         Failure::from(error).hint_if(is_scene, "; one scene is computed by `hertzlamb impact`")
     })?;
     let mut spec = arguments.kernels.with_fields(spec)?;
@@ -310,15 +310,15 @@ impl Outputs {
         // a run that was killed while it gave its outputs their names has left some of them
         let wanted = arguments.overwrite.existing();
         let finish = wanted == Existing::Keep && is_computed(spec, &part);
-        if arguments.skip_complete && !finish && results.real().exists() {
+        if arguments.skip_complete && !finish && results.real.exists() {
             check_complete(output, spec).map_err(Failure::work)?;
-            return match csv.filter(|csv| !csv.real().exists()) {
+            return match csv.filter(|csv| !csv.real.exists()) {
                 None if !print => Ok(None),
                 None => Err(Failure::work("--skip-complete has no rows for --csv -")),
                 Some(csv) => Err(Failure::work(format!(
                     "{} is complete, but {} is not there; give --force to compute both",
                     output.display(),
-                    csv.path().display()
+                    csv.path.display()
                 ))),
             };
         }

@@ -35,7 +35,7 @@ pub(crate) struct Column<'a> {
 }
 
 /// The values of a column in some rows.
-#[derive(Debug)]
+#[derive(Debug, PartialEq)]
 pub(crate) enum Cells<'b> {
     Whole(Vec<i64>),
     Double(Vec<f64>),

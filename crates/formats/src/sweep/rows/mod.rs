@@ -49,9 +49,9 @@ pub fn stage_rows<'a>(
     spec: &Spec,
     blocks: &(impl Blocks + ?Sized),
 ) -> Result<Staged<'a>, OutputError> {
-    check_rows(output.path())?;
+    check_rows(&output.path)?;
     #[cfg(feature = "parquet")]
-    if PARQUET.is_of(output.path()) {
+    if PARQUET.is_of(&output.path) {
         return stage_parquet(output, spec, blocks);
     }
     stage_hdf5(output, spec, None, blocks)
