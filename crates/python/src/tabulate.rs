@@ -11,7 +11,6 @@ use tabulator::{Extension, Grid, PRESETS, build_over, refine};
 
 /// The grid of a preset, a file or a dictionary.
 fn grid_of(given: &Bound<'_, PyAny>) -> PyResult<Grid> {
-    let py = given.py();
     if let Ok(name) = given.cast::<PyString>() {
         let name: String = name.extract()?;
         let path = Path::new(&name);
