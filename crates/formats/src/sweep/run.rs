@@ -21,10 +21,10 @@ use std::path::Path;
 use std::time::Instant;
 
 /// Rows of the first block of a run, without probes; the following ones have as many as take [`BLOCK_S`].
-pub const FIRST_BLOCK: usize = 64;
+const FIRST_BLOCK: usize = 64;
 
 /// Time in s that the computation of a block is to take: what a kill costs.
-pub const BLOCK_S: f64 = 2.0;
+const BLOCK_S: f64 = 2.0;
 
 /// Rows that one thread takes at a time, at most.
 const GRAIN: usize = 256;
