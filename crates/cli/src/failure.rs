@@ -119,14 +119,21 @@ fn about(culprit: &Culprit<'_>) -> Map<String, Value> {
     let value = culprit.number.map(Value::from);
     let known = [
         ("class", Some(culprit.class.name().into())),
-        ("key", culprit.key.map(cut).map(Value::from)),
-        ("value", value.or(culprit.word.map(cut).map(Value::from))),
-        ("range", culprit.range.map(Value::from)),
+        ("key", culprit.key.as_deref().map(cut).map(Value::from)),
+        (
+            "value",
+            value.or(culprit.word.as_deref().map(cut).map(Value::from)),
+        ),
+        ("range", culprit.range.as_deref().map(Value::from)),
         ("limits", culprit.limits.map(|limits| json!(limits))),
-        ("suggestion", culprit.suggestion.map(Value::from)),
+        ("suggestion", culprit.suggestion.as_deref().map(Value::from)),
         (
             "file",
-            culprit.file.map(Path::to_string_lossy).map(Value::from),
+            culprit
+                .file
+                .as_deref()
+                .map(Path::to_string_lossy)
+                .map(Value::from),
         ),
     ];
     let known = known.into_iter();

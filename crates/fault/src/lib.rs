@@ -22,9 +22,10 @@
 //! }
 //!
 //! let culprit = TooHeavy(1e9).culprit();
-//! assert_eq!((culprit.key, culprit.remedy), (Some("mass_kg"), Remedy::Change));
+//! assert_eq!((culprit.key.as_deref(), culprit.remedy), (Some("mass_kg"), Remedy::Change));
 //! ```
 
+use std::borrow::Cow;
 use std::fmt::{Debug, Display};
 use std::path::Path;
 
@@ -92,28 +93,28 @@ pub enum Remedy {
 }
 
 /// What a program can use of an error; none where it has no such thing.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[must_use]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Culprit<'a> {
     pub class: Class,
     pub remedy: Remedy,
     /// Full name of the key, the argument or the axis at fault.
-    pub key: Option<&'a str>,
+    pub key: Option<Cow<'a, str>>,
     /// The number found.
     pub number: Option<f64>,
     /// The word found.
-    pub word: Option<&'a str>,
+    pub word: Option<Cow<'a, str>>,
     /// What is allowed, in interval notation or as names.
-    pub range: Option<&'a str>,
+    pub range: Option<Cow<'a, str>>,
     /// The same as two numbers.
     pub limits: Option<[f64; 2]>,
     /// The nearest name that exists.
-    pub suggestion: Option<&'a str>,
-    pub file: Option<&'a Path>,
+    pub suggestion: Option<Cow<'a, str>>,
+    pub file: Option<Cow<'a, Path>>,
 }
 
 impl<'a> Culprit<'a> {
     /// One of whom no more is known: failed work has no remedy, everything else can be changed.
-    #[must_use]
     pub fn of(class: Class) -> Self {
         Self {
             class,
@@ -126,33 +127,28 @@ impl<'a> Culprit<'a> {
     }
 
     /// The same where nothing that is known helps.
-    #[must_use]
     pub fn unmendable(self) -> Self {
         let remedy = Remedy::Unknown;
         Self { remedy, ..self }
     }
 
-    #[must_use]
     pub fn key(self, key: &'a str) -> Self {
-        let key = Some(key);
+        let key = Some(key.into());
         Self { key, ..self }
     }
 
-    #[must_use]
     pub fn number(self, number: f64) -> Self {
         let number = Some(number);
         Self { number, ..self }
     }
 
-    #[must_use]
     pub fn range(self, range: &'a str) -> Self {
-        let range = Some(range);
+        let range = Some(range.into());
         Self { range, ..self }
     }
 
-    #[must_use]
     pub fn file(self, file: &'a Path) -> Self {
-        let file = Some(file);
+        let file = Some(file.into());
         Self { file, ..self }
     }
 }

@@ -1,9 +1,10 @@
 //! What can be wrong with a scene, or with a file that is read back.
 
-use contact::nearest;
+use contact::{UnknownMaterial, nearest};
 use fault::{Class, Culprit, Fault, number};
 use impact::TreatmentError;
-use std::path::{Path, PathBuf};
+use std::borrow::Cow;
+use std::path::Path;
 use thiserror::Error;
 
 /// A scene that cannot be run, told in one sentence with the key, the value and what is allowed; or a file of the program that
@@ -13,36 +14,35 @@ use thiserror::Error;
 pub struct SceneError(Box<About>);
 
 /// The sentence, and what is in it.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 struct About {
     sentence: String,
     /// Of numbers that other rows of a sweep may not have.
     of_numbers: bool,
-    key: Option<String>,
-    number: Option<f64>,
-    word: Option<String>,
-    range: Option<String>,
-    limits: Option<[f64; 2]>,
-    suggestion: Option<String>,
-    file: Option<PathBuf>,
+    culprit: Culprit<'static>,
 }
 
 impl SceneError {
-    /// With what is known beside the sentence.
-    fn told(sentence: String, known: impl FnOnce(&mut About)) -> Self {
-        let mut about = Box::new(About::default());
-        about.sentence = sentence;
-        known(&mut about);
-        Self(about)
+    /// One of which no more is known.
+    pub(crate) fn told(sentence: String) -> Self {
+        Self(Box::new(About {
+            sentence,
+            of_numbers: false,
+            culprit: Culprit::of(Class::Scene),
+        }))
     }
 
     fn of(sentence: String, key: impl Into<String>) -> Self {
-        Self::told(sentence, |about| about.key = Some(key.into()))
+        let mut error = Self::told(sentence);
+        error.0.culprit.key = Some(Cow::Owned(key.into()));
+        error
     }
 
     /// One that is in a file and names it.
     pub(crate) fn in_sentence(path: &Path, sentence: String) -> Self {
-        Self::told(sentence, |about| about.file = Some(path.to_owned()))
+        let mut error = Self::told(sentence);
+        error.0.culprit.file = Some(path.to_owned().into());
+        error
     }
 
     /// A file that cannot be read.
@@ -60,16 +60,12 @@ impl SceneError {
         Self::in_sentence(path, format!("{}: {what}", path.display()))
     }
 
-    /// A text that is not TOML, from a line that counts from 1.
-    pub(crate) fn syntax(line: usize, reason: &str) -> Self {
-        Self::told(format!("line {line} is not valid TOML: {reason}"), |_| {})
-    }
-
     /// A key that does not exist, with the nearest that does, or what is said otherwise.
     pub(crate) fn unknown_key(key: String, suggestion: Option<String>, otherwise: &str) -> Self {
-        let near = suggested(&key, suggestion.as_deref(), otherwise);
+        let near = suggestion.as_deref().map(|near| near_key(&key, near));
+        let near = near.unwrap_or_else(|| format!(" ({otherwise})"));
         let mut error = Self::of(format!("unknown key {key}{near}"), key);
-        error.0.suggestion = suggestion;
+        error.0.culprit.suggestion = suggestion.map(Into::into);
         error
     }
 
@@ -89,7 +85,7 @@ impl SceneError {
     #[must_use]
     pub fn wrong_kind(key: String, value: String, expected: &str) -> Self {
         let mut error = Self::of(format!("{key} = {value} is not {expected}"), key);
-        error.0.word = Some(value);
+        error.0.culprit.word = Some(value.into());
         error
     }
 
@@ -98,14 +94,14 @@ impl SceneError {
         let key = key.into();
         let sentence = format!("{key} = {} is outside {range}", number(value));
         let mut error = Self::of_number(key, value, sentence);
-        error.0.range = Some(range.to_owned());
+        error.0.culprit.range = Some(range.to_owned().into());
         error
     }
 
     /// A number that is wrong beside others.
     pub(crate) fn of_number(key: impl Into<String>, value: f64, sentence: String) -> Self {
         let mut error = Self::of(sentence, key);
-        (error.0.of_numbers, error.0.number) = (true, Some(value));
+        (error.0.of_numbers, error.0.culprit.number) = (true, Some(value));
         error
     }
 
@@ -116,30 +112,30 @@ impl SceneError {
             number(value)
         );
         let mut error = Self::of_number(key, value, sentence);
-        (error.0.of_numbers, error.0.limits) = (false, Some([0.0, limit]));
+        (error.0.of_numbers, error.0.culprit.limits) = (false, Some([0.0, limit]));
         error
     }
 
     /// A word that is not one of the choices, which commas divide.
     pub(crate) fn unknown_choice(key: String, value: &str, allowed: &str) -> Self {
-        let found = nearest(value, allowed.split(", "));
-        let near = near(found.as_deref());
+        let suggestion = nearest(value, allowed.split(", "));
+        let near = suggestion.as_deref().map_or_else(String::new, near);
         let sentence = format!("{key} = \"{value}\" is not one of {allowed}{near}");
-        let mut error = Self::unknown_word(sentence, key, value, found);
-        error.0.range = Some(allowed.to_owned());
+        let mut error = Self::unknown_word(sentence, key, value.to_owned(), suggestion);
+        error.0.culprit.range = Some(allowed.to_owned().into());
         error
     }
 
     /// A material that is not in the library, with the nearest name.
-    pub(crate) fn unknown_material(key: String, value: &str, suggestion: Option<String>) -> Self {
-        let near = near(suggestion.as_deref());
-        let sentence = format!("{key} = \"{value}\" is not in the materials library{near}");
-        Self::unknown_word(sentence, key, value, suggestion)
+    pub(crate) fn unknown_material(key: String, unknown: UnknownMaterial) -> Self {
+        let sentence = format!("{key} = {unknown}");
+        Self::unknown_word(sentence, key, unknown.name, unknown.suggestion)
     }
 
-    fn unknown_word(sentence: String, key: String, value: &str, near: Option<String>) -> Self {
+    fn unknown_word(sentence: String, key: String, word: String, near: Option<String>) -> Self {
         let mut error = Self::of(sentence, key);
-        (error.0.word, error.0.suggestion) = (Some(value.to_owned()), near);
+        error.0.culprit.word = Some(word.into());
+        error.0.culprit.suggestion = near.map(Into::into);
         error
     }
 
@@ -159,9 +155,9 @@ impl SceneError {
     /// The same with the path of the file that it is in, unless it names a file already.
     #[must_use]
     pub fn in_file(mut self, path: &Path) -> Self {
-        if self.0.file.is_none() {
+        if self.0.culprit.file.is_none() {
             self.0.sentence = format!("{}: {}", path.display(), self.0.sentence);
-            self.0.file = Some(path.to_owned());
+            self.0.culprit.file = Some(path.to_owned().into());
         }
         self
     }
@@ -173,48 +169,34 @@ impl SceneError {
 
     /// Whether it is of a word that is not known.
     pub(crate) fn is_of_words(&self) -> bool {
-        self.0.word.is_some()
+        self.0.culprit.word.is_some()
     }
 }
 
 /// A treatment that the force record cannot have.
 impl From<TreatmentError> for SceneError {
     fn from(error: TreatmentError) -> Self {
-        Self::told(format!("force.{error}"), |_| {})
+        Self::told(format!("force.{error}"))
     }
 }
 
 impl Fault for SceneError {
     fn culprit(&self) -> Culprit<'_> {
-        let about = &*self.0;
-        Culprit {
-            key: about.key.as_deref(),
-            number: about.number,
-            word: about.word.as_deref(),
-            range: about.range.as_deref(),
-            limits: about.limits,
-            suggestion: about.suggestion.as_deref(),
-            file: about.file.as_deref(),
-            ..Culprit::of(Class::Scene)
-        }
+        self.0.culprit.clone()
     }
 }
 
-fn near(suggestion: Option<&str>) -> String {
-    suggestion.map_or_else(String::new, |name| format!("; did you mean {name}?"))
+fn near(suggestion: &str) -> String {
+    format!("; did you mean {suggestion}?")
 }
 
-/// The nearest key, with its unit where that is all that differs, or what is said otherwise.
-fn suggested(key: &str, suggestion: Option<&str>, otherwise: &str) -> String {
+/// The nearest key, with its unit where that is all that differs.
+fn near_key(key: &str, suggestion: &str) -> String {
     let own = key.rsplit('.').next().and_then(|own| own.rsplit_once('_'));
-    match (
-        suggestion,
-        suggestion.and_then(|near| near.rsplit_once('_')),
-    ) {
-        (Some(near), Some((stem, unit))) if own.is_some_and(|own| own.0 == stem) => {
-            format!("; did you mean {near}, in {unit}?")
+    match suggestion.rsplit_once('_') {
+        Some((stem, unit)) if own.is_some_and(|own| own.0 == stem) => {
+            near(&format!("{suggestion}, in {unit}"))
         }
-        (Some(_), _) => near(suggestion),
-        (None, _) => format!(" ({otherwise})"),
+        _ => near(suggestion),
     }
 }

@@ -1,14 +1,17 @@
 //! What the HDF5 library is asked to do: described datasets, texts, dimension scales.
 
 use hdf5::dataset::{AllocTime, FillTime};
-use hdf5::types::VarLenUnicode;
+use hdf5::types::TypeDescriptor;
 use hdf5::{Dataset, Group, H5Type, Location};
+use lookup::labels::unicode;
 pub(crate) use lookup::labels::{attach_scale, new_file, reason, set_scale, text};
+use std::borrow::Borrow;
 
-pub(crate) fn vector(
+/// A dataset of one dimension.
+pub(crate) fn vector<T: H5Type>(
     group: &Group,
     described: &(&str, &str, &str),
-    samples: &[f64],
+    samples: &[T],
 ) -> Result<Dataset, hdf5::Error> {
     numbers(group, described, &[samples.len()], samples)
 }
@@ -61,13 +64,15 @@ pub(crate) fn some_at_a_time<T: H5Type>(
 }
 
 /// A described dataset whose numbers are written later, and where in the file they stand; nowhere without any.
-pub(crate) fn reserve<T: H5Type>(
+pub(crate) fn reserve(
     group: &Group,
     described: &(&str, &str, &str),
     shape: &[usize],
+    of: &TypeDescriptor,
 ) -> Result<(Dataset, Option<u64>), hdf5::Error> {
     let dataset = group
-        .new_dataset::<T>()
+        .new_dataset_builder()
+        .empty_as(of)
         .shape(shape)
         .alloc_time(Some(AllocTime::Early))
         .fill_time(FillTime::Never)
@@ -96,12 +101,9 @@ pub(crate) fn texts(
     described: &(&str, &str, &str),
     values: &[String],
 ) -> Result<Dataset, hdf5::Error> {
-    let values: Vec<VarLenUnicode> = values
-        .iter()
-        .map(|value| value.replace('\0', " ").parse())
-        .collect::<Result<_, _>>()
-        .map_err(|_| hdf5::Error::from("a text holds a NUL"))?;
-    numbers(group, described, &[values.len()], &values)
+    let values = values.iter().map(|value| unicode(value));
+    let values = values.collect::<Result<Vec<_>, _>>()?;
+    vector(group, described, &values)
 }
 
 /// A dimension scale of numbers.
@@ -110,7 +112,7 @@ pub(crate) fn scale<T: H5Type>(
     described: &(&str, &str, &str),
     values: &[T],
 ) -> Result<Dataset, hdf5::Error> {
-    let dataset = numbers(group, described, &[values.len()], values)?;
+    let dataset = vector(group, described, values)?;
     set_scale(&dataset, described.0)?;
     Ok(dataset)
 }
@@ -118,11 +120,11 @@ pub(crate) fn scale<T: H5Type>(
 /// Attaches scales to the dimensions from `first` on.
 pub(crate) fn attach_all(
     data: &Dataset,
-    scales: &[&Dataset],
+    scales: &[impl Borrow<Dataset>],
     first: usize,
 ) -> Result<(), hdf5::Error> {
     for (index, scale) in (first..).zip(scales) {
-        attach_scale(data, scale, index)?;
+        attach_scale(data, scale.borrow(), index)?;
     }
     Ok(())
 }

@@ -3,10 +3,10 @@
 use crate::error::SceneError;
 use crate::stored::{FileKind, Part, StoredPart, file_kind, whole_sweep};
 use crate::sweep::{
-    Block, Blocks, Selection, Shard, Spec, SweepError, Unfinished, grain, stage_hdf5, stage_rows,
+    Block, Blocks, Shard, Spec, SweepError, Unfinished, grain, stage_hdf5, stage_rows,
 };
 use ledger::gaps;
-use output::{Fault, HDF5, Output, ROWS, Staged};
+use output::{Fault, HDF5, Output, ROWS, Staged, folder};
 use std::ffi::OsStr;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -39,19 +39,15 @@ impl Parts {
     pub fn in_folder(folder: &Path, wanted: Option<&Spec>) -> Result<Self, SweepError> {
         let (mut all, mut foreign) = (Vec::new(), Vec::new());
         for path in files(folder, |path| ROWS.is_of(path))? {
-            let whole = |open: StoredPart| open.check().map(|()| open.part);
-            match StoredPart::open(&path).and_then(whole) {
+            match undamaged(&path) {
                 Ok(part) => all.push(part),
-                Err(error) => {
-                    let reason = error.to_string();
-                    foreign.push((path, reason));
-                }
+                Err(error) => foreign.push((path, error.to_string())),
             }
         }
         let is_journal = |path: &Path| path.extension().is_some_and(|end| end == "part");
-        let journals = files(folder, is_journal)?;
-        let mut unfinished: Vec<_> = (journals.iter())
-            .filter_map(|path| Unfinished::read(path))
+        let journals = files(folder, is_journal)?.into_iter();
+        let mut unfinished: Vec<_> = journals
+            .filter_map(|path| Unfinished::read(&path))
             .collect();
         let (sha256, sweep_rows) = match wanted {
             Some(spec) => (spec.sha256.clone(), spec.rows()),
@@ -61,18 +57,17 @@ impl Parts {
         let (mut parts, others): (Vec<_>, Vec<_>) = all
             .into_iter()
             .partition(|part| part.sha256 == sha256 && part.sweep_rows == sweep_rows);
-        let fields = wanted.map(|spec| &spec.fields);
-        let fields = fields.or_else(|| parts.first().map(|part| &part.fields));
-        let grain = fields.map_or(1, grain);
         parts.sort_by_key(|part| (part.selection.rows.start, part.selection.rows.end));
         foreign.extend(others.into_iter().map(|Part { path, .. }| {
             let reason = format!("{} is a part of {OTHER}", path.display());
             (path, reason)
         }));
+        let fields = wanted.map(|spec| &spec.fields);
+        let fields = fields.or_else(|| parts.first().map(|part| &part.fields));
         Ok(Self {
+            grain: fields.map_or(1, grain),
             sha256,
             sweep_rows,
-            grain,
             parts,
             foreign,
             unfinished,
@@ -89,8 +84,8 @@ impl Parts {
     /// Into how many shards the sweep was divided, where the parts agree on it.
     #[must_use]
     pub fn shards(&self) -> Option<usize> {
-        let shards = self.parts.iter().map(|part| part.selection.shard);
-        let mut counts = shards.map(|shard| shard.map(|s| s.count));
+        let parts = self.parts.iter();
+        let mut counts = parts.map(|part| Some(part.selection.shard?.count));
         let first = counts.next()??;
         counts.all(|count| count == Some(first)).then_some(first)
     }
@@ -132,7 +127,7 @@ impl Parts {
     /// [`SweepError`] where rows are missing, or twice there, or a file is none of the sweep's parts, or none to refer to.
     pub fn merge<'a>(&self, output: &'a Output, refers: bool) -> Result<Staged<'a>, SweepError> {
         if refers {
-            HDF5.check(output.path())?;
+            HDF5.check(&output.path)?;
         }
         let spec = self.whole(output)?;
         let rows = Checked {
@@ -141,23 +136,22 @@ impl Parts {
             all: !refers,
         };
         if !refers {
-            return Ok(stage_rows(output, &spec, None, &rows)?);
+            return Ok(stage_rows(output, &spec, &rows)?);
         }
         let sources = self.full().map(|part| {
             let unreferred = |reason: &str| {
                 SceneError::is(&part.path, format!("cannot be referred to: {reason}"))
             };
-            if HDF5.check(&part.path).is_err() || StoredPart::open(&part.path)?.failures().is_none()
-            {
+            let named_so = HDF5.check(&part.path).is_ok();
+            if !named_so || StoredPart::open(&part.path)?.failures().is_none() {
                 return Err(unreferred("it is no HDF5 file"));
             }
-            let path = seen_from(output.real(), &part.path);
-            let rows = part.selection.rows.clone();
+            let path = seen_from(&output.real, &part.path);
             let path = path.ok_or_else(|| unreferred("its path is no text"))?;
-            Ok((path, rows))
+            Ok((path, part.selection.rows.clone()))
         });
         let sources = sources.collect::<Result<Vec<_>, SceneError>>()?;
-        Ok(stage_hdf5(output, &spec, None, Some(&sources), &rows)?)
+        Ok(stage_hdf5(output, &spec, Some(&sources), &rows)?)
     }
 
     /// The sweep, where all its rows are there, once.
@@ -172,13 +166,10 @@ impl Parts {
         }
         let missing = self.missing();
         if let Some(rows) = missing.first() {
-            return Err(SweepError::Missing {
-                rows: rows.clone(),
-                more: missing.len() - 1,
-            });
+            return Err(SweepError::Missing(rows.clone(), missing.len() - 1));
         }
         let Some(first) = self.parts.first() else {
-            return Err(none(output.path()).into());
+            return Err(none(&output.path).into());
         };
         let sweep = StoredPart::open(&first.path)?.sweep()?;
         let mut spec = Spec::of_stored(&sweep, self.sha256.clone())?;
@@ -226,50 +217,41 @@ impl Blocks for Checked<'_> {
 
 /// The path of one file from the folder of another, where it is a text.
 fn seen_from(file: &Path, other: &Path) -> Option<String> {
-    let folder = match file.parent() {
-        Some(folder) if !folder.as_os_str().is_empty() => folder,
-        Some(_) | None => Path::new("."),
-    };
-    let (folder, other) = (folder.canonicalize().ok()?, other.canonicalize().ok()?);
-    let (from, to): (Vec<_>, Vec<_>) =
-        (folder.components().collect(), other.components().collect());
-    let common = from.iter().zip(&to).take_while(|(a, b)| a == b).count();
-    let up = from[common..].iter().map(|_| Path::new("..").as_os_str());
-    let down = to[common..].iter().map(|part| part.as_os_str());
-    let path: PathBuf = up.chain(down).collect();
+    let (folder, other) = (
+        folder(file).canonicalize().ok()?,
+        other.canonicalize().ok()?,
+    );
+    let common = folder.ancestors().find(|above| other.starts_with(above))?;
+    let up = folder.strip_prefix(common).ok()?.components();
+    let up = up.map(|_| Path::new(".."));
+    let path: PathBuf = up.chain(other.strip_prefix(common).ok()).collect();
     path.to_str().map(str::to_owned)
 }
 
-/// Why the file at `path` is not the whole result of a sweep or, where one is given, of a selection of its rows.
+/// What a part says of itself, where its bytes are those that were written.
+fn undamaged(path: &Path) -> Result<Part, SceneError> {
+    let open = StoredPart::open(path)?;
+    open.check().map(|()| open.part)
+}
+
+/// Why the file at `path` is not the whole result of a sweep or, where some are selected, of these rows.
 ///
 /// # Errors
 /// One sentence.
-pub fn check_complete(
-    path: &Path,
-    spec: &Spec,
-    selection: Option<&Selection>,
-) -> Result<(), String> {
-    let of_part = || {
-        let open = StoredPart::open(path)?;
-        open.check().map(|()| open.part)
+pub fn check_complete(path: &Path, spec: &Spec) -> Result<(), String> {
+    let found = match spec.selection {
+        None => whole_sweep(path).map(|(sha256, fields)| (sha256, fields, 0..spec.rows())),
+        Some(_) => {
+            undamaged(path).map(|part| (Some(part.sha256), part.fields, part.selection.rows))
+        }
     };
-    let found = match selection {
-        None => whole_sweep(path).map(|(sha256, fields)| (sha256, fields, None)),
-        Some(_) => of_part().map(|part| {
-            let rows = Some(part.selection.rows);
-            (Some(part.sha256), part.fields, rows)
-        }),
-    };
-    let (sha256, fields, rows) = found.map_err(|error: SceneError| error.to_string())?;
-    let asked = selection.map(|selection| selection.rows.clone());
+    let (sha256, fields, rows) = found.map_err(|error| error.to_string())?;
+    let asked = spec.selected();
     let wrong = if sha256.as_ref() != Some(&spec.sha256) {
         format!("is of {OTHER}")
     } else if rows != asked {
-        let [rows, asked] = [rows, asked].map(Option::unwrap_or_default);
-        format!(
-            "has the rows {}:{}, not {}:{}",
-            rows.start, rows.end, asked.start, asked.end
-        )
+        let [[a, b], [c, d]] = [rows, asked].map(|rows| [rows.start, rows.end]);
+        format!("has the rows {a}:{b}, not {c}:{d}")
     } else if fields != spec.fields {
         "has other columns, or another precision".to_owned()
     } else {
@@ -300,14 +282,14 @@ fn files(folder: &Path, named: impl Fn(&Path) -> bool) -> Result<Vec<PathBuf>, S
 fn most(parts: &[Part], unfinished: &[Unfinished]) -> Option<(String, usize)> {
     let of_parts = parts.iter().map(|part| (&part.sha256, part.sweep_rows));
     let of_runs = unfinished.iter().map(|run| (&run.sha256, run.sweep_rows));
-    let mut of: Vec<_> = of_parts.collect();
-    if of.is_empty() {
-        of = of_runs.collect();
-    }
+    let mut of: Vec<_> = match parts {
+        [] => of_runs.collect(),
+        _ => of_parts.collect(),
+    };
     of.sort_unstable();
-    let most = of
+    let same = of
         .chunk_by(|a, b| a == b)
         .rev()
         .max_by_key(|same| same.len())?;
-    Some((most[0].0.clone(), most[0].1))
+    Some((same[0].0.clone(), same[0].1))
 }

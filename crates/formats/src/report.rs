@@ -6,7 +6,8 @@ use contact::{Choice, Collision, GRAVITY_M_S2, InferError, Inferred, Material, M
 use impact::{Cause, Outcome, Scene};
 use lookup::schema::FIELD_NAMES;
 use lookup::{Accuracy, Quantiles, Table};
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
+use std::collections::BTreeMap;
 use std::path::Path;
 
 /// Name of the scheme where nothing is marched.
@@ -77,8 +78,7 @@ pub fn infer(
 ) -> Result<(Inferred, Value), InferError> {
     let refused = |what: String| Err(InferError::Given(what));
     let Some(strike) = scene.strike() else {
-        let what = "a force record has no rebound: give the scene a [striker]";
-        return refused(what.to_owned());
+        return refused("a force record has no rebound: give the scene a [striker]".to_owned());
     };
     let mut velocity_m_s = strike.velocity_m_s;
     let (measure, value) = match (Measure::named(name), values) {
@@ -126,8 +126,6 @@ pub fn json_report(scene: &Scene, outcome: &Outcome, wall_s: f64) -> Value {
     let [model, scheme, static_share, deflection, reason] = choices(scene, outcome);
     let used = outcome.used.as_ref();
     let table = used.and_then(|used| used.table.as_ref());
-    let time_s = &outcome.series.time_s;
-    let section = outcome.section.as_ref();
     let mut report = json!({
         "model": model,
         "scheme": scheme,
@@ -138,7 +136,7 @@ pub fn json_report(scene: &Scene, outcome: &Outcome, wall_s: f64) -> Value {
         "kernel_reason": used.map_or("", |used| &used.reason),
         "convolution": used.map_or("", |used| used.convolution.name()),
         "table_id": table.map(|[id, _]| id),
-        "steps": time_s.len().saturating_sub(1),
+        "steps": outcome.series.time_s.len().saturating_sub(1),
         "step_s": outcome.step_s(),
     });
     for quantity in &QUANTITIES {
@@ -148,17 +146,18 @@ pub fn json_report(scene: &Scene, outcome: &Outcome, wall_s: f64) -> Value {
             (Some(x), Kind::Count) => (x as u64).into(),
         };
     }
-    let treated = treatment(scene).into_iter();
-    let treated: Map<_, _> = treated
-        .map(|(name, x)| (name.to_owned(), x.into()))
-        .collect();
-    let probes = outcome.probes.as_ref().map_or(0, |fields| fields.r_m.len());
-    let map = section.map(|s| [s.time_s.len(), s.z_m.len(), s.r_m.len()]);
-    report["probes"] = probes.into();
-    report["map"] = json!(map);
+    let probes = outcome.probes.as_ref();
+    let section = outcome.section.as_ref();
+    report["probes"] = probes.map_or(0, |fields| fields.r_m.len()).into();
+    report["map"] = section.map_or(Value::Null, |s| {
+        json!([s.time_s.len(), s.z_m.len(), s.r_m.len()])
+    });
     report["wall_s"] = wall_s.into();
     report["warnings"] = json!(outcome.warnings);
-    report["force_treatment"] = json!((!treated.is_empty()).then_some(treated));
+    report["force_treatment"] = Value::Null;
+    for (name, number) in treatment(scene) {
+        report["force_treatment"][name] = number.into();
+    }
     report
 }
 
@@ -214,13 +213,9 @@ pub fn table_report(path: &Path, table: &Table) -> Value {
 #[must_use]
 pub fn accuracy_report(accuracy: &[Accuracy]) -> Value {
     let fields = |errors: &[Quantiles; 6]| {
-        let mut named: Vec<_> = FIELD_NAMES.into_iter().zip(errors).collect();
-        named.sort_by_key(|(name, _)| *name);
         let of = |&Quantiles { p50, p99, max }: &Quantiles| json!({ "p50": p50, "p99": p99, "max": max });
-        let named = named
-            .into_iter()
-            .map(|(name, error)| (name.to_owned(), of(error)));
-        Value::Object(named.collect())
+        let named: BTreeMap<_, _> = FIELD_NAMES.into_iter().zip(errors.iter().map(of)).collect();
+        json!(named)
     };
     let measured = accuracy.iter().map(|measured| {
         let mut of_length = json!({

@@ -40,13 +40,11 @@ fn rows(spec: &Spec, rows: Range<usize>, size: usize) -> Vec<Block> {
 }
 
 fn write(path: &Path, spec: &Spec, range: Option<Range<usize>>, size: usize) -> Vec<u8> {
-    let selection = range.map(|rows| Selection { rows, shard: None });
-    let all = selection
-        .as_ref()
-        .map_or(0..spec.rows(), |s| s.rows.clone());
+    let mut spec = spec.clone();
+    spec.selection = range.map(|rows| Selection { rows, shard: None });
     let output = Output::claim(path, Existing::Replace).unwrap();
-    let blocks = rows(spec, all, size);
-    let staged = stage_rows(&output, spec, selection.as_ref(), &blocks).unwrap();
+    let blocks = rows(&spec, spec.selected(), size);
+    let staged = stage_rows(&output, &spec, &blocks).unwrap();
     staged.commit().unwrap();
     std::fs::read(path).unwrap()
 }
@@ -55,7 +53,7 @@ fn merged(folder: &Path, output: &Path) -> Vec<u8> {
     let output = Output::claim(output, Existing::Replace).unwrap();
     let parts = Parts::in_folder(folder, None).unwrap();
     parts.merge(&output, false).unwrap().commit().unwrap();
-    std::fs::read(output.path()).unwrap()
+    std::fs::read(&output.path).unwrap()
 }
 
 #[test]

@@ -33,7 +33,7 @@ fn spec(axes: &str) -> Spec {
 fn all(spec: &Spec) -> Vec<Block> {
     let folder = tempfile::tempdir().unwrap();
     let part = folder.path().join("part");
-    let done = run_rows(spec, 0..spec.rows(), &part, Existing::Keep, |_| true);
+    let done = run_rows(spec, &part, Existing::Keep, |_| true);
     blocks(&done.unwrap().unwrap())
 }
 
@@ -109,7 +109,7 @@ fn a_failed_scene_is_a_row_with_a_reason() {
     let (h5, csv) = (folder.path().join("s.h5"), folder.path().join("s.csv"));
     let output = |path| Output::claim(path, Existing::Keep).unwrap();
     let (rows, text) = (output(&h5), output(&csv));
-    let staged = stage_rows(&rows, &spec, None, &blocks).unwrap();
+    let staged = stage_rows(&rows, &spec, &blocks).unwrap();
     staged.commit().unwrap();
     let staged = stage_csv(&text, &spec, &blocks).unwrap();
     staged.commit().unwrap();
@@ -144,16 +144,13 @@ fn an_interrupted_sweep_goes_on_and_gives_the_same() {
     let folder = tempfile::tempdir().unwrap();
     let part = folder.path().join("part");
     // stops after the first block
-    let stopped = run_rows(&spec, 0..spec.rows(), &part, Existing::Keep, |done| {
-        done == 0
-    })
-    .unwrap();
+    let stopped = run_rows(&spec, &part, Existing::Keep, |done| done == 0).unwrap();
     assert!(stopped.is_none());
-    assert!(!is_computed(&spec, 0..spec.rows(), &part));
+    assert!(!is_computed(&spec, &part));
     // a record that is cut short is computed anew, in blocks that begin and end elsewhere
     let length = std::fs::metadata(&part).unwrap().len();
     let mut counts = Vec::new();
-    let stopped = run_rows(&spec, 0..spec.rows(), &part, Existing::Keep, |done| {
+    let stopped = run_rows(&spec, &part, Existing::Keep, |done| {
         counts.push(done);
         done < 2 * BLOCK
     });
@@ -164,13 +161,13 @@ fn an_interrupted_sweep_goes_on_and_gives_the_same() {
     file.set_len(both - 100).unwrap();
     let kept = counts[counts.len() - 2];
     let mut first = None;
-    let done = run_rows(&spec, 0..spec.rows(), &part, Existing::Keep, |rows| {
+    let done = run_rows(&spec, &part, Existing::Keep, |rows| {
         first.get_or_insert(rows);
         true
     });
     let done = done.unwrap().unwrap();
     assert_eq!((first, done.resumed), (Some(kept), kept));
-    assert!(is_computed(&spec, 0..spec.rows(), &part));
+    assert!(is_computed(&spec, &part));
     let whole = all(&spec);
     assert!(bits(&blocks(&done)) == bits(&whole), "resumed rows differ");
     let k = place_of("restitution");
@@ -183,10 +180,10 @@ fn an_interrupted_sweep_goes_on_and_gives_the_same() {
     // another sweep does not go on with this one's rows, and drops them only when it is told to
     let other = self::spec(&DRAWS.replace("seed = 7", "seed = 8"));
     let before = std::fs::read(&part).unwrap();
-    let refused = run_rows(&other, 0..other.rows(), &part, Existing::Keep, |_| true).unwrap_err();
+    let refused = run_rows(&other, &part, Existing::Keep, |_| true).unwrap_err();
     assert!(refused.to_string().contains("another sweep"), "{refused}");
     assert!(std::fs::read(&part).unwrap() == before);
-    run_rows(&other, 0..other.rows(), &part, Existing::Replace, |_| false).unwrap();
+    run_rows(&other, &part, Existing::Replace, |_| false).unwrap();
     assert!(std::fs::metadata(&part).unwrap().len() < 300);
 }
 
@@ -201,22 +198,19 @@ fn a_sweep_goes_on_only_with_the_materials_that_it_began_with() {
         [product.striker]\nvelocity_m_s = { from = 1.0, to = 2.0, count = 1000 }\n";
     let read = || Spec::from_toml(text, folder.path()).unwrap();
     let spec = read();
-    assert_eq!(spec.inputs()[0].1, materials);
-    run_rows(&spec, 0..spec.rows(), &part, Existing::Keep, |done| {
-        done == 0
-    })
-    .unwrap();
+    assert_eq!(spec.inputs[0].1, materials);
+    run_rows(&spec, &part, Existing::Keep, |done| done == 0).unwrap();
     // what was read once is not read again
     std::fs::write(&materials, mine.replace("70e9", "7e9")).unwrap();
-    let done = run_rows(&spec, 0..spec.rows(), &part, Existing::Keep, |_| true);
+    let done = run_rows(&spec, &part, Existing::Keep, |_| true);
     let done = done.unwrap().unwrap();
     let alone = folder.path().join("alone");
     std::fs::write(&materials, mine).unwrap();
-    let whole = run_rows(&read(), 0..read().rows(), &alone, Existing::Keep, |_| true);
+    let whole = run_rows(&read(), &alone, Existing::Keep, |_| true);
     assert!(bits(&blocks(&done)) == bits(&blocks(&whole.unwrap().unwrap())));
     // and a later run with the edited file is another sweep
     std::fs::write(&materials, mine.replace("70e9", "7e9")).unwrap();
-    let refused = run_rows(&read(), 0..read().rows(), &part, Existing::Keep, |_| true).unwrap_err();
+    let refused = run_rows(&read(), &part, Existing::Keep, |_| true).unwrap_err();
     assert!(refused.to_string().contains("its files"), "{refused}");
 }
 
@@ -225,7 +219,7 @@ fn a_damaged_journal_takes_no_memory_and_a_strange_one_stays() {
     let spec = spec("[product.striker]\nvelocity_m_s = { from = 1.0, to = 2.0, count = 100 }\n");
     let folder = tempfile::tempdir().unwrap();
     let part = folder.path().join("part");
-    let whole = run_rows(&spec, 0..spec.rows(), &part, Existing::Keep, |_| true);
+    let whole = run_rows(&spec, &part, Existing::Keep, |_| true);
     let whole = bits(&blocks(&whole.unwrap().unwrap()));
     let good = std::fs::read(&part).unwrap();
     // the length of the first record, behind the title, and what it says of itself
@@ -243,16 +237,16 @@ fn a_damaged_journal_takes_no_memory_and_a_strange_one_stays() {
         let (mut bad, place) = (good.clone(), begin + place);
         bad[place..place + 8].copy_from_slice(&number.to_le_bytes());
         std::fs::write(&part, &bad).unwrap();
-        let done = run_rows(&spec, 0..spec.rows(), &part, Existing::Keep, |_| true);
+        let done = run_rows(&spec, &part, Existing::Keep, |_| true);
         assert!(bits(&blocks(&done.unwrap().unwrap())) == whole);
     }
     for strange in ["precious", "hertz", "hertzlamb journal 1 of a sweep: 12"] {
         std::fs::write(&part, strange).unwrap();
-        let done = run_rows(&spec, 0..spec.rows(), &part, Existing::Replace, |_| true);
+        let done = run_rows(&spec, &part, Existing::Replace, |_| true);
         assert_eq!(done.is_ok(), strange.starts_with("hertz"), "{strange}");
     }
     std::fs::write(&part, "precious").unwrap();
-    run_rows(&spec, 0..spec.rows(), &part, Existing::Keep, |_| true).unwrap_err();
+    run_rows(&spec, &part, Existing::Keep, |_| true).unwrap_err();
     assert_eq!(std::fs::read(&part).unwrap(), b"precious");
 }
 
@@ -336,8 +330,8 @@ fn bad_sweeps_are_refused_with_key_and_value() {
         let message = match Spec::from_toml(&text, Path::new(".")) {
             Err(error) => error.to_string(),
             Ok(spec) => {
-                let (rows, part) = (0..spec.rows(), folder.path().join("part"));
-                match run_rows(&spec, rows, &part, Existing::Keep, |_| true) {
+                let part = folder.path().join("part");
+                match run_rows(&spec, &part, Existing::Keep, |_| true) {
                     Err(error) => error.to_string(),
                     Ok(_) => "no error".to_owned(),
                 }

@@ -97,14 +97,17 @@ impl Group {
         Ok(names)
     }
 
-    /// A group that is a member.
-    pub fn group(&self, name: &str) -> Result<Self, HdfError> {
-        Ok(Self(self.0.group(name)?))
+    /// A group in it, by its path from here.
+    pub fn group(&self, path: &str) -> Result<Self, HdfError> {
+        let mut names = path.split('/').filter(|name| !name.is_empty());
+        let group = names.try_fold(self.0.clone(), |group, name| group.group(name));
+        Ok(Self(group?))
     }
 
-    /// A dataset that is a member.
-    pub fn dataset(&self, name: &str) -> Result<Dataset, HdfError> {
-        let data = self.0.dataset(name)?;
+    /// A dataset in it, by its path from here.
+    pub fn dataset(&self, path: &str) -> Result<Dataset, HdfError> {
+        let (group, name) = path.rsplit_once('/').unwrap_or(("", path));
+        let data = self.group(group)?.0.dataset(name)?;
         let shape = data.shape().iter().map(|&n| n as usize).collect();
         Ok(Dataset { data, shape })
     }
@@ -119,9 +122,7 @@ impl Group {
         let attribute = self.0.attribute(name)?;
         same_type::<T>(&attribute.datatype)?;
         if !attribute.shape.is_empty() {
-            return Err(HdfError::Refused(
-                "it is a list, needed one number".to_owned(),
-            ));
+            return refused("it is a list, needed one number");
         }
         Ok(attribute.read_scalar()?)
     }
@@ -131,7 +132,7 @@ impl Group {
         let attribute = self.0.attribute(name)?;
         same_type::<T>(&attribute.datatype)?;
         if attribute.shape.len() != 1 {
-            return Err(HdfError::Refused("it is no list of numbers".to_owned()));
+            return refused("it is no list of numbers");
         }
         Ok(attribute.read_1d()?)
     }
@@ -153,7 +154,7 @@ impl Dataset {
     /// How many values it has.
     #[must_use]
     pub fn count(&self) -> usize {
-        self.shape.iter().fold(1, |all, &n| all.saturating_mul(n))
+        self.shape.iter().copied().fold(1, usize::saturating_mul)
     }
 
     /// Dimensions of its chunks, if it has them.
@@ -193,9 +194,8 @@ impl Dataset {
         limit: u64,
     ) -> Result<Vec<T>, HdfError> {
         same_type::<T>(self.data.dtype())?;
-        let count = block
-            .iter()
-            .fold(1, |all: usize, range| all.saturating_mul(range.len()));
+        let lengths = block.iter().map(ExactSizeIterator::len);
+        let count = lengths.fold(1, usize::saturating_mul);
         admit(count, size_of::<T>(), limit)?;
         if count == 0 {
             return Ok(Vec::new());
@@ -227,10 +227,8 @@ impl Dataset {
         let selections = block.iter().map(slice).collect();
         let found = self.data.read_slice::<T>(&SliceInfo { selections })?;
         if found.len() != count {
-            let (wide, shape) = (block, &self.shape);
-            return Err(HdfError::Damaged(format!(
-                "{wide:?} is no block of {shape:?}"
-            )));
+            let what = format!("{block:?} is no block of {:?}", self.shape);
+            return Err(HdfError::Damaged(what));
         }
         Ok(found.into_raw_vec_and_offset().0)
     }
@@ -250,7 +248,7 @@ impl Dataset {
             };
         }
         first_of!(f64, f32, i64, i32, i16, i8, u64, u32, u16, u8);
-        Err(wrong_type(&kind(self.data.dtype()), "numbers"))
+        wrong_type(&kind(self.data.dtype()), "numbers")
     }
 
     /// All its texts, which are UTF-8.
@@ -279,34 +277,32 @@ fn kind(datatype: &Datatype) -> String {
 fn same_type<T: H5Type>(found: &Datatype) -> Result<(), HdfError> {
     let (found, needed) = (kind(found), kind(&T::hdf5_type()));
     if found == needed {
-        Ok(())
-    } else {
-        Err(wrong_type(&found, &needed))
+        return Ok(());
     }
+    wrong_type(&found, &needed)
 }
 
-fn wrong_type(found: &str, needed: &str) -> HdfError {
-    HdfError::Refused(format!("its type is {found}, needed {needed}"))
+fn wrong_type<T>(found: &str, needed: &str) -> Result<T, HdfError> {
+    refused(format!("its type is {found}, needed {needed}"))
+}
+
+fn refused<T>(what: impl Into<String>) -> Result<T, HdfError> {
+    Err(HdfError::Refused(what.into()))
 }
 
 /// The one text of an attribute; a reference to a text that cannot be followed is none itself.
 fn text(attribute: &Attribute) -> Result<String, HdfError> {
     match (&attribute.datatype, attribute.decoded_strings.as_deref()) {
         (_, Some([text])) => Ok(text.clone()),
-        (_, Some(_)) => Err(HdfError::Refused(
-            "it is a list, needed one text".to_owned(),
-        )),
-        (
-            Datatype::String {
-                size: StringSize::Fixed(_),
-                ..
-            },
-            None,
-        ) => Ok(attribute.read_string()?),
-        (found, None) if kind(found) == TEXT => Err(HdfError::Damaged(
-            "its text is not there or not UTF-8".to_owned(),
-        )),
-        (found, None) => Err(wrong_type(&kind(found), TEXT)),
+        (_, Some(_)) => refused("it is a list, needed one text"),
+        (Datatype::String { size, .. }, None) if matches!(size, StringSize::Fixed(_)) => {
+            Ok(attribute.read_string()?)
+        }
+        (found, None) if kind(found) == TEXT => {
+            let what = "its text is not there or not UTF-8";
+            Err(HdfError::Damaged(what.to_owned()))
+        }
+        (found, None) => wrong_type(&kind(found), TEXT),
     }
 }
 
@@ -315,7 +311,7 @@ fn admit(count: usize, width: usize, limit: u64) -> Result<(), HdfError> {
     if needed <= limit {
         return Ok(());
     }
-    Err(HdfError::Refused(format!(
+    refused(format!(
         "it makes {needed} bytes of numbers, more than {limit}"
-    )))
+    ))
 }

@@ -52,12 +52,8 @@ pub struct Journal {
     flushed: Instant,
 }
 
-/// Where a journal keeps something.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Record {
-    at: u64,
-    bytes: u64,
-}
+/// Where in a journal a record begins.
+pub type Record = u64;
 
 /// Why a journal cannot be used.
 #[derive(Debug, thiserror::Error)]
@@ -103,58 +99,55 @@ impl Journal {
         drops: impl Fn(&Title) -> bool,
         mut take: impl FnMut(Record, &[u8]) -> bool,
     ) -> Result<Self, JournalError> {
-        let path = path.to_owned();
+        let (path, kind) = (path.to_owned(), title.kind);
         let there = std::fs::symlink_metadata(&path);
         if there.as_ref().is_ok_and(|there| !there.is_file()) {
             return Err(JournalError::Strange(path));
         }
-        let file = OpenOptions::new()
+        let mut file = OpenOptions::new()
             .read(true)
             .write(true)
             .create_new(there.is_err())
             .open(&path)
             .map_err(|source| JournalError::Unwritable(path.clone(), source))?;
-        let mut journal = Self {
-            path,
-            file,
-            end: 0,
-            flushed: Instant::now(),
-        };
-        let unreadable = |source| JournalError::Unreadable(journal.path.clone(), source);
-        let kind = title.kind;
-        let opened = journal.file.try_clone();
+        let unreadable = |source| JournalError::Unreadable(path.clone(), source);
+        let opened = file.try_clone();
         let found = opened.and_then(|file| Records::read(file, kind));
+        let mut end = 0;
         let other = match found.map_err(unreadable)? {
             Some(mut records) if records.title == *title => {
-                journal.end = records.at;
-                while let Some((record, kept)) = records.next() {
-                    if !take(record, &kept) {
-                        break;
-                    }
-                    journal.end = records.at;
+                end = records.at;
+                while let Some((record, kept)) = records.next()
+                    && take(record, &kept)
+                {
+                    end = records.at;
                 }
-                let cut = journal.file.set_len(journal.end);
-                cut.and_then(|()| journal.file.seek(SeekFrom::End(0)))
-                    .map_err(unreadable)?;
-                return Ok(journal);
+                None
             }
             Some(records) => Some(records.title),
-            None => match without_title(&journal.file, title).map_err(unreadable)? {
+            None => match without_title(&file, title).map_err(unreadable)? {
                 Some(earlier) => earlier.then(|| Title {
                     kind,
                     ..Title::default()
                 }),
-                None => return Err(JournalError::Strange(journal.path)),
+                None => return Err(JournalError::Strange(path)),
             },
         };
         if other.is_some_and(|other| !drops(&other)) {
-            return Err(JournalError::Other(journal.path, kind));
+            return Err(JournalError::Other(path, kind));
         }
-        let emptied = journal.file.set_len(0);
-        emptied
-            .and_then(|()| journal.file.rewind())
+        let cut = file.set_len(end);
+        cut.and_then(|()| file.seek(SeekFrom::Start(end)))
             .map_err(unreadable)?;
-        journal.write(title.text().as_bytes())?;
+        let mut journal = Self {
+            path,
+            file,
+            end,
+            flushed: Instant::now(),
+        };
+        if end == 0 {
+            journal.write(title.text().as_bytes())?;
+        }
         Ok(journal)
     }
 
@@ -163,12 +156,8 @@ impl Journal {
     /// # Errors
     /// [`JournalError::Unwritable`].
     pub fn append(&mut self, kept: &[u8]) -> Result<Record, JournalError> {
-        let bytes = kept.len() as u64;
-        let record = Record {
-            at: self.end,
-            bytes,
-        };
-        self.write(&bytes.to_le_bytes())?;
+        let record = self.end;
+        self.write(&(kept.len() as u64).to_le_bytes())?;
         self.write(kept)?;
         self.write(&sum(kept))?;
         if self.flushed.elapsed() > FLUSH {
@@ -185,9 +174,8 @@ impl Journal {
     /// What the system says, or that it was changed.
     pub fn read(&self, record: Record, kept: &mut Vec<u8>) -> io::Result<()> {
         let mut file = &self.file;
-        file.seek(SeekFrom::Start(record.at))?;
-        let left = record.bytes.saturating_add(FRAME);
-        if next(&mut file, left, kept)? {
+        file.seek(SeekFrom::Start(record))?;
+        if next(&mut file, self.end.saturating_sub(record), kept)? {
             return Ok(());
         }
         let path = self.path.display();
@@ -254,10 +242,8 @@ impl Records {
         let Some((identity, bytes)) = parsed().filter(|(_, bytes)| *bytes <= MOST) else {
             return Ok(None);
         };
-        reader.by_ref().take(bytes).read_to_end(&mut about)?;
-        let at = line.len() as u64 + bytes;
-        let about = String::from_utf8(about).ok();
-        let about = about.filter(|about| about.len() as u64 == bytes);
+        let found = reader.by_ref().take(bytes).read_to_end(&mut about)? as u64;
+        let about = String::from_utf8(about).ok().filter(|_| found == bytes);
         Ok(about.map(|about| Self {
             title: Title {
                 kind,
@@ -265,7 +251,7 @@ impl Records {
                 about,
             },
             reader,
-            at,
+            at: line.len() as u64 + bytes,
             length,
         }))
     }
@@ -277,12 +263,11 @@ impl Iterator for Records {
     /// Nothing at the end and after damage.
     fn next(&mut self) -> Option<Self::Item> {
         let mut kept = Vec::new();
-        if !next(&mut self.reader, self.length - self.at, &mut kept).ok()? {
-            return None;
-        }
-        let (at, bytes) = (self.at, kept.len() as u64);
-        self.at += bytes + FRAME;
-        Some((Record { at, bytes }, kept))
+        let found = next(&mut self.reader, self.length - self.at, &mut kept);
+        found.ok().filter(|&is_whole| is_whole)?;
+        let at = self.at;
+        self.at += kept.len() as u64 + FRAME;
+        Some((at, kept))
     }
 }
 
@@ -368,7 +353,7 @@ mod tests {
         let mut kept = b"what was read before".to_vec();
         journal.read(second, &mut kept).unwrap();
         assert_eq!(kept, b"second");
-        second.at as usize
+        second as usize
     }
 
     #[test]

@@ -84,10 +84,8 @@ impl Sealed {
         };
         let file = self.file.lock().unwrap_or_else(PoisonError::into_inner);
         let found = digests(&file, self.length)?;
-        match found.iter().zip(stated).position(|(a, b)| a != b) {
-            Some(piece) => Err(changed(piece)),
-            None => Ok(()),
-        }
+        let differs = found.iter().zip(stated).position(|(a, b)| a != b);
+        differs.map_or(Ok(()), |piece| Err(changed(piece)))
     }
 
     fn fill(&self, mut at: u64, mut into: &mut [u8]) -> io::Result<()> {
@@ -151,9 +149,7 @@ fn read_seal(file: &mut std::fs::File, whole: u64) -> Result<Option<Vec<[u8; DIG
         return Ok(None);
     }
     let broken = || HdfError::Damaged("its seal is broken".to_owned());
-    let mut length = [0; 8];
-    length.copy_from_slice(&end[8..16]);
-    let length = u64::from_le_bytes(length);
+    let length = u64::from_le_bytes(end.as_chunks().0[1]);
     let pieces = length.div_ceil(PIECE as u64);
     let listed = pieces.saturating_mul(DIGEST as u64);
     if listed.saturating_add(length).saturating_add(END as u64) != whole {

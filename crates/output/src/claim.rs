@@ -4,7 +4,7 @@ use crate::error::{Fault, OutputError};
 use crate::place::{behind, folder};
 use crate::temporary::{Lock, Temporary, sweep};
 use std::fs::File;
-use std::io::{self, BufRead, BufReader, ErrorKind};
+use std::io::{self, BufReader, ErrorKind, Read};
 use std::path::{Path, PathBuf};
 
 /// What to do with an existing file.
@@ -29,9 +29,10 @@ impl Existing {
 /// A name that this run alone writes to, until it is dropped.
 #[derive(Debug)]
 pub struct Output {
-    path: PathBuf,
-    /// The file behind links.
-    real: PathBuf,
+    /// The name that was given.
+    pub path: PathBuf,
+    /// The file that is written, behind links.
+    pub real: PathBuf,
     existing: Existing,
     _lock: Lock,
 }
@@ -64,18 +65,6 @@ impl Output {
         })
     }
 
-    /// The name that was given.
-    #[must_use]
-    pub fn path(&self) -> &Path {
-        &self.path
-    }
-
-    /// The file that is written, behind links.
-    #[must_use]
-    pub fn real(&self) -> &Path {
-        &self.real
-    }
-
     /// The same name with another answer to what is there already.
     ///
     /// # Errors
@@ -93,15 +82,16 @@ impl Output {
         &self,
         fill: impl FnOnce(&Path) -> Result<(), E>,
     ) -> Result<Staged<'_>, OutputError> {
-        let failed = |fault: Fault| OutputError::writing(&self.path, fault);
-        let part = Temporary::beside(&self.real).map_err(|error| failed(error.into()))?;
-        fill(&part.path).map_err(|fault| failed(fault.into()))?;
-        let bytes = (self.settle(&part.path)).map_err(|error| failed(error.into()))?;
-        Ok(Staged {
-            output: self,
-            part,
-            bytes,
-        })
+        let staged = || -> Result<Staged<'_>, Fault> {
+            let part = Temporary::beside(&self.real)?;
+            fill(&part.path).map_err(Into::into)?;
+            Ok(Staged {
+                output: self,
+                bytes: self.settle(&part.path)?,
+                part,
+            })
+        };
+        staged().map_err(|fault| OutputError::writing(&self.path, fault))
     }
 
     /// [`Self::stage`] and [`Staged::commit`]; gives the size of the file.
@@ -149,22 +139,15 @@ impl Staged<'_> {
     /// # Errors
     /// [`OutputError`]: it exists by now and is kept, or the system's reason.
     pub fn commit(self) -> Result<(), OutputError> {
-        let Output {
-            path,
-            real,
-            existing,
-            ..
-        } = self.output;
+        let (path, real) = (&self.output.path, &self.output.real);
+        let (part, existing) = (&self.part.path, self.output.existing);
         let failed = |error: io::Error| OutputError::writing(path, error);
-        refuse(path, real, *existing)?;
-        if *existing == Existing::KeepUnlessSame && real.exists() {
-            return match same(&self.part.path, real) {
-                Ok(true) => Ok(()),
-                Ok(false) => Err(OutputError::Exists(path.clone())),
-                Err(error) => Err(failed(error)),
-            };
+        refuse(path, real, existing)?;
+        if existing == Existing::KeepUnlessSame && real.exists() {
+            let same = same(part, real).map_err(failed)?;
+            return same.then_some(()).ok_or(OutputError::Exists(path.clone()));
         }
-        std::fs::rename(&self.part.path, real).map_err(failed)?;
+        std::fs::rename(part, real).map_err(failed)?;
         self.part.forget();
         flush(folder(real)).map_err(failed)
     }
@@ -180,34 +163,29 @@ fn refuse(path: &Path, real: &Path, existing: Existing) -> Result<(), OutputErro
 
 /// Flushes a folder; one that cannot be is left to the system.
 fn flush(folder: &Path) -> io::Result<()> {
-    let cannot = |kind| {
-        matches!(
-            kind,
-            ErrorKind::InvalidInput | ErrorKind::Unsupported | ErrorKind::PermissionDenied
-        )
-    };
-    match File::open(folder).and_then(|folder| folder.sync_all()) {
-        Err(error) if !cannot(error.kind()) => Err(error),
-        Ok(()) | Err(_) => Ok(()),
-    }
+    use ErrorKind::{InvalidInput, PermissionDenied, Unsupported};
+    let flushed = File::open(folder).and_then(|folder| folder.sync_all());
+    flushed.or_else(|error| match error.kind() {
+        InvalidInput | Unsupported | PermissionDenied => Ok(()),
+        _ => Err(error),
+    })
 }
 
 /// Whether two files hold the same bytes.
 fn same(one: &Path, other: &Path) -> io::Result<bool> {
-    let open = |path| Ok::<_, io::Error>(BufReader::with_capacity(1 << 16, File::open(path)?));
-    let (mut one, mut other) = (open(one)?, open(other)?);
-    loop {
-        let (left, right) = (one.fill_buf()?, other.fill_buf()?);
-        let count = left.len().min(right.len());
-        if count == 0 {
-            return Ok(left.len() == right.len());
-        }
-        if left[..count] != right[..count] {
+    let (one, other) = (File::open(one)?, File::open(other)?);
+    if one.metadata()?.len() != other.metadata()?.len() {
+        return Ok(false);
+    }
+    for (left, right) in BufReader::new(one)
+        .bytes()
+        .zip(BufReader::new(other).bytes())
+    {
+        if left? != right? {
             return Ok(false);
         }
-        one.consume(count);
-        other.consume(count);
     }
+    Ok(true)
 }
 
 /// Writes a file through a closure that is given a name beside the final one.

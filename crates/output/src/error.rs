@@ -120,6 +120,12 @@ impl From<String> for Fault {
     }
 }
 
+impl From<&str> for Fault {
+    fn from(reason: &str) -> Self {
+        reason.to_owned().into()
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -21,18 +21,14 @@ impl Folder {
     /// writes into it.
     pub fn claim(path: &Path, existing: Existing) -> Result<Self, OutputError> {
         if path.exists() && !path.is_dir() {
-            return Err(OutputError::place(path, "it is not a folder".to_owned()));
+            return Err(OutputError::place(path, "it is not a folder"));
         }
         std::fs::create_dir_all(path).map_err(|error| OutputError::place(path, error))?;
         // a folder that takes no files is found now, not after minutes
         let claim = Output::claim(&path.join("folder.lock"), Existing::Replace)?;
-        let mut names: Vec<PathBuf> = std::fs::read_dir(path)
-            .map_err(|error| OutputError::place(path, error))?
-            .filter_map(|entry| Some(entry.ok()?.path()))
-            .filter(|path| !hidden(path))
-            .collect();
-        names.sort();
-        match names.into_iter().next() {
+        let entries = std::fs::read_dir(path).map_err(|error| OutputError::place(path, error))?;
+        let names = entries.filter_map(|entry| Some(entry.ok()?.path()));
+        match names.filter(|path| !hidden(path)).min() {
             Some(path) if existing != Existing::Replace => Err(OutputError::Exists(path)),
             Some(_) | None => Ok(Self {
                 path: path.to_owned(),

@@ -1,7 +1,7 @@
 //! The file behind a name, and outputs that are inputs, or each other.
 
-use crate::error::OutputError;
-use std::ffi::OsStr;
+use crate::error::{Fault, OutputError};
+use std::ffi::{OsStr, OsString};
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
@@ -15,7 +15,8 @@ pub fn is_standard(path: &Path) -> bool {
 }
 
 /// The folder of a path.
-pub(crate) fn folder(path: &Path) -> &Path {
+#[must_use]
+pub fn folder(path: &Path) -> &Path {
     match path.parent() {
         Some(parent) if !parent.as_os_str().is_empty() => parent,
         Some(_) | None => Path::new("."),
@@ -27,91 +28,86 @@ pub(crate) fn folder(path: &Path) -> &Path {
 /// # Errors
 /// [`OutputError::Unwritable`] when it is no regular file, or its folder is not there.
 pub fn behind(path: &Path) -> Result<PathBuf, OutputError> {
-    let fault = |reason: String| OutputError::place(path, reason);
+    file_behind(path).map_err(|fault| OutputError::place(path, fault))
+}
+
+fn file_behind(path: &Path) -> Result<PathBuf, Fault> {
     if is_standard(path) {
-        return Err(fault(
-            "standard output does not take such a file; give a name, ./- for a file that is called so".to_owned(),
-        ));
+        return Err("standard output does not take such a file; give a name, ./- for a file that is called so".into());
     }
     if path.as_os_str().is_empty() {
-        return Err(fault("the name is empty".to_owned()));
+        return Err("the name is empty".into());
     }
     if let Ok(there) = std::fs::metadata(path) {
-        regular(&there.file_type()).map_err(|what| fault(what.to_owned()))?;
+        regular(&there.file_type())?;
     }
-    let real = follow(path).map_err(fault)?;
+    let real = follow(path)?;
     if real.file_name().is_none() {
-        return Err(fault("it has no file name".to_owned()));
+        return Err("it has no file name".into());
     }
     let folder = folder(&real);
+    let shown = folder.display();
     match std::fs::metadata(folder) {
         Ok(data) if data.is_dir() => {}
-        Ok(_) => return Err(fault(format!("{} is not a folder", folder.display()))),
+        Ok(_) => return Err(format!("{shown} is not a folder").into()),
         Err(error) if error.kind() == ErrorKind::NotFound => {
-            return Err(fault(format!(
-                "the folder {} does not exist",
-                folder.display()
-            )));
+            return Err(format!("the folder {shown} does not exist").into());
         }
-        Err(error) => return Err(OutputError::place(path, error)),
+        Err(error) => return Err(error.into()),
     }
     match std::fs::symlink_metadata(&real) {
         // a name that is too long, for one
-        Err(error) if error.kind() != ErrorKind::NotFound => Err(OutputError::place(path, error)),
+        Err(error) if error.kind() != ErrorKind::NotFound => Err(error.into()),
         Ok(_) | Err(_) => Ok(real),
     }
 }
 
 /// The path at the end of a chain of links.
-fn follow(path: &Path) -> Result<PathBuf, String> {
+fn follow(path: &Path) -> Result<PathBuf, Fault> {
     let mut real = path.to_owned();
     for _ in 0..MOST_LINKS {
         if real.starts_with("/proc") {
-            return Err("it is an open file of a process, such as standard output".to_owned());
+            return Err("it is an open file of a process, such as standard output".into());
         }
-        match std::fs::symlink_metadata(&real) {
-            Ok(there) if there.is_symlink() => {
-                let target = std::fs::read_link(&real).map_err(|error| error.to_string())?;
-                real = folder(&real).join(target);
-            }
-            Ok(_) | Err(_) => return Ok(real),
+        if !real.is_symlink() {
+            return Ok(real);
         }
+        real = folder(&real).join(std::fs::read_link(&real)?);
     }
-    Err("it is a link to itself, or too many links one after the other".to_owned())
+    Err("it is a link to itself, or too many links one after the other".into())
 }
 
-/// What keeps something from being a file that can be replaced.
-fn regular(kind: &std::fs::FileType) -> Result<(), &'static str> {
+/// Refuses what is no file that can be replaced.
+fn regular(kind: &std::fs::FileType) -> Result<(), Fault> {
     if kind.is_file() {
         return Ok(());
-    }
-    if kind.is_dir() {
-        return Err("it is a folder");
     }
     #[cfg(unix)]
     {
         use std::os::unix::fs::FileTypeExt;
         if kind.is_fifo() {
-            return Err("it is a pipe, not a file");
+            return Err("it is a pipe, not a file".into());
         }
         if kind.is_char_device() || kind.is_block_device() {
-            return Err("it is a device, not a file");
+            return Err("it is a device, not a file".into());
         }
     }
-    Err("it is not a file")
+    let what = if kind.is_dir() {
+        "it is a folder"
+    } else {
+        "it is not a file"
+    };
+    Err(what.into())
 }
 
 /// `path` with something before and after its name; long names are replaced by a hash, so that there is room for both.
 pub(crate) fn beside(path: &Path, before: &str, after: &str) -> PathBuf {
-    let name = path.file_name().unwrap_or(OsStr::new(""));
-    let mut whole = std::ffi::OsString::from(before);
+    let mut name = path.file_name().unwrap_or_default().to_owned();
     if name.len() > 180 {
-        whole.push(format!("{:016x}", hash(name.as_encoded_bytes())));
-    } else {
-        whole.push(name);
+        name = format!("{:016x}", hash(name.as_encoded_bytes())).into();
     }
-    whole.push(after);
-    folder(path).join(whole)
+    let whole = [OsStr::new(before), &name, OsStr::new(after)];
+    folder(path).join(whole.into_iter().collect::<OsString>())
 }
 
 /// Fowler, Noll and Vo's hash.

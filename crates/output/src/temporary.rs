@@ -4,7 +4,7 @@
 use crate::place::{beside, folder};
 use std::collections::BTreeSet;
 use std::fs::{File, TryLockError};
-use std::hash::{BuildHasher, Hasher};
+use std::hash::{BuildHasher, RandomState};
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -16,8 +16,6 @@ static LIVE: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
 const DIGITS: usize = 16;
 /// How it ends.
 const SUFFIX: &str = ".part";
-/// Names tried before giving up.
-const ATTEMPTS: usize = 16;
 
 fn live() -> MutexGuard<'static, BTreeSet<PathBuf>> {
     LIVE.lock().unwrap_or_else(PoisonError::into_inner)
@@ -41,27 +39,16 @@ impl Temporary {
     ///
     /// It is made where nothing was before: neither a file nor a link of that name is written to.
     pub(crate) fn beside(path: &Path) -> io::Result<Self> {
-        let mut last = io::Error::from(ErrorKind::AlreadyExists);
-        for _ in 0..ATTEMPTS {
-            let name = beside(path, ".", &format!(".{:016x}{SUFFIX}", random()));
-            // before it exists, so that no moment is left at which nobody knows of it
-            let made = Self::known(name);
-            match File::options()
-                .write(true)
-                .create_new(true)
-                .open(&made.path)
-            {
-                Ok(_) => return Ok(made),
-                Err(error) => {
-                    made.forget();
-                    last = error;
-                }
-            }
-            if last.kind() != ErrorKind::AlreadyExists {
-                break;
+        let name = beside(path, ".", &format!(".{:016x}{SUFFIX}", random()));
+        // before it exists, so that no moment is left at which nobody knows of it
+        let made = Self::known(name);
+        match File::create_new(&made.path) {
+            Ok(_) => Ok(made),
+            Err(error) => {
+                made.forget();
+                Err(error)
             }
         }
-        Err(last)
     }
 
     /// A file of this name, which is there or is about to be.
@@ -109,9 +96,7 @@ pub(crate) fn sweep(path: &Path) {
 
 /// A number that differs from call to call and from process to process.
 fn random() -> u64 {
-    let mut hasher = std::hash::RandomState::new().build_hasher();
-    hasher.write_u32(std::process::id());
-    hasher.finish()
+    RandomState::new().hash_one(std::process::id())
 }
 
 /// The lock of a name, held until it is dropped: an advisory lock on `.NAME.lock`, which is removed with it.

@@ -105,8 +105,8 @@ impl Fault for PlotError {
             Self::Refused {
                 file, suggestion, ..
             } => Culprit {
-                file: file.as_deref(),
-                suggestion: suggestion.as_deref(),
+                file: file.as_deref().map(Into::into),
+                suggestion: suggestion.as_deref().map(Into::into),
                 ..Culprit::of(Class::Scene)
             },
         }

@@ -17,9 +17,9 @@ fn sweep(folder: &Path, name: &str, varies: &str) -> PathBuf {
     let spec = Spec::from_toml(&text, folder).unwrap();
     let path = folder.join(name);
     let part = folder.join("part");
-    let done = run_rows(&spec, 0..spec.rows(), &part, Existing::Replace, |_| true).unwrap();
+    let done = run_rows(&spec, &part, Existing::Replace, |_| true).unwrap();
     let output = Output::claim(&path, Existing::Keep).unwrap();
-    let staged = stage_rows(&output, &spec, None, &done.unwrap()).unwrap();
+    let staged = stage_rows(&output, &spec, &done.unwrap()).unwrap();
     staged.commit().unwrap();
     path
 }

@@ -42,7 +42,7 @@ pub(crate) fn raised_in(error: impl Fault, file: Option<&Path>) -> PyErr {
         message.push_str("; give overwrite=True to replace it");
     }
     let of_a_file = matches!(culprit.class, Class::OutsideTable | Class::Table);
-    let file = culprit.file.or(file.filter(|_| of_a_file));
+    let file = culprit.file.as_deref().or(file.filter(|_| of_a_file));
     let value = culprit.number.map(Value::from);
     let [low, high] = [0, 1].map(|i| culprit.limits.map(|limits| limits[i]));
     let known = [

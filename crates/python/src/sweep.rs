@@ -175,7 +175,7 @@ impl Plan {
             if csv {
                 stage_csv(&output, &spec, &[block])?.commit()
             } else {
-                stage_rows(&output, &spec, None, &[block])?.commit()
+                stage_rows(&output, &spec, &[block])?.commit()
             }
         })?
         .map_err(raise)

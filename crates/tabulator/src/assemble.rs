@@ -49,7 +49,7 @@ pub(crate) fn complete(
     let bytes = output.write(|part| write_checked(&content, part))?;
     Ok(Summary {
         id: lookup::settings_id(&content.origin.grid),
-        content_sha256: lookup::stated_hash(output.real())?,
+        content_sha256: lookup::stated_hash(&output.real)?,
         points: content.r.len() * content.z.len() * content.slices.len(),
         bytes,
         wall_s: 0.0,

@@ -115,12 +115,12 @@ impl Fault for BuildError {
             Self::Setting { key, value, range } => grid.key(key).number(*value).range(range),
             Self::Shrinks { key, value, .. } => grid.key(key).number(*value),
             Self::Refused { file, .. } => Culprit {
-                file: file.as_deref(),
+                file: file.as_deref().map(Into::into),
                 ..grid
             },
             Self::InFile { path, source } => {
                 let found = source.culprit();
-                let file = found.file.or(Some(path));
+                let file = found.file.or(Some(path.into()));
                 Culprit { file, ..found }
             }
             Self::Journal(error) => error.culprit(),

@@ -19,7 +19,7 @@ const HEADER: usize = 7 * 8;
 
 /// Where the journal of an output is.
 pub(crate) fn journal_of(output: &Output) -> PathBuf {
-    let mut name = output.real().as_os_str().to_owned();
+    let mut name = output.real.as_os_str().to_owned();
     name.push(".journal");
     PathBuf::from(name)
 }

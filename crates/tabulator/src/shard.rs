@@ -34,7 +34,7 @@ pub fn build_shard(
         .collect();
     let text = grid.to_toml()?;
     let output = Output::claim(path, Existing::Replace)?;
-    let (journal, finished) = journal::open(output.real(), &title(&text, None), |_| false)?;
+    let (journal, finished) = journal::open(&output.real, &title(&text, None), |_| false)?;
     let finished = usable(grid, &work, finished, None)?;
     let journal = Mutex::new(journal);
     rows(grid, &work, finished, Some(&journal), None, progress)?;

@@ -116,15 +116,15 @@ fn parts(folder: &Path) -> Result<Vec<Vec<u8>>, Box<dyn Error>> {
     let journal = folder.join("seed.part");
     let _ = fs::remove_file(&journal);
     let done = sweep(&journal, folder, usize::MAX)?.ok_or("the sweep was stopped")?;
-    let (spec, names) = (of_sweep(folder)?, ["part.h5", "part.parquet"]);
+    let (mut spec, names) = (of_sweep(folder)?, ["part.h5", "part.parquet"]);
     let (rows, shard) = (0..spec.rows(), None);
-    let selection = Selection { rows, shard };
+    spec.selection = Some(Selection { rows, shard });
     let built = names.iter().map(|name| folder.join(name));
     built
         .filter(|path| check_rows(path).is_ok())
         .map(|path| {
             let output = Output::claim(&path, Existing::Replace)?;
-            stage_rows(&output, &spec, Some(&selection), &done)?.commit()?;
+            stage_rows(&output, &spec, &done)?.commit()?;
             Ok(fs::read(path)?)
         })
         .collect()

@@ -63,9 +63,7 @@ pub(crate) fn of_sweep(folder: &Path) -> Result<Spec, SceneError> {
 /// Runs it with the journal at `path`, until so many rows are done.
 pub(crate) fn sweep(path: &Path, folder: &Path, rows: usize) -> Result<Option<Kept>, SweepError> {
     let spec = of_sweep(folder)?;
-    run_rows(&spec, 0..spec.rows(), path, Existing::Replace, |done| {
-        done < rows
-    })
+    run_rows(&spec, path, Existing::Replace, |done| done < rows)
 }
 
 /// All rows are those of the sweep, wherever they come from.

@@ -3,7 +3,7 @@
 //! Both are the same data: the fields in `/map` are hard links to those in `/VTKHDF`.
 
 use super::schema;
-use crate::hdf::{attach_all, describe, numbers, scalar, scale, set_scale, text, texts};
+use crate::hdf::{attach_all, describe, numbers, scalar, scale, set_scale, text, texts, vector};
 use crate::quantities::{Described, labels_of};
 use hdf5::types::FixedAscii;
 use hdf5::{Dataset, File, Group};
@@ -86,12 +86,12 @@ fn vtk_image(file: &File, map: &SectionFields) -> Result<Group, hdf5::Error> {
     let vtk = file.create_group(schema::VTK)?;
     let (nr, nz) = (map.r_m.len(), map.z_m.len());
     let spacing = |x: &[f64]| (x[x.len() - 1] - x[0]).abs() / (x.len() - 1) as f64;
-    let integers = |name: &str, values: &[i64]| attribute(&vtk, name, values);
-    integers("Version", &[2, 1])?;
+    attribute(&vtk, "Version", &[2, 1])?;
     let kind = FixedAscii::<9>::from_ascii("ImageData")
         .map_err(|_| hdf5::Error::from("the type is not ASCII"))?;
     scalar(&vtk, "Type", kind)?;
-    integers("WholeExtent", &[0, nr as i64 - 1, 0, nz as i64 - 1, 0, 0])?;
+    let extent = [0, nr as i64 - 1, 0, nz as i64 - 1, 0, 0];
+    attribute(&vtk, "WholeExtent", &extent)?;
     let reals = |name: &str, values: &[f64]| attribute(&vtk, name, values);
     let (dr, dz) = (spacing(&map.r_m), spacing(&map.z_m));
     reals("Origin", &[map.r_m[0], -map.z_m[0], 0.0])?;
@@ -99,19 +99,14 @@ fn vtk_image(file: &File, map: &SectionFields) -> Result<Group, hdf5::Error> {
     reals("Direction", &[1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0])?;
     let steps = vtk.create_group("Steps")?;
     scalar(&steps, "NSteps", map.time_s.len() as i64)?;
-    let values = numbers(
-        &steps,
-        &("Values", "s", "time of each frame"),
-        &[map.time_s.len()],
-        &map.time_s,
-    )?;
+    let described = ("Values", "s", "time of each frame");
+    let values = vector(&steps, &described, &map.time_s)?;
     text(&values, "axis", "time")?;
     // a step of a field begins where the one before it ends; some readers count in 64 bits only
     let offsets = steps.create_group(schema::VTK_OFFSETS)?;
     let numbered: Vec<i64> = (0..map.time_s.len() as i64).collect();
     for (name, _, meaning) in labels_of(&map.quantities) {
-        let row = (name, "1", meaning);
-        numbers(&offsets, &row, &[numbered.len()], &numbered)?;
+        vector(&offsets, &(name, "1", meaning), &numbered)?;
     }
     vtk.create_group(schema::VTK_POINTS)
 }

@@ -47,7 +47,9 @@ fn write_file(path: &Path, scene: &Scene, outcome: &Outcome) -> Result<(), hdf5:
     for (described, samples) in schema::samples(series) {
         let dataset = vector(&file, described, samples)?;
         if described.0 == schema::FORCE {
-            write_treatment(&dataset, scene)?;
+            for (name, value) in treatment(scene) {
+                value.map_or(Ok(()), |value| scalar(&dataset, name, value))?;
+            }
         }
         match &time {
             None => {
@@ -68,16 +70,6 @@ fn write_file(path: &Path, scene: &Scene, outcome: &Outcome) -> Result<(), hdf5:
     }
     file.flush()?;
     file.close()
-}
-
-/// What was done to a record, as numbers at its force.
-fn write_treatment(force: &Dataset, scene: &Scene) -> Result<(), hdf5::Error> {
-    for (name, value) in treatment(scene) {
-        if let Some(value) = value {
-            scalar(force, name, value)?;
-        }
-    }
-    Ok(())
 }
 
 fn write_energy(file: &File, energy: &EnergySeries, time_s: &[f64]) -> Result<(), hdf5::Error> {
@@ -120,13 +112,12 @@ fn write_probes(
         let samples: Vec<f64> = values.iter().flatten().copied().collect();
         let dataset = numbers(&group, &row, &[rows, columns], &samples)?;
         placed(&dataset, &[&probe, &time])?;
-        let mut found = Peaks::default();
-        if peaks {
-            values
-                .iter()
-                .for_each(|samples| found.push(time_s, samples));
-        }
-        for (row, numbers) in beside(row, errors, peaks.then_some(&found)) {
+        let found = peaks.then(|| {
+            let mut found = Peaks::default();
+            (values.iter()).for_each(|samples| found.push(time_s, samples));
+            found
+        });
+        for (row, numbers) in beside(row, errors, found.as_ref()) {
             placed(&vector(&group, &row.labels(), numbers)?, &[&probe])?;
         }
     }

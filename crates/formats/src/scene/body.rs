@@ -30,12 +30,10 @@ pub fn parse_materials(text: &str) -> Result<Library, SceneError> {
     let root = Section::root(&table);
     let own = root.names().map(|name| {
         if name.is_empty() || name.contains(char::is_control) {
+            let key = "the name of a material".to_owned();
             let shown = format!("\"{}\"", name.escape_default());
-            return Err(SceneError::wrong_kind(
-                "the name of a material".to_owned(),
-                shown,
-                "one or more printed letters",
-            ));
+            let expected = "one or more printed letters";
+            return Err(SceneError::wrong_kind(key, shown, expected));
         }
         let section = root.subsection(name, "a section")?;
         let allowed = keys_of("body").map(|key| key.name);
@@ -44,7 +42,7 @@ pub fn parse_materials(text: &str) -> Result<Library, SceneError> {
             .text("source")?
             .ok_or_else(|| section.missing("source", "say where the numbers come from"))?;
         Ok(Material {
-            name: section.name().to_owned(),
+            name: section.name.to_owned(),
             group: section.text("group")?.unwrap_or("other").to_owned(),
             source: source.to_owned(),
             ..elastic(&section, None)?
@@ -56,11 +54,8 @@ pub fn parse_materials(text: &str) -> Result<Library, SceneError> {
 /// The body of a section that may name a material of a library.
 pub(super) fn body(section: &Section<'_>, library: &Library) -> Result<Material, SceneError> {
     let named = section.text("material")?.map(|name| library.find(name));
-    let base = named.transpose();
-    let base = base.map_err(|unknown| {
-        SceneError::unknown_material(section.key("material"), &unknown.name, unknown.suggestion)
-    })?;
-    elastic(section, base)
+    let unknown = |unknown| SceneError::unknown_material(section.key("material"), unknown);
+    elastic(section, named.transpose().map_err(unknown)?)
 }
 
 /// The elastic body of a section: the numbers of `base` with those given replaced.
@@ -87,24 +82,14 @@ fn elastic(section: &Section<'_>, base: Option<&Material>) -> Result<Material, S
     let speeds = from_speeds(section, material.density_kg_m3)?;
     let (modulus, ratio) = (&mut material.youngs_modulus_pa, &mut material.poisson_ratio);
     let constants = [
-        (
-            "youngs_modulus_pa",
-            "Young's modulus",
-            modulus,
-            speeds.map(|s| [s.0, s.0]),
-        ),
-        (
-            "poisson_ratio",
-            "Poisson's ratio",
-            ratio,
-            speeds.map(|s| [s.1, 0.5]),
-        ),
+        ("youngs_modulus_pa", "Young's modulus", modulus),
+        ("poisson_ratio", "Poisson's ratio", ratio),
     ];
-    for (key, quantity, own, speeds) in constants {
-        match speeds {
-            Some([value, _]) if section.value(key).is_none() => *own = value,
-            Some([value, size]) if (*own - value).abs() > ROUNDING * size => {
-                let (name, by) = (section.name(), "longitudinal_speed_m_s and shear_speed_m_s");
+    for (i, (key, quantity, own)) in constants.into_iter().enumerate() {
+        match speeds.map(|found| found[i]) {
+            Some((value, _)) if section.value(key).is_none() => *own = value,
+            Some((value, size)) if (*own - value).abs() > ROUNDING * size => {
+                let (name, by) = (section.name, "longitudinal_speed_m_s and shear_speed_m_s");
                 let sentence = format!(
                     "[{name}] gives {quantity} twice: {own} from {key} and {value} from {by}; leave one pair out"
                 );
@@ -119,11 +104,12 @@ fn elastic(section: &Section<'_>, base: Option<&Material>) -> Result<Material, S
     Ok(material)
 }
 
-/// Young's modulus in Pa and Poisson's ratio from the wave speeds, where they are given.
+/// Young's modulus in Pa and Poisson's ratio from the wave speeds, where they are given, each with the size that differences are
+/// compared with.
 fn from_speeds(
     section: &Section<'_>,
     density: Option<f64>,
-) -> Result<Option<(f64, f64)>, SceneError> {
+) -> Result<Option<[(f64, f64); 2]>, SceneError> {
     let both = "both wave speeds are needed";
     let c1 = section.number("longitudinal_speed_m_s")?;
     let c2 = section.number("shear_speed_m_s")?;
@@ -137,13 +123,12 @@ fn from_speeds(
     let density = density.ok_or_else(|| section.missing("density_kg_m3", hint))?;
     // nu in (-1, 1/2) needs c2/c1 < sqrt(3)/2
     if c2 * c2 >= 0.75 * c1 * c1 {
-        return Err(SceneError::out_of_range(
-            section.key("shear_speed_m_s"),
-            c2,
-            "(0, sqrt(3)/2) times longitudinal_speed_m_s",
-        ));
+        let key = section.key("shear_speed_m_s");
+        let range = "(0, sqrt(3)/2) times longitudinal_speed_m_s";
+        return Err(SceneError::out_of_range(key, c2, range));
     }
-    Ok(Some(from_wave_speeds(c1, c2, density)))
+    let (modulus, ratio) = from_wave_speeds(c1, c2, density);
+    Ok(Some([(modulus, modulus), (ratio, 0.5)]))
 }
 
 pub(super) fn read_strike(section: &Section<'_>, library: &Library) -> Result<Strike, SceneError> {
@@ -185,11 +170,8 @@ fn of_form(section: &Section<'_>, library: &Library, form: Form) -> Result<Strik
         ),
     };
     if let Some(key) = superfluous.iter().find(|key| section.value(key).is_some()) {
-        return Err(SceneError::superfluous(
-            section.key(key),
-            &format!("shape = \"{}\"", form.name()),
-            reason,
-        ));
+        let beside = format!("shape = \"{}\"", form.name());
+        return Err(SceneError::superfluous(section.key(key), &beside, reason));
     }
     let diameter_m = section.needed("diameter_m")?;
     let shape = match form {

@@ -15,30 +15,19 @@ pub(crate) struct Range {
     pub(crate) holds: fn(f64) -> bool,
 }
 
-pub(crate) const POSITIVE: Range = Range {
-    name: "(0, inf)",
-    holds: |x| x > 0.0 && x < f64::INFINITY,
-};
-pub(crate) const FINITE: Range = Range {
-    name: "(-inf, inf)",
-    holds: f64::is_finite,
-};
-pub(crate) const NOT_NEGATIVE: Range = Range {
-    name: "[0, inf)",
-    holds: |x| (0.0..f64::INFINITY).contains(&x),
-};
-pub(crate) const SIGN: Range = Range {
-    name: "{-1, 1}",
-    holds: |x| x == 1.0 || x == -1.0,
-};
-pub(crate) const POISSON: Range = Range {
-    name: "(-1, 0.5)",
-    holds: |x| x > -1.0 && x < 0.5,
-};
-pub(crate) const TOLERANCE: Range = Range {
-    name: "[1e-9, 0.1]",
-    holds: |x| (1e-9..=0.1).contains(&x),
-};
+impl Range {
+    pub(crate) const fn new(name: &'static str, holds: fn(f64) -> bool) -> Self {
+        Self { name, holds }
+    }
+}
+
+pub(crate) const POSITIVE: Range = Range::new("(0, inf)", |x| x > 0.0 && x < f64::INFINITY);
+pub(crate) const FINITE: Range = Range::new("(-inf, inf)", f64::is_finite);
+pub(crate) const NOT_NEGATIVE: Range =
+    Range::new("[0, inf)", |x| (0.0..f64::INFINITY).contains(&x));
+pub(crate) const SIGN: Range = Range::new("{-1, 1}", |x| x == 1.0 || x == -1.0);
+pub(crate) const POISSON: Range = Range::new("(-1, 0.5)", |x| x > -1.0 && x < 0.5);
+pub(crate) const TOLERANCE: Range = Range::new("[1e-9, 0.1]", |x| (1e-9..=0.1).contains(&x));
 
 /// A key of a scene.
 pub(crate) struct Key {
@@ -217,12 +206,8 @@ pub(crate) fn keys_of(section: &str) -> impl Iterator<Item = &'static Key> {
 
 /// A key with its section, where one has a key of this name.
 pub(super) fn full_name(name: &str) -> Option<String> {
-    let key = number(name)?;
-    let section = if key.section == "body" {
-        "target"
-    } else {
-        key.section
-    };
+    let has = |section: &&str| keys_of(section).any(|key| key.name == name);
+    let section = SECTIONS.into_iter().find(has)?;
     Some(format!("{section}.{name}"))
 }
 
@@ -275,23 +260,23 @@ pub fn resolved(scene: &Scene) -> String {
 impl Set {
     /// Sets a number that is in its range; false where it makes no body.
     pub(crate) fn apply(self, scene: &mut Scene, section: &str, x: f64) -> bool {
-        if let (Self::Body(set) | Self::Ball(set), "target") = (self, section) {
-            return scene
-                .target
-                .change(|material| set(material, None, x))
-                .is_ok();
-        }
-        match (self, &mut scene.load) {
-            (Self::Settings(set), _) => set(&mut scene.settings, x),
-            (Self::Strike(set), Load::Strike(strike)) => set(strike, x),
-            (Self::Body(set), Load::Strike(strike)) => set(&mut strike.striker.material, None, x),
-            (Self::Ball(set), Load::Strike(strike)) => {
-                let changed =
-                    (strike.striker).change_shape(|material, shape| set(material, shape, x));
+        match (self, section, &mut scene.load) {
+            (Self::Body(set) | Self::Ball(set), "target", _) => {
+                let changed = scene.target.change(|material| set(material, None, x));
+                return changed.is_ok();
+            }
+            (Self::Settings(set), ..) => set(&mut scene.settings, x),
+            (Self::Strike(set), _, Load::Strike(strike)) => set(strike, x),
+            (Self::Body(set), _, Load::Strike(strike)) => {
+                set(&mut strike.striker.material, None, x);
+            }
+            (Self::Ball(set), _, Load::Strike(strike)) => {
+                let striker = &mut strike.striker;
+                let changed = striker.change_shape(|material, shape| set(material, shape, x));
                 return changed.is_ok();
             }
             // the first template was checked for a striker, and words are not set so
-            (Self::Strike(_) | Self::Body(_) | Self::Ball(_) | Self::Choice(_), _) => {}
+            (Self::Strike(_) | Self::Body(_) | Self::Ball(_) | Self::Choice(_), ..) => {}
         }
         true
     }

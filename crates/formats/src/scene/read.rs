@@ -60,15 +60,10 @@ pub fn parse_scene(text: &str, directory: &Path) -> Result<Scene, SceneError> {
 /// Reads a scene from a parsed table, as sweeps make them.
 pub fn scene_of(table: &Table, directory: &Path) -> Result<Scene, SceneError> {
     let root = Section::root(table);
-    if let Some(key) = ["product", "list", "random"]
-        .into_iter()
-        .find(|key| table.contains_key(*key))
-    {
-        return Err(SceneError::unknown_key(
-            key.to_owned(),
-            None,
-            "this is a sweep, not a scene",
-        ));
+    let of_sweeps = ["product", "list", "random"];
+    if let Some(key) = of_sweeps.iter().find(|&&key| table.contains_key(key)) {
+        let what = "this is a sweep, not a scene";
+        return Err(SceneError::unknown_key((*key).to_owned(), None, what));
     }
     root.allow(SECTIONS)?;
     let library = read_library(&root, directory)?;
@@ -120,12 +115,9 @@ fn read_target(root: &Section<'_>, library: &Library) -> Result<HalfSpace, Scene
     target.allow_keys_of("target")?;
     let material = body(&target, library)?;
     // the reader has checked the ranges: a density is all that can be missing
-    let mut half_space = HalfSpace::new(material).map_err(|_| {
-        target.missing(
-            "density_kg_m3",
-            "the half-space needs a density for its waves",
-        )
-    })?;
+    let hint = "the half-space needs a density for its waves";
+    let made = HalfSpace::new(material);
+    let mut half_space = made.map_err(|_| target.missing("density_kg_m3", hint))?;
     half_space.thickness_m = target.number("thickness_m")?;
     half_space.radius_m = target.number("radius_m")?;
     Ok(half_space)
@@ -151,10 +143,9 @@ fn read_settings(root: &Section<'_>) -> Result<Settings, SceneError> {
     for key in keys_of("contact") {
         match key.set {
             Some(Set::Settings(set)) => {
-                section
-                    .number(key.name)?
-                    .into_iter()
-                    .for_each(|number| set(&mut settings, number));
+                if let Some(number) = section.number(key.name)? {
+                    set(&mut settings, number);
+                }
             }
             Some(Set::Choice(set)) => {
                 if let Some(word) = section.text(key.name)? {
@@ -222,13 +213,11 @@ fn read_load(
                 force.missing("file", "name a CSV file with columns time_s,force_n or an HDF5 file with /time and /force")
             })?;
             if settings.disc_radius_m.is_none() {
-                return Err(SceneError::missing(
-                    "contact.disc_radius_m",
-                    "a prescribed force needs the radius of the disc that it loads",
-                ));
+                let hint = "a prescribed force needs the radius of the disc that it loads";
+                return Err(SceneError::missing("contact.disc_radius_m", hint));
             }
-            let (baseline_s, low_pass_hz) =
-                (force.number("baseline_s")?, force.number("low_pass_hz")?);
+            let baseline_s = force.number("baseline_s")?;
+            let low_pass_hz = force.number("low_pass_hz")?;
             let reading = Reading {
                 columns: force.words("columns", "a pair of words")?,
                 units: force.words("units", "a pair of words")?,
@@ -257,27 +246,25 @@ fn inside(
     probes: &[Probe],
     section: Option<&MeridionalSection>,
 ) -> Result<(), SceneError> {
-    let within = |key: String, value: f64, limit: Option<f64>, limit_key| match limit {
-        Some(limit) if value > limit => {
-            Err(SceneError::outside_block(key, value, limit_key, limit))
+    let probes = (1..).zip(probes).map(|(i, probe)| {
+        let name = format!("probe[{i}]");
+        (name, [("z_m", probe.z_m), ("r_m", probe.r_m)])
+    });
+    let corner = section.map(|section| {
+        let corner = [("z_max_m", section.z_max_m), ("r_max_m", section.r_max_m)];
+        ("map".to_owned(), corner)
+    });
+    let (thickness, radius) = ("target.thickness_m", "target.radius_m");
+    let limits = [(thickness, block.thickness_m), (radius, block.radius_m)];
+    for (name, place) in probes.chain(corner) {
+        for ((key, value), (limit_key, limit)) in place.into_iter().zip(limits) {
+            if let Some(limit) = limit.filter(|&limit| value > limit) {
+                let key = format!("{name}.{key}");
+                return Err(SceneError::outside_block(key, value, limit_key, limit));
+            }
         }
-        Some(_) | None => Ok(()),
-    };
-    let at = |name: &str, [r, z]: [(&str, f64); 2]| {
-        let key = |key: &str| format!("{name}.{key}");
-        within(key(z.0), z.1, block.thickness_m, "target.thickness_m")?;
-        within(key(r.0), r.1, block.radius_m, "target.radius_m")
-    };
-    for (i, probe) in probes.iter().enumerate() {
-        let place = [("r_m", probe.r_m), ("z_m", probe.z_m)];
-        at(&format!("probe[{}]", i + 1), place)?;
     }
-    section.map_or(Ok(()), |section| {
-        at(
-            "map",
-            [("r_max_m", section.r_max_m), ("z_max_m", section.z_max_m)],
-        )
-    })
+    Ok(())
 }
 
 fn read_probes(root: &Section<'_>) -> Result<Vec<Probe>, SceneError> {

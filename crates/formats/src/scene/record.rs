@@ -41,13 +41,11 @@ pub fn read_record(path: &Path, reading: Reading) -> Result<ForceRecord, SceneEr
     }
     let mut record = ForceRecord::new(time_s, force_n).map_err(|error| {
         unreadable(match error {
-            RecordError::Count { times, .. } => {
-                format!("{times} rows of samples, at least 2 are needed")
-            }
+            RecordError::Count { times, .. } => too_few(times),
             RecordError::Negative { time_s } => before_zero(name, time_s),
             RecordError::NotAscending {
                 time_s, before_s, ..
-            } => format!("{name} = {time_s} does not follow {before_s}; times must ascend"),
+            } => not_ascending(name, time_s, before_s),
             RecordError::NotFinite { .. } => error.to_string(),
         })
     })?;
@@ -61,6 +59,14 @@ fn before_zero(name: &str, time_s: f64) -> String {
     format!(
         "{name} = {time_s} is outside [0, inf): give force.start_s, the time that is to be zero; what was before is cut off"
     )
+}
+
+fn not_ascending(name: &str, time_s: f64, before_s: f64) -> String {
+    format!("{name} = {time_s} does not follow {before_s}; times must ascend")
+}
+
+fn too_few(rows: usize) -> String {
+    format!("{rows} rows of samples, at least 2 are needed")
 }
 
 /// What is asked for of a record, from the time zero on: lines between the samples end at the cuts.
@@ -127,14 +133,11 @@ fn separator(line: &str) -> Option<char> {
 
 /// The columns of a line, without blanks and quotes around them.
 fn columns(line: &str, by: Option<char>) -> Vec<&str> {
-    let parts: Vec<&str> = match by {
-        Some(by) => line.split(by).collect(),
-        None => line.split_whitespace().collect(),
-    };
-    let parts = parts.into_iter();
-    parts
-        .map(|part| part.trim().trim_matches('"').trim())
-        .collect()
+    let bare = |part| str::trim(part).trim_matches('"').trim();
+    match by {
+        Some(by) => line.split(by).map(bare).collect(),
+        None => line.split_whitespace().map(bare).collect(),
+    }
 }
 
 /// A finite number; with a decimal comma where commas do not divide columns.
@@ -144,6 +147,11 @@ fn number(text: &str, by: Option<char>) -> Option<f64> {
         _ => text.replace(',', ".").parse(),
     };
     number.ok().filter(|x: &f64| x.is_finite())
+}
+
+/// The number in a column of a line that has one.
+fn number_at(fields: &[&str], place: usize, by: Option<char>) -> Option<f64> {
+    number(fields.get(place)?, by)
 }
 
 /// The factor of the unit of a column: that given, or the one that its name ends with, such as `Time [us]` or `F/kN`.
@@ -195,21 +203,16 @@ fn from_text(text: &str, reading: &Reading) -> Result<Rows, (usize, String)> {
         return Err((1, format!("the file is empty; its header is \"{header}\"")));
     }
     // instruments write lines of their own above the header
-    let most = if reading.columns.is_some() {
-        usize::MAX
-    } else {
-        1
-    };
-    let header = lines()
-        .take(most)
-        .find_map(|(line, text)| Some((line, text, places(text, &wanted)?)));
+    let is_named = reading.columns.is_some();
+    let mut above = lines().take(if is_named { usize::MAX } else { 1 });
+    let header = above.find_map(|(line, text)| Some((line, text, places(text, &wanted)?)));
     let Some((line, header, [time, force])) = header else {
         return Err(no_header(lines(), &wanted));
     };
     let by = separator(header);
     let names = columns(header, by);
-    let is_number = |place: usize| number(names[place], by).is_some();
-    let has_header = !(is_number(time) && is_number(force));
+    let is_number = |fields: &[&str], place| number_at(fields, place, by).is_some();
+    let has_header = !(is_number(&names, time) && is_number(&names, force));
     let factor_of = |i: usize, place: usize, known: &[(&str, f64)]| {
         let name = if has_header { names[place] } else { &wanted[i] };
         let given = reading.units.as_ref().map(|units| &units[i]);
@@ -217,22 +220,22 @@ fn from_text(text: &str, reading: &Reading) -> Result<Rows, (usize, String)> {
     };
     let factors = [factor_of(0, time, &TIMES)?, factor_of(1, force, &FORCES)?];
     let (mut time_s, mut force_n): Rows = Default::default();
-    let after = if has_header { line } else { line - 1 };
     // some have a line of units below it
     let is_row = |row: &str| {
         let fields = columns(row, by);
-        let is_number = |place: usize| fields.get(place).is_some_and(|f| number(f, by).is_some());
-        is_number(time) || is_number(force)
+        is_number(&fields, time) || is_number(&fields, force)
     };
-    let words = |(line, row): &(usize, &str)| *line <= after || most > 1 && !is_row(row);
+    let words = |&(at, row): &(usize, &str)| {
+        at < line || at == line && has_header || is_named && !is_row(row)
+    };
     for (line, row) in lines().skip_while(words) {
         let fields = columns(row, by);
         let value = |i: usize, place: usize| {
-            let field = fields.get(place).copied().unwrap_or("");
-            let name = &wanted[i];
-            number(field, by)
-                .map(|x| factors[i] * x)
-                .ok_or_else(|| (line, format!("{name} = \"{field}\" is not a finite number")))
+            let number = number_at(&fields, place, by).map(|x| factors[i] * x);
+            number.ok_or_else(|| {
+                let (name, field) = (&wanted[i], fields.get(place).unwrap_or(&""));
+                (line, format!("{name} = \"{field}\" is not a finite number"))
+            })
         };
         let (t, p) = (value(0, time)?, value(1, force)?);
         if let Some(extra) = fields.get(names.len()) {
@@ -242,10 +245,8 @@ fn from_text(text: &str, reading: &Reading) -> Result<Rows, (usize, String)> {
         if t < 0.0 && time_s.is_empty() && reading.start_s.is_none() {
             return Err((line, before_zero(&wanted[0], t)));
         }
-        if let Some(before) = time_s.last().filter(|&&before| t <= before) {
-            let name = &wanted[0];
-            let reason = format!("{name} = {t} does not follow {before}; times must ascend");
-            return Err((line, reason));
+        if let Some(&before) = time_s.last().filter(|&&before| t <= before) {
+            return Err((line, not_ascending(&wanted[0], t, before)));
         }
         if time_s.len() == MOST_SAMPLES {
             let reason = format!("there are more than {MOST_SAMPLES} rows: cut or thin the record");
@@ -255,8 +256,7 @@ fn from_text(text: &str, reading: &Reading) -> Result<Rows, (usize, String)> {
         force_n.push(p);
     }
     if time_s.len() < 2 {
-        let reason = format!("{} rows of samples, at least 2 are needed", time_s.len());
-        return Err((text.lines().count().max(1), reason));
+        return Err((text.lines().count().max(1), too_few(time_s.len())));
     }
     Ok((time_s, force_n))
 }
@@ -266,19 +266,21 @@ fn no_header<'a>(
     lines: impl Iterator<Item = (usize, &'a str)>,
     wanted: &[String; 2],
 ) -> (usize, String) {
-    let mut head = (1, "");
-    for (line, text) in lines {
+    let is_row = |text: &str| {
         let by = separator(text);
         let fields = columns(text, by);
-        let is_row = fields.len() > 1 && fields[..2].iter().all(|f| number(f, by).is_some());
-        if !is_row || head.1.is_empty() {
-            head = (line, text);
+        (0..2).all(|place| number_at(&fields, place, by).is_some())
+    };
+    let (mut line, mut text) = (1, "");
+    for (at, found) in lines {
+        let is_row = is_row(found);
+        if !is_row || text.is_empty() {
+            (line, text) = (at, found);
         }
         if is_row {
             break;
         }
     }
-    let (line, text) = head;
     let by = separator(text);
     let way = match columns(text, by).as_slice() {
         [first, ..] if number(first, by).is_some() => {
@@ -303,18 +305,14 @@ fn from_hdf5(path: &Path) -> Result<Rows, String> {
         other => other.to_string(),
     })?;
     let (time_s, force_n) = (samples(&file.root, "time")?, samples(&file.root, "force")?);
-    if time_s.len() != force_n.len() || time_s.len() < 2 {
+    let (times, forces) = (time_s.len(), force_n.len());
+    if times != forces || times < 2 {
         return Err(format!(
-            "/time has {} samples and /force {}; at least 2 and as many of each are needed",
-            time_s.len(),
-            force_n.len()
+            "/time has {times} samples and /force {forces}; at least 2 and as many of each are needed"
         ));
     }
     if let Some(pair) = time_s.windows(2).find(|pair| pair[1] <= pair[0]) {
-        let [before_s, time_s] = [pair[0], pair[1]];
-        return Err(format!(
-            "/time = {time_s} does not follow {before_s}; times must ascend"
-        ));
+        return Err(not_ascending("/time", pair[1], pair[0]));
     }
     Ok((time_s, force_n))
 }
@@ -326,16 +324,13 @@ fn samples(root: &Group, name: &str) -> Result<Vec<f64>, String> {
         other => format!("/{name}: {other}"),
     };
     let data = root.dataset(name).map_err(failed)?;
-    if data.shape().len() != 1 {
-        return Err(format!(
-            "/{name} has {} dimensions, needed 1",
-            data.shape().len()
-        ));
+    let (dimensions, count) = (data.shape().len(), data.count());
+    if dimensions != 1 {
+        return Err(format!("/{name} has {dimensions} dimensions, needed 1"));
     }
-    if data.count() > MOST_SAMPLES {
+    if count > MOST_SAMPLES {
         return Err(format!(
-            "/{name} has {} samples, more than {MOST_SAMPLES}: cut or thin the record",
-            data.count()
+            "/{name} has {count} samples, more than {MOST_SAMPLES}: cut or thin the record"
         ));
     }
     data.as_f64(8 * MOST_SAMPLES as u64).map_err(failed)

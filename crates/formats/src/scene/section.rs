@@ -14,7 +14,7 @@ use toml::{Table, Value};
 /// One section of a scene, or its root.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Section<'a> {
-    name: &'a str,
+    pub(crate) name: &'a str,
     table: &'a Table,
 }
 
@@ -25,10 +25,6 @@ impl<'a> Section<'a> {
 
     pub(crate) fn of(name: &'a str, table: &'a Table) -> Self {
         Self { name, table }
-    }
-
-    pub(crate) fn name(&self) -> &'a str {
-        self.name
     }
 
     pub(crate) fn key(&self, key: &str) -> String {
@@ -45,14 +41,12 @@ impl<'a> Section<'a> {
         allowed: impl IntoIterator<Item = &'static str>,
     ) -> Result<(), SceneError> {
         let allowed: Vec<&str> = allowed.into_iter().collect();
-        match self.names().find(|key| !allowed.contains(key)) {
-            None => Ok(()),
-            Some(key) => Err(SceneError::unknown_key(
-                self.key(key),
-                nearest(key, allowed.iter().copied()).or_else(|| full_name(key)),
-                &format!("known keys: {}", allowed.join(", ")),
-            )),
-        }
+        let Some(key) = self.names().find(|key| !allowed.contains(key)) else {
+            return Ok(());
+        };
+        let near = nearest(key, allowed.iter().copied()).or_else(|| full_name(key));
+        let known = format!("known keys: {}", allowed.join(", "));
+        Err(SceneError::unknown_key(self.key(key), near, &known))
     }
 
     /// Reports the first key that the table of keys does not have in a section.
@@ -71,7 +65,7 @@ impl<'a> Section<'a> {
     }
 
     /// What a key holds, where it is there; otherwise it is not what was expected.
-    fn typed<T>(
+    pub(crate) fn typed<T>(
         &self,
         key: &str,
         expected: &'static str,
@@ -208,15 +202,10 @@ impl<'a> Section<'a> {
         range: &RangeInclusive<usize>,
         name: &'static str,
     ) -> Result<usize, SceneError> {
-        let Value::Integer(number) = value else {
-            return Err(self.wrong_kind(key, value, "a whole number"));
-        };
-        let count = usize::try_from(*number).ok();
-        (count.filter(|n| range.contains(n))).ok_or(SceneError::out_of_range(
-            self.key(key),
-            *number as f64,
-            name,
-        ))
+        let number = value.as_integer();
+        let number = number.ok_or_else(|| self.wrong_kind(key, value, "a whole number"))?;
+        let count = usize::try_from(number).ok().filter(|n| range.contains(n));
+        count.ok_or_else(|| SceneError::out_of_range(self.key(key), number as f64, name))
     }
 
     /// One of the values of a choice.
@@ -283,25 +272,21 @@ pub(crate) fn as_number(value: &Value) -> Option<f64> {
 /// Parses the TOML of a scene or a sweep.
 pub fn parse(text: &str) -> Result<Table, SceneError> {
     text.parse::<Table>().map_err(|error| {
-        SceneError::syntax(
-            error.span().map_or(1, |span| {
-                text.get(..span.start).unwrap_or(text).matches('\n').count() + 1
-            }),
-            &(error.message().replace('\n', " ") + decimal_comma(text, error.span())),
-        )
+        let place = error.span().map_or(0, |span| span.start);
+        let (before, after) = text.split_at_checked(place).unwrap_or((text, ""));
+        let line = before.matches('\n').count() + 1;
+        let reason = error.message().replace('\n', " ");
+        let comma = decimal_comma(before, after);
+        SceneError::told(format!("line {line} is not valid TOML: {reason}{comma}"))
     })
 }
 
 /// What is said of a number such as 0,5.
-fn decimal_comma(text: &str, place: Option<std::ops::Range<usize>>) -> &'static str {
-    let there = || {
-        let start = place?.start;
-        let before = text.get(..start)?.rsplit('\n').next()?.trim_end();
-        let digit = |c: Option<char>| c.is_some_and(|c| c.is_ascii_digit());
-        let comma = text.get(start..)?.strip_prefix(',')?;
-        Some(digit(before.chars().last()) && digit(comma.chars().next()))
-    };
-    if there() == Some(true) {
+fn decimal_comma(before: &str, after: &str) -> &'static str {
+    let is_digit = |c: char| c.is_ascii_digit();
+    let before = before.trim_end_matches([' ', '\t']);
+    let after = after.strip_prefix(',').unwrap_or_default();
+    if before.ends_with(is_digit) && after.starts_with(is_digit) {
         "; numbers have a decimal point, no comma"
     } else {
         ""
@@ -323,11 +308,10 @@ pub fn read_text(path: &Path) -> Result<String, SceneError> {
 
 /// The text of a regular file of at most so many bytes: a pipe would wait for its other end, a device never ends.
 pub(crate) fn read_text_up_to(path: &Path, most: u64) -> Result<String, SceneError> {
-    let fault = |reason: String| SceneError::unreadable(path, reason);
-    let system = |error: io::Error| fault(error.to_string());
+    let system = |error: io::Error| SceneError::unreadable(path, error);
     let known = std::fs::metadata(path).map_err(system)?;
     if !known.is_file() {
-        return Err(fault("it is not a regular file".to_owned()));
+        return Err(SceneError::unreadable(path, "it is not a regular file"));
     }
     // files of the system itself say that they have nothing, and some, such as /proc/kmsg, wait for good
     if known.len() == 0 {
@@ -351,14 +335,12 @@ fn text_of(source: impl Read, path: &Path, most: u64) -> Result<String, SceneErr
     if bytes.len() as u64 > most {
         return Err(fault(format!("it has more than {} MB", most >> 20)));
     }
-    let starts_as_hdf5 = bytes.starts_with(HDF5);
     String::from_utf8(bytes).map_err(|error| {
-        fault(if starts_as_hdf5 {
+        let (bytes, valid) = (error.as_bytes(), error.utf8_error().valid_up_to());
+        let line = bytes[..valid].split(|&byte| byte == b'\n').count();
+        fault(if bytes.starts_with(HDF5) {
             "it is an HDF5 file, needed text".to_owned()
         } else {
-            let line = error.as_bytes()[..error.utf8_error().valid_up_to()]
-                .split(|&byte| byte == b'\n')
-                .count();
             format!("line {line} is not UTF-8")
         })
     })

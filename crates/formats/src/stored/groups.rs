@@ -84,13 +84,10 @@ fn each_group(
 
 /// Where a group begins and ends: its columns follow each other.
 fn span(group: &RowGroupMetaData) -> (u64, u64) {
-    let ranges = group.columns().iter().map(ColumnChunkMetaData::byte_range);
-    let (mut start, mut end) = (None, 0);
-    for (first, length) in ranges {
-        let begin = *start.get_or_insert(first);
-        end = first.saturating_add(length).max(begin);
-    }
-    (start.unwrap_or(0), end)
+    let mut ranges = (group.columns().iter()).map(ColumnChunkMetaData::byte_range);
+    let first = ranges.next().unwrap_or_default();
+    let (begin, length) = ranges.next_back().unwrap_or(first);
+    (first.0, begin.saturating_add(length).max(first.0))
 }
 
 /// Where the columns of a file are, by name.
@@ -126,23 +123,18 @@ fn block(
     for ((k, _), column) in quantities.into_iter().zip(columns) {
         block.fill(k, column);
     }
-    let models = texts(read(MODEL.0)?, rows)?.into_iter().map(|name| {
-        let Some(name) = name else {
-            return Ok(NO_MODEL);
-        };
-        let known = Model::ALL
-            .iter()
-            .position(|model| model.name().as_bytes() == name.data());
-        known
-            .map(|model| model as u8)
-            .ok_or_else(|| wrong("a model is not known"))
-    });
-    block.models = models.collect::<Result<_, _>>()?;
-    let reasons = texts(read(FAILURE.0)?, rows)?.into_iter();
-    for (row, reason) in (start..).zip(reasons) {
+    let model = |name: ByteArray| {
+        let mut known = Model::ALL.iter();
+        let found = known.position(|model| model.name().as_bytes() == name.data());
+        found.ok_or_else(|| wrong("a model is not known"))
+    };
+    for (index, name) in block.models.iter_mut().zip(texts(read(MODEL.0)?, rows)?) {
+        let model = name.map(model).transpose()?;
+        *index = model.map_or(NO_MODEL, |model| model as u8);
+    }
+    for (row, reason) in (start..).zip(texts(read(FAILURE.0)?, rows)?) {
         if let Some(reason) = reason {
-            let reason = reason.as_utf8()?.to_owned();
-            block.failures.push((row, reason));
+            block.failures.push((row, reason.as_utf8()?.to_owned()));
         }
     }
     Ok(block)
@@ -175,15 +167,17 @@ fn numbers(
     rows: usize,
     precision: Precision,
 ) -> Result<Vec<f64>, ParquetError> {
-    let found: Vec<Option<f64>> = match (pages, precision) {
-        (ColumnReader::DoubleColumnReader(pages), Precision::Double) => all(pages, rows)?,
+    let or_nan = |x: Option<f64>| x.unwrap_or(f64::NAN);
+    match (pages, precision) {
+        (ColumnReader::DoubleColumnReader(pages), Precision::Double) => {
+            Ok(all(pages, rows)?.into_iter().map(or_nan).collect())
+        }
         (ColumnReader::FloatColumnReader(pages), Precision::Single) => {
             let found = all(pages, rows)?.into_iter();
-            found.map(|x| x.map(f64::from)).collect()
+            Ok(found.map(|x| or_nan(x.map(f64::from))).collect())
         }
-        _ => return Err(wrong("its results are not of one precision")),
-    };
-    Ok(found.into_iter().map(|x| x.unwrap_or(f64::NAN)).collect())
+        _ => Err(wrong("its results are not of one precision")),
+    }
 }
 
 fn texts(pages: ColumnReader, rows: usize) -> Result<Vec<Option<ByteArray>>, ParquetError> {

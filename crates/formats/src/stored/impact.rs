@@ -5,7 +5,7 @@ use crate::error::SceneError;
 use crate::quantities::Described;
 use crate::results::schema::{
     ARRIVALS, ENERGIES, ENERGY, ERROR_SUFFIX, MAP, MAP_SCALES, PEAK_SUFFIXES, PLACES, PROBES,
-    SCENE_SHA256, SERIES,
+    SERIES,
 };
 use crate::scene::bodies_of;
 use crate::scene::section::{as_number, parse};
@@ -17,13 +17,11 @@ use toml::{Table, Value};
 /// An open results file with its time series; probes and section are read when they are asked for.
 #[derive(Debug, Clone)]
 pub struct StoredImpact {
-    stored: Stored,
+    pub(crate) stored: Stored,
     /// Contact model.
     pub model: String,
     /// Static share: `full` or `dynamic`.
     pub static_share: String,
-    /// Warnings, one a line.
-    pub warnings: String,
     /// The half-space.
     pub target: HalfSpace,
     /// The striker; none where the force was given.
@@ -49,7 +47,7 @@ impl StoredImpact {
             return Err(stored.damaged("it has fewer than 2 samples"));
         }
         let column = |i: usize| stored.numbers(SERIES[i].0, &[time_s.len()]);
-        let striker = match stored.shape(SERIES[2].0) {
+        let striker = match stored.dataset(SERIES[2].0) {
             Some(_) => Some(StrikerSeries {
                 displacement_m: column(2)?,
                 velocity_m_s: column(3)?,
@@ -66,7 +64,6 @@ impl StoredImpact {
         Ok(Self {
             model: stored.text("model")?,
             static_share: stored.text("static_share")?,
-            warnings: stored.text("warnings")?,
             target,
             strike,
             scene,
@@ -79,20 +76,6 @@ impl StoredImpact {
     #[must_use]
     pub fn path(&self) -> &Path {
         &self.stored.path
-    }
-
-    /// Which scene it is of, whatever the kernels; nothing in files of versions before 1.7.
-    #[must_use]
-    pub fn scene_sha256(&self) -> Option<String> {
-        self.stored.text(SCENE_SHA256).ok()
-    }
-
-    /// The kernels of its fields, `none` without any, and the id of their table, empty without one.
-    ///
-    /// # Errors
-    /// [`SceneError`] for a file that is not as it was written.
-    pub fn kernels(&self) -> Result<(String, String), SceneError> {
-        Ok((self.stored.text("kernel")?, self.stored.text("table_id")?))
     }
 
     /// A scalar result by its name, where the file has it.
@@ -174,7 +157,7 @@ fn energy_of(stored: &Stored, samples: usize) -> Result<Option<EnergySeries>, Sc
     }
     let path = |i: usize| format!("{ENERGY}/{}", ENERGIES[i].0);
     let column = |i: usize| stored.numbers(&path(i), &[samples]);
-    let existing = |i: usize| stored.shape(&path(i)).map(|_| column(i)).transpose();
+    let existing = |i: usize| stored.dataset(&path(i)).map(|_| column(i)).transpose();
     Ok(Some(EnergySeries {
         kinetic_j: existing(0)?,
         work_j: existing(1)?,

@@ -8,7 +8,7 @@ use crate::sweep::schema::{self, TEXTS, part};
 use crate::sweep::{Fields, Footer, MAGIC, Part, Precision, stored_columns};
 use ledger::{Dataset, Group, H5Type, HdfError, HdfFile};
 use std::fmt;
-use std::io::Read;
+use std::io::{self, Read};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
@@ -66,7 +66,7 @@ impl fmt::Display for FileKind {
 
 /// An open file of a known kind.
 #[derive(Debug, Clone)]
-pub(super) struct Stored {
+pub(crate) struct Stored {
     pub(super) path: PathBuf,
     pub(super) file: HdfFile,
 }
@@ -81,11 +81,8 @@ impl Stored {
         };
         let version = stored.text("format_version")?;
         check_version(&stored.path, &version)?;
-        let minor = version
-            .split('.')
-            .nth(1)
-            .and_then(|minor| minor.parse().ok());
-        let sealed = minor.is_none_or(|minor: u32| minor >= wanted.row().1);
+        let minor = version.split('.').nth(1).map(str::parse::<u32>);
+        let sealed = !matches!(minor, Some(Ok(minor)) if minor < wanted.row().1);
         if sealed != stored.file.is_sealed() {
             return Err(stored.damaged(
                 "its seal is gone: it was cut short, or something has written to it since it was made",
@@ -108,12 +105,13 @@ impl Stored {
         SceneError::damaged(&self.path, what)
     }
 
-    fn unread(&self, path: &str, error: &HdfError) -> SceneError {
-        self.damaged(format!("{path} cannot be read: {error}"))
+    /// What was read at a path of the file.
+    fn read<T>(&self, path: &str, read: Result<T, HdfError>) -> Result<T, SceneError> {
+        read.map_err(|error| self.damaged(format!("{path} cannot be read: {error}")))
     }
 
     /// A text of the root.
-    pub(super) fn text(&self, name: &str) -> Result<String, SceneError> {
+    pub(crate) fn text(&self, name: &str) -> Result<String, SceneError> {
         let text = self.file.root.text(name);
         text.map_err(|_| self.damaged(format!("the text attribute {name} is missing")))
     }
@@ -125,36 +123,21 @@ impl Stored {
     }
 
     /// A group, where it is there.
-    pub(super) fn group(&self, name: &str) -> Option<Group> {
-        let mut group = self.file.root.clone();
-        for part in name.split('/').filter(|part| !part.is_empty()) {
-            group = group.group(part).ok()?;
-        }
-        Some(group)
+    pub(super) fn group(&self, path: &str) -> Option<Group> {
+        self.file.root.group(path).ok()
     }
 
     /// A dataset, where it is there.
     pub(super) fn dataset(&self, path: &str) -> Option<Dataset> {
-        let path = path.trim_start_matches('/');
-        match path.rsplit_once('/') {
-            Some((group, name)) => self.group(group)?.dataset(name).ok(),
-            None => self.file.root.dataset(path).ok(),
-        }
-    }
-
-    /// The shape of a dataset, where it is there.
-    pub(super) fn shape(&self, path: &str) -> Option<Vec<usize>> {
-        Some(self.dataset(path)?.shape().to_vec())
+        self.file.root.dataset(path).ok()
     }
 
     /// Name, unit and meaning of the datasets of a group that have a shape, in the order of the file.
     pub(super) fn quantities(&self, group: &str, shape: &[usize]) -> Vec<Described> {
-        let Some(group) = self.group(group) else {
-            return Vec::new();
-        };
-        let names = group.members().unwrap_or_default().into_iter();
+        let names = self.group(group).and_then(|group| group.members().ok());
+        let names = names.into_iter().flatten();
         let found = names.filter_map(|name| {
-            let dataset = group.dataset(&name).ok()?;
+            let dataset = self.dataset(&format!("{group}/{name}"))?;
             let described = |attribute| dataset.text(attribute).unwrap_or_default();
             (dataset.shape() == shape).then(|| Described {
                 unit: described("units"),
@@ -167,27 +150,23 @@ impl Stored {
 
     /// All numbers of a dataset of a shape.
     pub(super) fn numbers(&self, path: &str, shape: &[usize]) -> Result<Vec<f64>, SceneError> {
-        let numbers = self.of_shape(path, shape)?.as_f64(MOST_BYTES);
-        numbers.map_err(|error| self.unread(path, &error))
+        self.read(path, self.of_shape(path, shape)?.as_f64(MOST_BYTES))
     }
 
-    /// All numbers of a dataset with one dimension.
+    /// All numbers of a list.
     pub(super) fn vector(&self, path: &str) -> Result<Vec<f64>, SceneError> {
-        match self.shape(path).as_deref() {
-            Some(&[length]) => self.numbers(path, &[length]),
-            _ => Err(self.damaged(format!("the list {path} is missing"))),
-        }
+        self.read(path, self.list(path)?.as_f64(MOST_BYTES))
     }
 
     /// All texts of a list.
     pub(super) fn texts(&self, path: &str) -> Result<Vec<String>, SceneError> {
-        match self.dataset(path) {
-            Some(list) if list.shape().len() == 1 => {
-                let texts = list.texts(MOST_BYTES);
-                texts.map_err(|error| self.unread(path, &error))
-            }
-            Some(_) | None => Err(self.damaged(format!("the list {path} is missing"))),
-        }
+        self.read(path, self.list(path)?.texts(MOST_BYTES))
+    }
+
+    /// A dataset with one dimension.
+    fn list(&self, path: &str) -> Result<Dataset, SceneError> {
+        let list = self.dataset(path).filter(|found| found.shape().len() == 1);
+        list.ok_or_else(|| self.damaged(format!("the list {path} is missing")))
     }
 
     /// What a dataset of a shape holds in a range of its first dimension.
@@ -199,8 +178,7 @@ impl Stored {
     ) -> Result<Vec<T>, SceneError> {
         let mut block: Vec<_> = shape.iter().map(|&n| 0..n).collect();
         block[0] = first;
-        let numbers = self.of_shape(path, shape)?.block(&block, MOST_BYTES);
-        numbers.map_err(|error| self.unread(path, &error))
+        self.read(path, self.of_shape(path, shape)?.block(&block, MOST_BYTES))
     }
 
     /// Which results a group has as datasets of a shape, and how exactly.
@@ -246,29 +224,42 @@ impl Stored {
     }
 }
 
-/// Whether a file begins as Parquet.
-pub(super) fn is_parquet(path: &Path) -> bool {
-    let mut head = [0; MAGIC.len()];
-    // looked at before it is opened: a pipe would wait for its other end, and so would some files of the system
-    std::fs::metadata(path).is_ok_and(|there| there.is_file() && there.len() > 0)
-        && std::fs::File::open(path).is_ok_and(|mut file| file.read_exact(&mut head).is_ok())
-        && head == *MAGIC
+/// How a regular file begins.
+fn head(path: &Path) -> io::Result<Vec<u8>> {
+    // looked at before it is opened: a pipe would wait for its other end, and files of the system say that they have nothing
+    let there = std::fs::metadata(path)?;
+    if !there.is_file() {
+        return Err(io::Error::other("it is not a file"));
+    }
+    let (file, mut head) = (std::fs::File::open(path)?, Vec::new());
+    file.take(there.len().min(256)).read_to_end(&mut head)?;
+    Ok(head)
 }
 
-/// Opens a file of rows in Parquet, all or some, and checks its seal and its length; rows are read a group at a time.
-fn open_parquet(path: &Path) -> Result<(FileKind, Footer, Part), SceneError> {
+/// Opens a file of rows that begins as Parquet, all or some, and checks its seal and its length; rows are read a group at a
+/// time.
+fn open_parquet(path: &Path) -> Result<Option<(FileKind, Footer, Part)>, SceneError> {
+    if !head(path).is_ok_and(|head| head.starts_with(MAGIC)) {
+        return Ok(None);
+    }
     let foreign = || SceneError::is(path, "is a Parquet file, but none of hertzlamb's");
     let found = Footer::read(path).map_err(|what| SceneError::damaged(path, what))?;
     let (footer, part) = found.ok_or_else(foreign)?;
     check_version(path, &footer.format_version)?;
     let kind = FileKind::of_type(&footer.file_type);
-    Ok((kind.ok_or_else(foreign)?, footer, part))
+    Ok(Some((kind.ok_or_else(foreign)?, footer, part)))
 }
 
 /// [`open_parquet`] for a file of a kind.
-pub(super) fn parquet_of_kind(path: &Path, wanted: FileKind) -> Result<(Footer, Part), SceneError> {
-    let (kind, footer, part) = open_parquet(path)?;
-    check_kind(path, kind, wanted).map(|()| (footer, part))
+pub(super) fn parquet_of_kind(
+    path: &Path,
+    wanted: FileKind,
+) -> Result<Option<(Footer, Part)>, SceneError> {
+    let of_kind = |(kind, footer, part)| {
+        check_kind(path, kind, wanted)?;
+        Ok((footer, part))
+    };
+    open_parquet(path)?.map(of_kind).transpose()
 }
 
 fn check_kind(path: &Path, found: FileKind, wanted: FileKind) -> Result<(), SceneError> {
@@ -291,8 +282,8 @@ fn check_version(path: &Path, found: &str) -> Result<(), SceneError> {
 /// # Errors
 /// [`SceneError`] for a file that is not one of the program.
 pub fn file_kind(path: &Path) -> Result<FileKind, SceneError> {
-    if is_parquet(path) {
-        return open_parquet(path).map(|(kind, ..)| kind);
+    if let Some((kind, ..)) = open_parquet(path)? {
+        return Ok(kind);
     }
     let found = open_hdf5(path)?.root.text("file_type").ok();
     let known = found.and_then(|found| FileKind::of_type(&found));
@@ -301,22 +292,13 @@ pub fn file_kind(path: &Path) -> Result<FileKind, SceneError> {
 
 /// Opens an HDF5 file, whatever is in it, with its seal.
 fn open_hdf5(path: &Path) -> Result<HdfFile, SceneError> {
-    let unreadable = |error| SceneError::unreadable(path, error);
-    // looked at before it is opened: a pipe would wait for its other end
-    let data = std::fs::metadata(path).map_err(unreadable)?;
-    if !data.is_file() {
-        return Err(SceneError::unreadable(path, "it is not a file"));
-    }
-    let mut head = Vec::new();
-    std::fs::File::open(path)
-        .and_then(|file| file.take(data.len().min(256)).read_to_end(&mut head))
-        .map_err(unreadable)?;
+    let head = head(path).map_err(|error| SceneError::unreadable(path, error))?;
     let not = |found| SceneError::is(path, format!("is {found}, not a file of results in HDF5"));
     if !head.starts_with(b"\x89HDF\r\n\x1a\n") {
         let is_text = !head.is_empty() && std::str::from_utf8(&head).is_ok();
         return Err(not(match head.len() {
             0 => "empty",
-            _ if head.starts_with(b"PAR1") => "a Parquet file",
+            _ if head.starts_with(MAGIC) => "a Parquet file",
             _ if is_text => "text",
             _ => "no HDF5 file",
         }));

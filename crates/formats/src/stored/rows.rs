@@ -1,6 +1,6 @@
 //! The results of a sweep, and rows of it, some or all, read back from either format.
 
-use super::open::{FileKind, Stored, is_parquet, parquet_of_kind};
+use super::open::{FileKind, Stored, parquet_of_kind};
 use crate::error::SceneError;
 use crate::quantities::Described;
 use crate::sweep::schema::{
@@ -38,8 +38,7 @@ impl StoredPart {
     /// # Errors
     /// [`SceneError`], which says what the file is instead.
     pub fn open(path: &Path) -> Result<Self, SceneError> {
-        if is_parquet(path) {
-            let (footer, part) = parquet_of_kind(path, FileKind::SweepPart)?;
+        if let Some((footer, part)) = parquet_of_kind(path, FileKind::SweepPart)? {
             let rows = Rows::Parquet(Box::new(footer));
             return Ok(Self { part, rows });
         }
@@ -53,20 +52,21 @@ impl StoredPart {
         let Some(end) = end.filter(|&end| end <= sweep_rows) else {
             return Err(stored.damaged("it has rows beyond those of its sweep"));
         };
-        let shard = match stored.text(part::SHARD)?.as_str() {
-            "" => None,
-            text => {
-                let shard = text.parse();
-                Some(shard.map_err(|_| stored.damaged(format!("there is no shard {text}")))?)
-            }
-        };
+        let text = Some(stored.text(part::SHARD)?).filter(|text| !text.is_empty());
+        let shard = text.map(|text| {
+            let shard = text.parse();
+            shard.map_err(|_| stored.damaged(format!("there is no shard {text}")))
+        });
         let rows = start..end;
         let fields = stored.fields(RESULTS, &[rows.len()])?;
         let part = Part {
             path: path.to_owned(),
             sha256: stored.text(SHA256)?,
             failed: count(FAILED)?,
-            selection: Selection { rows, shard },
+            selection: Selection {
+                rows,
+                shard: shard.transpose()?,
+            },
             sweep_rows,
             fields,
             sealed: stored.file.is_sealed(),
@@ -89,30 +89,51 @@ impl StoredPart {
 
     /// Compares the keys that vary with those of the sweep that the part is of.
     pub(crate) fn check_keys(&self, spec: &Spec) -> Result<(), SceneError> {
-        let same = self.sweep()? == spec.resolved;
-        match &self.rows {
-            _ if !same => {
-                let what = "its sweep is not that of the other parts";
-                Err(SceneError::damaged(&self.part.path, what))
-            }
-            Rows::Hdf5(stored, _) => self
-                .blocks()
-                .try_for_each(|some| self.check_some_keys(stored, spec, some)),
-            // the hash of a group is over its keys too
-            Rows::Parquet(_) => Ok(()),
+        if self.sweep()? != spec.resolved {
+            let what = "its sweep is not that of the other parts";
+            return Err(SceneError::damaged(&self.part.path, what));
         }
+        let Rows::Hdf5(stored, _) = &self.rows else {
+            // the hash of a group is over its keys too
+            return Ok(());
+        };
+        let length = [self.part.selection.rows.len()];
+        let block = Block {
+            start: self.part.selection.rows.start,
+            ..Block::default()
+        };
+        let mut keys = columns(spec);
+        keys.retain(|column| matches!(column.what, What::Key { .. }));
+        for some in self.blocks() {
+            for column in &keys {
+                let key = &column.described.name;
+                let path = format!("{RESULTS}/{key}");
+                let wanted = column.what.cells(spec, &block, some.clone());
+                let wanted = wanted.map_err(|fault| stored.damaged(fault.reason))?;
+                let same = match column.what.words() {
+                    Some(words) => {
+                        let known = stored.texts(&format!("{}/{key}", part::WORDS))?;
+                        let found = stored.some(&path, &length, some.clone())?;
+                        known == *words && wanted == Cells::Words(found)
+                    }
+                    None => wanted == Cells::Double(stored.some(&path, &length, some.clone())?),
+                };
+                if !same {
+                    let what = format!("{key} has other values than its sweep says");
+                    return Err(stored.damaged(what));
+                }
+            }
+        }
+        Ok(())
     }
 
     /// The same without its results: models and failures alone are read; nothing for a part that is not HDF5.
     pub(crate) fn failures(&self) -> Option<impl Blocks> {
-        match &self.rows {
-            Rows::Hdf5(..) => {
-                let mut bare = self.clone();
-                bare.part.fields.retain(|_| false);
-                Some(bare)
-            }
-            Rows::Parquet(_) => None,
-        }
+        matches!(self.rows, Rows::Hdf5(..)).then(|| {
+            let mut bare = self.clone();
+            bare.part.fields.retain(|_| false);
+            bare
+        })
     }
 
     /// The sweep with its base scene, as TOML.
@@ -131,42 +152,6 @@ impl StoredPart {
         let rows = self.part.selection.rows.len();
         let starts = (0..rows).step_by(BLOCK);
         starts.map(move |start| start..(start + BLOCK).min(rows))
-    }
-
-    /// Compares the keys of some of its rows with those of the sweep.
-    fn check_some_keys(
-        &self,
-        stored: &Stored,
-        spec: &Spec,
-        some: Range<usize>,
-    ) -> Result<(), SceneError> {
-        let length = [self.part.selection.rows.len()];
-        let block = Block {
-            start: self.part.selection.rows.start,
-            ..Block::default()
-        };
-        let keys = columns(spec).into_iter();
-        for column in keys.filter(|column| matches!(column.what, What::Key { .. })) {
-            let key = &column.described.name;
-            let path = format!("{RESULTS}/{key}");
-            let wanted = column.what.cells(spec, &block, some.clone());
-            let same = match wanted.map_err(|fault| stored.damaged(fault.reason))? {
-                Cells::Words(wanted) => {
-                    let words = stored.texts(&format!("{}/{key}", part::WORDS))?;
-                    let found = stored.some::<u32>(&path, &length, some.clone())?;
-                    column.what.words() == Some(&words) && found == wanted
-                }
-                Cells::Double(wanted) => {
-                    wanted == stored.some::<f64>(&path, &length, some.clone())?
-                }
-                Cells::Whole(_) | Cells::Single(_) | Cells::Models(_) | Cells::Reasons(_) => false,
-            };
-            if !same {
-                let what = format!("{key} has other values than its sweep says");
-                return Err(stored.damaged(what));
-            }
-        }
-        Ok(())
     }
 
     /// Some of its rows, counted from its first.
@@ -193,12 +178,9 @@ impl StoredPart {
             block.fill(k, column);
         }
         let indices = stored.some::<i32>(&path(FAILURE.0), &length, rows)?;
-        for (row, index) in (block.start..).zip(indices) {
-            if index == -1 {
-                continue;
-            }
-            let reason = usize::try_from(index).ok();
-            let reason = reason.and_then(|i| reasons.get(i));
+        let failed = (block.start..).zip(indices);
+        for (row, index) in failed.filter(|&(_, index)| index != -1) {
+            let reason = usize::try_from(index).ok().and_then(|i| reasons.get(i));
             let what = || format!("row {row} has no reason number {index}");
             let reason = reason.ok_or_else(|| stored.damaged(what()))?;
             block.failures.push((row, reason.clone()));
@@ -235,8 +217,7 @@ impl Blocks for StoredPart {
 /// # Errors
 /// [`SceneError`], which says what the file is instead.
 pub(crate) fn whole_sweep(path: &Path) -> Result<(Option<String>, Fields), SceneError> {
-    if is_parquet(path) {
-        let (footer, part) = parquet_of_kind(path, FileKind::Sweep)?;
+    if let Some((footer, part)) = parquet_of_kind(path, FileKind::Sweep)? {
         check_groups(&part, &footer)?;
         return Ok((Some(part.sha256), part.fields));
     }
@@ -329,17 +310,17 @@ impl StoredSweep {
 
 /// The axes in the order of the dimensions: those of the product by their names, then the list's, then the draws'.
 fn read_axes(stored: &Stored) -> Result<Vec<Axis>, SceneError> {
-    let group = stored
-        .group(AXES)
-        .ok_or_else(|| stored.damaged(format!("the group {AXES} is missing")))?;
+    let group = stored.group(AXES);
+    let group = group.ok_or_else(|| stored.damaged(format!("the group {AXES} is missing")))?;
     let names = group.members();
     let mut axes: Vec<Axis> = Vec::new();
     for name in names.map_err(|error| stored.damaged(error))? {
         let path = format!("{AXES}/{name}");
         let data = stored.dataset(&path);
-        let axis = data.as_ref().and_then(|data| data.text("axis").ok());
-        let axis = axis.ok_or_else(|| stored.damaged(format!("{path} does not name its axis")))?;
-        let values = if data.is_some_and(|data| data.holds_texts()) {
+        let data = data.and_then(|data| Some((data.text("axis").ok()?, data.holds_texts())));
+        let unnamed = || stored.damaged(format!("{path} does not name its axis"));
+        let (axis, holds_texts) = data.ok_or_else(unnamed)?;
+        let values = if holds_texts {
             Values::Texts(stored.texts(&path)?)
         } else {
             Values::Numbers(stored.vector(&path)?)

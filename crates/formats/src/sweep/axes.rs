@@ -48,20 +48,16 @@ impl Values {
         if let Some(range) = section.inner(key) {
             return spaced(&range).map(Self::Numbers);
         }
-        let Some(value) = section.value(key) else {
-            return Err(section.missing(key, "a list of values"));
-        };
-        let wrong = || section.wrong_kind(key, value, "a list of numbers or of words");
-        let items = match value {
-            Value::Array(items) if !items.is_empty() => items.iter(),
-            _ => return Err(wrong()),
-        };
-        let words = items.clone().map(|item| item.as_str().map(str::to_owned));
-        if let Some(words) = words.collect() {
-            return Ok(Self::Texts(words));
-        }
-        let numbers: Option<Vec<f64>> = items.map(as_number).collect();
-        numbers.map(Self::Numbers).ok_or_else(wrong)
+        let values = section.typed(key, "a list of numbers or of words", |value| {
+            let items = value.as_array().filter(|items| !items.is_empty())?.iter();
+            let words = items.clone().map(|item| item.as_str().map(str::to_owned));
+            let words: Option<Vec<String>> = words.collect();
+            let numbers = || items.map(as_number).collect::<Option<_>>();
+            words
+                .map(Self::Texts)
+                .or_else(|| numbers().map(Self::Numbers))
+        });
+        values?.ok_or_else(|| section.missing(key, "a list of values"))
     }
 
     /// One of them as TOML.
@@ -103,18 +99,12 @@ fn spaced(range: &Section<'_>) -> Result<Vec<f64>, SceneError> {
         .count("count", 2..=MOST_VALUES, "[2, 10000000]")?
         .ok_or_else(|| range.missing("count", "how many values"))?;
     let last = (count - 1) as f64;
-    Ok((0..count)
-        .map(|i| {
-            let fraction = i as f64 / last;
-            if i + 1 == count {
-                return to;
-            }
-            match spacing {
-                Spacing::Linear => from + fraction * (to - from),
-                Spacing::Log => from * (to / from).powf(fraction),
-            }
-        })
-        .collect())
+    let value = |i: usize| match (i as f64 / last, spacing) {
+        _ if i + 1 == count => to,
+        (fraction, Spacing::Linear) => from + fraction * (to - from),
+        (fraction, Spacing::Log) => from * (to / from).powf(fraction),
+    };
+    Ok((0..count).map(value).collect())
 }
 
 /// A scene key with its values along an axis.
@@ -177,15 +167,4 @@ impl Axis {
 pub(super) fn rows(axes: &[Axis]) -> Option<usize> {
     axes.iter()
         .try_fold(1_usize, |rows, axis| rows.checked_mul(axis.len))
-}
-
-/// Index along each axis of a row; the last axis runs fastest.
-pub(super) fn place(axes: &[Axis], row: usize, place: &mut Vec<usize>) {
-    place.clear();
-    place.resize(axes.len(), 0);
-    let mut rest = row;
-    for (slot, axis) in place.iter_mut().zip(axes).rev() {
-        *slot = rest % axis.len;
-        rest /= axis.len;
-    }
 }

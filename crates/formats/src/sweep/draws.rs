@@ -11,22 +11,17 @@ use crate::scene::keys::{FINITE, POSITIVE, Range};
 use crate::scene::section::Section;
 use contact::choice;
 use std::f64::consts::{FRAC_1_SQRT_2, TAU};
-use std::sync::Arc;
 
 /// The draws of one key.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Drawn {
-    draws: Arc<Draws>,
-    key: usize,
-}
-
-/// The draws of all keys, which may be correlated.
-#[derive(Debug, PartialEq)]
-struct Draws {
     samples: usize,
-    keys: Vec<(u64, Distribution)>,
-    /// The lower Cholesky factor of the correlation matrix of the keys.
-    factor: Vec<Vec<f64>>,
+    own: Distribution,
+    stream: u64,
+    /// The streams whose normal numbers make up that of the key, with their weights, where it is correlated with others.
+    mixed: Vec<(u64, f64)>,
+    /// Keys that are drawn.
+    keys: usize,
 }
 
 impl Drawn {
@@ -38,53 +33,60 @@ impl Drawn {
         let seed = random
             .count("seed", 0..=usize::MAX, "[0, 2^63)")?
             .unwrap_or(0) as u64;
-        let (mut places, mut names, mut keys) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut found, mut names) = (Vec::new(), Vec::new());
         for section in random.subsections(&["samples", "seed", "correlation"])? {
             for key in section.names() {
                 let inner = section.inner(key).ok_or_else(|| SceneError::missing(format!("{}.distribution", section.key(key)), "a random key is a table such as { distribution = \"normal\", mean = 1.0, deviation = 0.1 }"))?;
-                let name = section.key(key);
-                keys.push((stream(seed, &name), Distribution::read(&inner)?));
-                names.push(name);
-                places.push((section.name().to_owned(), key.to_owned()));
+                names.push(section.key(key));
+                found.push((section.name, key, Distribution::read(&inner)?));
             }
         }
-        let draws = Arc::new(Draws {
-            samples,
-            keys,
-            factor: correlations(random, &names)?,
-        });
-        let of = |(key, (section, name))| {
-            let draws = Arc::clone(&draws);
-            (section, name, Self { draws, key })
+        let factor = correlations(random, &names)?;
+        let streams = names.iter().map(|name| stream(seed, name));
+        let streams: Vec<u64> = streams.collect();
+        let of = |(i, (section, key, own)): (usize, (&str, &str, _))| {
+            let weighted = streams.iter().copied().zip(factor[i].iter().copied());
+            let mixed: Vec<_> = weighted.filter(|(_, weight)| *weight != 0.0).collect();
+            let bound = mixed.len() > 1 || factor[i + 1..].iter().any(|row| row[i] != 0.0);
+            let drawn = Self {
+                samples,
+                own,
+                stream: streams[i],
+                mixed: if bound { mixed } else { Vec::new() },
+                keys: names.len(),
+            };
+            (section.to_owned(), key.to_owned(), drawn)
         };
-        Ok(places.into_iter().enumerate().map(of).collect())
+        Ok(found.into_iter().enumerate().map(of).collect())
     }
 
     /// How many.
     #[must_use]
     pub fn count(&self) -> usize {
-        self.draws.samples
+        self.samples
     }
 
     /// Draw number `index`: a function of the seed, the keys and this number only.
     #[must_use]
     pub fn at(&self, index: usize) -> f64 {
-        let draws = &*self.draws;
-        let (stream, own) = draws.keys[self.key];
         let index = index as u64;
-        if draws.binds(self.key) {
-            own.at(draws.mixed(self.key, |j| normal(draws.keys[j].0, index)))
-        } else {
-            own.draw(stream, index)
+        if self.mixed.is_empty() {
+            return self.own.draw(self.stream, index);
         }
+        let weighted = self.mixed.iter();
+        let normal = weighted
+            .map(|&(stream, weight)| weight * normal(stream, index))
+            .sum();
+        self.own.value(|| normal_probability(normal), || normal)
     }
 
     /// One that is not finite, where some of any number of draws may be so.
     pub(super) fn infinite(&self) -> Option<f64> {
         // those of correlated keys are sums of all with the squares of their weights adding up to one
-        let most = LARGEST_NORMAL * (self.draws.keys.len() as f64).sqrt();
-        let ends = self.draws.keys[self.key].1.ends(most);
-        ends.into_iter().find(|end| !end.is_finite())
+        let most = LARGEST_NORMAL * (self.keys as f64).sqrt();
+        let ends = [(f64::EPSILON, -most), (1.0, most)].into_iter();
+        let mut values = ends.map(|(uniform, normal)| self.own.value(|| uniform, || normal));
+        values.find(|end| !end.is_finite())
     }
 }
 
@@ -142,17 +144,6 @@ impl Distribution {
         self.value(one, || normal(stream, index))
     }
 
-    /// Values between which all draws are whose normal numbers are at most this far from zero.
-    fn ends(self, normal: f64) -> [f64; 2] {
-        [(f64::EPSILON, -normal), (1.0, normal)]
-            .map(|(uniform, normal)| self.value(|| uniform, || normal))
-    }
-
-    /// The value at the quantile of a standard normal number.
-    fn at(self, normal: f64) -> f64 {
-        self.value(|| normal_probability(normal), || normal)
-    }
-
     /// The value at an even or a standard normal number, whichever it is made of.
     fn value(self, uniform: impl Fn() -> f64, normal: impl Fn() -> f64) -> f64 {
         let [a, b] = self.numbers;
@@ -199,22 +190,6 @@ const COEFFICIENT: Range = Range {
     name: "(-1, 1)",
     holds: |x| x > -1.0 && x < 1.0,
 };
-
-impl Draws {
-    /// Whether a key is correlated with another.
-    fn binds(&self, key: usize) -> bool {
-        let off = |(column, &l): (usize, &f64)| column != key && l != 0.0;
-        self.factor[key].iter().enumerate().any(off)
-            || self.factor.iter().skip(key + 1).any(|row| row[key] != 0.0)
-    }
-
-    /// The standard normal number of a key from the independent ones of all keys.
-    fn mixed(&self, key: usize, normal: impl Fn(usize) -> f64) -> f64 {
-        let row = self.factor[key][..=key].iter().enumerate();
-        row.map(|(j, &l)| if l == 0.0 { 0.0 } else { l * normal(j) })
-            .sum()
-    }
-}
 
 /// The factor of `[[random.correlation]]`, sections of `keys`, a pair, and `coefficient`.
 fn correlations(random: &Section<'_>, keys: &[String]) -> Result<Vec<Vec<f64>>, SceneError> {

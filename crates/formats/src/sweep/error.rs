@@ -23,14 +23,9 @@ pub enum SweepError {
     /// It cannot be written or read back.
     #[error(transparent)]
     Output(#[from] OutputError),
-    /// Rows that no part has.
-    #[error("rows {} to {} of the sweep are in no part{}", rows.start, rows.end - 1, others(*.more))]
-    Missing {
-        /// The first of them.
-        rows: Range<usize>,
-        /// Ranges beside these.
-        more: usize,
-    },
+    /// Rows that no part has, the first of them, and how many ranges beside these.
+    #[error("rows {} to {} of the sweep are in no part{}", .0.start, .0.end - 1, others(*.1))]
+    Missing(Range<usize>, usize),
 }
 
 impl From<JournalError> for SweepError {
@@ -49,7 +44,7 @@ impl Fault for SweepError {
             Self::Table(error) => Culprit::of(Class::Table).file(&error.path),
             Self::Journal(error) => error.culprit(),
             Self::Output(error) => error.culprit(),
-            Self::Missing { .. } => Culprit::of(Class::Scene),
+            Self::Missing(..) => Culprit::of(Class::Scene),
         }
     }
 }

@@ -15,29 +15,19 @@ pub struct Fields {
     /// Places among the known ones; ascending.
     pub(crate) places: Vec<usize>,
     /// All that could be written.
-    known: Arc<[Described]>,
+    pub(super) known: Arc<[Described]>,
     /// How exactly.
     pub precision: Precision,
 }
 
-/// How exactly results are written.
+/// How exactly results are written: in how many bits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Precision {
     /// 64 bits, as they are computed.
     #[default]
-    Double,
+    Double = 64,
     /// 32 bits: rounded by up to 6e-8 of themselves.
-    Single,
-}
-
-impl Precision {
-    /// Bytes of a number.
-    pub(super) fn bytes(self) -> usize {
-        match self {
-            Self::Double => 8,
-            Self::Single => 4,
-        }
-    }
+    Single = 32,
 }
 
 impl Default for Fields {
@@ -59,19 +49,9 @@ impl Fields {
         }
     }
 
-    /// The result at a place.
-    pub(crate) fn named(&self, place: usize) -> &Described {
-        &self.known[place]
-    }
-
     /// Numbers of a row, written or not: the results of a contact, and behind them what probes bring.
     pub(crate) fn width(&self) -> usize {
         self.known.len()
-    }
-
-    /// Whether probes bring some of them.
-    pub(crate) fn has_probes(&self) -> bool {
-        self.width() > QUANTITIES.len()
     }
 
     /// Those of these names alone.
@@ -79,20 +59,18 @@ impl Fields {
     /// # Errors
     /// [`SceneError`] for a name that is none of them.
     pub fn only<S: AsRef<str>>(self, names: &[S]) -> Result<Self, SceneError> {
-        let place = |name: &S| {
-            let name = name.as_ref();
-            let place = self.known.iter().position(|known| known.name == name);
-            place.ok_or_else(|| {
-                let known: Vec<&str> = self.known.iter().map(|k| k.name.as_str()).collect();
-                SceneError::missing(
-                    format!("the column {name}"),
-                    &format!("the results are {}", known.join(", ")),
-                )
-            })
-        };
-        let mut places: Vec<usize> = names.iter().map(place).collect::<Result<_, _>>()?;
-        places.sort_unstable();
-        places.dedup();
+        let known = || self.known.iter().map(|known| known.name.as_str());
+        let names = names.iter().map(AsRef::as_ref);
+        if let Some(name) = names
+            .clone()
+            .find(|name| !known().any(|known| known == *name))
+        {
+            let known: Vec<&str> = known().collect();
+            let hint = format!("the results are {}", known.join(", "));
+            return Err(SceneError::missing(format!("the column {name}"), &hint));
+        }
+        let wanted = |place: &usize| names.clone().any(|name| name == self.known[*place].name);
+        let places = (0..self.width()).filter(wanted).collect();
         Ok(Self { places, ..self })
     }
 
@@ -104,7 +82,7 @@ impl Fields {
 
     /// The results, with their places.
     pub(crate) fn quantities(&self) -> impl Iterator<Item = (usize, &Described)> {
-        self.places.iter().map(|&place| (place, self.named(place)))
+        self.places.iter().map(|&place| (place, &self.known[place]))
     }
 }
 
@@ -131,11 +109,8 @@ pub(super) fn columns_of_probes(scene: &Table) -> Result<Vec<Described>, SceneEr
     let fields: Vec<_> = labels_of(&quantities).collect();
     let count = 1 + 3 * probes * fields.len();
     if count > MOST {
-        return Err(SceneError::out_of_range(
-            "the number of columns of the probes",
-            count as f64,
-            "[0, 2000]",
-        ));
+        let key = "the number of columns of the probes";
+        return Err(SceneError::out_of_range(key, count as f64, "[0, 2000]"));
     }
     let mut columns = vec![TABLE.into()];
     for probe in 1..=probes {

@@ -6,12 +6,13 @@
 //! anew.
 
 use super::fields::Fields;
-use super::rows::Block;
+use super::rows::{Block, Blocks};
 use super::schema::COUNTED;
 use super::shard::BLOCK;
 use super::spec::Spec;
 use crate::quantities::QUANTITIES;
 use ledger::{Identity, Journal, JournalError, Record, Records, Title};
+use output::Fault;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
@@ -20,9 +21,9 @@ const KIND: &str = "sweep";
 /// Bytes before the numbers of a block: five integers.
 const HEADER: usize = 5 * 8;
 
-/// The journal of some rows of a sweep.
-fn title(spec: &Spec, rows: &Range<usize>) -> Title {
-    let (sha256, of) = (&spec.sha256, spec.rows());
+/// The journal of the rows of a sweep that are asked for.
+fn title(spec: &Spec) -> Title {
+    let (sha256, of, rows) = (&spec.sha256, spec.rows(), spec.selected());
     let about = format!("{sha256} {of} {} {}", rows.start, rows.end);
     Title {
         kind: KIND,
@@ -31,20 +32,56 @@ fn title(spec: &Spec, rows: &Range<usize>) -> Title {
     }
 }
 
-/// Opens or begins a journal and adds to `spans` which rows it keeps, ascending and apart; that of other rows is replaced
-/// where it `drops`.
-pub(super) fn open(
-    path: &Path,
-    spec: &Spec,
-    rows: &Range<usize>,
-    drops: bool,
-    spans: &mut Vec<(Range<usize>, Record)>,
-) -> Result<Journal, JournalError> {
-    let wanted = results(&spec.fields);
-    let take = |record, kept: &[u8]| take(spans, rows, wanted, record, kept);
-    let journal = Journal::open(path, &title(spec, rows), |_| drops, take)?;
-    apart(spans);
-    Ok(journal)
+/// Computed rows of a sweep, kept in their journal.
+#[derive(Debug)]
+pub struct Kept {
+    /// Blocks in the order of their rows.
+    pub(super) spans: Vec<(Range<usize>, Record)>,
+    /// Rows that an earlier run had computed.
+    pub resumed: usize,
+    journal: Journal,
+    /// The results of a contact that it has.
+    results: u64,
+}
+
+impl Kept {
+    /// Opens or begins a journal; that of other rows is replaced where it `drops`.
+    pub(super) fn open(path: &Path, spec: &Spec, drops: bool) -> Result<Self, JournalError> {
+        let (rows, results, mut spans) = (spec.selected(), results(&spec.fields), Vec::new());
+        let take = |record, kept: &[u8]| take(&mut spans, &rows, results, record, kept);
+        let journal = Journal::open(path, &title(spec), |_| drops, take)?;
+        Ok(Self {
+            resumed: apart(&mut spans),
+            spans,
+            journal,
+            results,
+        })
+    }
+
+    /// Adds a block.
+    pub(super) fn add(&mut self, block: &Block) -> Result<(), JournalError> {
+        let record = self.journal.append(&kept(block, self.results))?;
+        self.spans.push((block.range(), record));
+        Ok(())
+    }
+
+    /// Removes the journal, once the results are written.
+    pub fn remove(self) {
+        self.journal.remove();
+    }
+}
+
+impl Blocks for Kept {
+    fn each(&self, visit: &mut dyn FnMut(&Block) -> Result<(), Fault>) -> Result<(), Fault> {
+        let mut kept = Vec::new();
+        for (_, record) in &self.spans {
+            self.journal.read(*record, &mut kept)?;
+            let changed = || Fault::from("its journal was changed while it was read".to_owned());
+            let (block, _) = parsed(&kept).ok_or_else(changed)?;
+            visit(&block)?;
+        }
+        Ok(())
+    }
 }
 
 /// A run that was interrupted or is at work: what its journal says.
@@ -73,21 +110,20 @@ impl Unfinished {
         let (sweep_rows, rows) = (count()?, count()?..count()?);
         let mut spans = Vec::new();
         records.all(|(record, kept)| take(&mut spans, &rows, 0, record, &kept));
-        apart(&mut spans);
-        let kept = spans.iter().map(|(rows, _)| rows.len()).sum();
         Some(Self {
             path: path.to_owned(),
             sha256,
             sweep_rows,
             rows,
-            kept,
+            kept: apart(&mut spans),
         })
     }
 }
 
-/// Whether the journal at `part` keeps all these rows of the sweep, so that a run may have begun to write its outputs.
+/// Whether the journal at `part` keeps all rows that are asked for, so that a run may have begun to write its outputs.
 #[must_use]
-pub fn is_computed(spec: &Spec, rows: Range<usize>, part: &Path) -> bool {
+pub fn is_computed(spec: &Spec, part: &Path) -> bool {
+    let rows = spec.selected();
     Unfinished::read(part).is_some_and(|found| {
         found.sha256 == spec.sha256 && found.rows == rows && found.kept == rows.len()
     })
@@ -102,14 +138,14 @@ fn take(
     kept: &[u8],
 ) -> bool {
     let block = parsed(kept).filter(|(_, held)| held & results == results);
-    let rows = block.map(|(block, _)| block.start..block.start + block.len());
+    let rows = block.map(|(block, _)| block.range());
     let rows = rows.filter(|rows| wanted.start <= rows.start && rows.end <= wanted.end);
     spans.extend(rows.clone().map(|rows| (rows, record)));
     rows.is_some()
 }
 
-/// Each row once, ascending.
-fn apart(spans: &mut Vec<(Range<usize>, Record)>) {
+/// Leaves each row once, ascending; how many there are.
+fn apart(spans: &mut Vec<(Range<usize>, Record)>) -> usize {
     spans.sort_by_key(|(rows, _)| rows.start);
     let mut end = 0;
     spans.retain(|(rows, _)| {
@@ -117,6 +153,7 @@ fn apart(spans: &mut Vec<(Range<usize>, Record)>) {
         end = end.max(rows.end);
         apart
     });
+    spans.iter().map(|(rows, _)| rows.len()).sum()
 }
 
 /// The results of a contact that are kept, a bit each: those that are written, and those that are counted.
@@ -134,17 +171,16 @@ fn places(results: u64, width: usize) -> Vec<usize> {
 }
 
 /// What is kept of a block: these results.
-pub(super) fn kept(block: &Block, results: u64) -> Vec<u8> {
-    let mut text = String::new();
-    for (row, reason) in &block.failures {
-        text.push_str(&format!("{row} {}\n", reason.replace('\n', " ")));
-    }
+fn kept(block: &Block, results: u64) -> Vec<u8> {
+    let failures = block.failures.iter();
+    let text: String = failures
+        .map(|(row, reason)| format!("{row} {}\n", reason.replace('\n', " ")))
+        .collect();
     let (rows, places) = (block.len(), places(results, block.width));
     let probed = block.width - QUANTITIES.len();
     let numbers = rows * places.len();
     let mut bytes = Vec::with_capacity(HEADER + 8 * numbers + rows + text.len());
-    let [start, rows, probed, length] =
-        [block.start, rows, probed, text.len()].map(|count| count as u64);
+    let [start, rows, probed, length] = [block.start, rows, probed, text.len()].map(|n| n as u64);
     for number in [start, rows, results, probed, length] {
         bytes.extend(number.to_le_bytes());
     }
@@ -159,12 +195,14 @@ pub(super) fn kept(block: &Block, results: u64) -> Vec<u8> {
 }
 
 /// A block that can have been computed, NaN where a result was not kept, and the results that were.
-pub(super) fn parsed(kept: &[u8]) -> Option<(Block, u64)> {
+fn parsed(kept: &[u8]) -> Option<(Block, u64)> {
     let (header, rest) = kept.split_at_checked(HEADER)?;
-    let mut words = header.as_chunks().0.iter().copied();
-    let mut word = || Some(u64::from_le_bytes(words.next()?));
-    let (start, rows, results, probed, text) = (word()?, word()?, word()?, word()?, word()?);
-    let [start, rows, probed, text] = [start, rows, probed, text].map(|word| word as usize);
+    let &[start, rows, results, probed, text] = header.as_chunks().0 else {
+        return None;
+    };
+    let results = u64::from_le_bytes(results);
+    let [start, rows, probed, text] =
+        [start, rows, probed, text].map(|count| u64::from_le_bytes(count) as usize);
     start
         .checked_add(rows)
         .filter(|_| (1..=BLOCK).contains(&rows) && probed <= rest.len())?;
@@ -180,12 +218,8 @@ pub(super) fn parsed(kept: &[u8]) -> Option<(Block, u64)> {
         Some((row.parse().ok()?, reason.to_owned()))
     });
     let mut block = Block::blank(start, rows, QUANTITIES.len() + probed);
-    let mut numbers = numbers
-        .as_chunks()
-        .0
-        .iter()
-        .copied()
-        .map(f64::from_le_bytes);
+    let numbers = numbers.as_chunks().0.iter();
+    let mut numbers = numbers.map(|bytes| f64::from_le_bytes(*bytes));
     for row in block.numbers.chunks_exact_mut(block.width) {
         for (&place, number) in places.iter().zip(&mut numbers) {
             row[place] = number;

@@ -1,7 +1,7 @@
 //! Where the fields of a sweep have their kernels from.
 
 use crate::error::SceneError;
-use impact::{KernelChoice, Shared};
+use impact::{KernelChoice, Shared, Tables};
 use lookup::{Table, TableError, TableFile, stated_hash};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -10,9 +10,8 @@ use std::sync::Arc;
 #[derive(Debug, Clone)]
 pub(crate) struct Kernels {
     pub(super) choice: KernelChoice,
-    /// What is looked at while rows are computed.
-    shared: Option<Arc<Shared>>,
-    path: PathBuf,
+    /// What is looked at while rows are computed, and its file.
+    shared: Option<(Arc<Shared>, PathBuf)>,
     /// What identifies them, as TOML.
     pub(super) identity: toml::Table,
 }
@@ -25,46 +24,40 @@ impl Kernels {
         or_computed: bool,
         many: bool,
     ) -> Result<Self, TableError> {
-        let mut identity = toml::Table::new();
-        let name = match path {
-            None => "direct",
-            Some(_) if or_computed => "auto",
-            Some(_) => "table",
+        let mut kernels = Self {
+            choice: KernelChoice::Direct,
+            shared: None,
+            identity: toml::Table::new(),
         };
-        identity.insert("kernel".to_owned(), name.into());
+        let mut says = |key: &str, word: &str| kernels.identity.insert(key.to_owned(), word.into());
         let Some(path) = path else {
-            return Ok(Self {
-                choice: KernelChoice::Direct,
-                shared: None,
-                path: PathBuf::new(),
-                identity,
-            });
+            says("kernel", "direct");
+            return Ok(kernels);
         };
         let file = TableFile::open(path)?;
-        identity.insert("table_id".to_owned(), file.id().into());
-        identity.insert("table_sha256".to_owned(), stated_hash(path)?.into());
-        let (tables, shared): (Arc<dyn impact::Tables>, _) = if many {
-            (Arc::new(Arc::new(Table::open(path)?)), None)
+        says("kernel", if or_computed { "auto" } else { "table" });
+        says("table_id", file.id());
+        says("table_sha256", &stated_hash(path)?);
+        let tables: Arc<dyn Tables> = if many {
+            Arc::new(Arc::new(Table::open(path)?))
         } else {
             let shared = Arc::new(Shared::new(Arc::new(file)));
-            (Arc::clone(&shared) as _, Some(shared))
+            kernels.shared = Some((Arc::clone(&shared), path.to_owned()));
+            shared
         };
-        Ok(Self {
-            choice: match or_computed {
-                true => KernelChoice::Within(tables),
-                false => KernelChoice::Table(tables),
-            },
-            shared,
-            path: path.to_owned(),
-            identity,
-        })
+        kernels.choice = match or_computed {
+            true => KernelChoice::Within(tables),
+            false => KernelChoice::Table(tables),
+        };
+        Ok(kernels)
     }
 
     /// Fails where the table could not be read while rows were computed.
     pub(super) fn check(&self) -> Result<(), SceneError> {
-        let fault = self.shared.as_ref().and_then(|shared| shared.fault());
-        fault.map_or(Ok(()), |reason| {
-            Err(SceneError::unreadable(&self.path, reason))
+        let shared = self.shared.as_ref();
+        let fault = shared.and_then(|(shared, path)| Some((path, shared.fault()?)));
+        fault.map_or(Ok(()), |(path, reason)| {
+            Err(SceneError::unreadable(path, reason))
         })
     }
 }

@@ -2,66 +2,36 @@
 
 use super::error::SweepError;
 use super::fields::probed_numbers;
-use super::journal;
+use super::journal::Kept;
 use super::kernels::Kernels;
-use super::rows::{Block, Blocks, NO_MODEL};
+use super::rows::{Block, NO_MODEL};
 use super::shard::BLOCK;
 use super::spec::Spec;
 use super::template::{Memory, Templates};
 use crate::error::SceneError;
 use crate::quantities::QUANTITIES;
 use contact::{Choice, Model, Outcomes, Solver, Tabulated};
+use fault::AnyError;
 use impact::sweep::{Observed, collide, observe, outcomes};
-use ledger::{Journal, Record, gaps};
-use output::{Existing, Fault};
+use ledger::gaps;
+use output::Existing;
 use rayon::prelude::*;
 use std::ops::Range;
 use std::path::Path;
 use std::time::Instant;
 
 /// Rows of the first block of a run, without probes; the following ones have as many as take [`BLOCK_S`].
-pub const FIRST_BLOCK: usize = 64;
+const FIRST_BLOCK: usize = 64;
 
 /// Time in s that the computation of a block is to take: what a kill costs.
-pub const BLOCK_S: f64 = 2.0;
+const BLOCK_S: f64 = 2.0;
 
 /// Rows that one thread takes at a time, at most.
 const GRAIN: usize = 256;
 /// Such portions for each thread at least, where there are rows enough: none waits long for the last one.
 const PORTIONS: usize = 4;
 
-/// Computed rows of a sweep, kept in their journal.
-#[derive(Debug)]
-pub struct Kept {
-    /// Blocks in the order of their rows.
-    spans: Vec<(Range<usize>, Record)>,
-    /// Rows that an earlier run had computed.
-    pub resumed: usize,
-    journal: Journal,
-}
-
-impl Kept {
-    /// Removes the journal, once the results are written.
-    pub fn remove(self) {
-        self.journal.remove();
-    }
-}
-
-impl Blocks for Kept {
-    fn each(&self, visit: &mut dyn FnMut(&Block) -> Result<(), Fault>) -> Result<(), Fault> {
-        let mut kept = Vec::new();
-        for (_, record) in &self.spans {
-            self.journal.read(*record, &mut kept)?;
-            let found = journal::parsed(&kept);
-            let changed = || Fault::from("its journal was changed while it was read".to_owned());
-            let (block, _) = found.ok_or_else(changed)?;
-            visit(&block)?;
-        }
-        Ok(())
-    }
-}
-
-/// Computes the rows of a range that the journal at `part` does not hold yet; no more than a block is in memory.
+/// Computes those rows asked for that the journal at `part` does not hold yet; no more than a block is in memory.
 ///
 /// The rows of another sweep are replaced where `existing` says so.
 /// `watch` is told after each block how many rows are done; while it says true the sweep goes on,
@@ -72,31 +42,25 @@ impl Blocks for Kept {
 /// [`SweepError`].
 pub fn run_rows(
     spec: &Spec,
-    rows: Range<usize>,
     part: &Path,
     existing: Existing,
     mut watch: impl FnMut(usize) -> bool,
 ) -> Result<Option<Kept>, SweepError> {
-    let computer = Computer::new(spec)?;
-    let drops = existing == Existing::Replace;
-    let mut spans = Vec::new();
-    let mut journal = journal::open(part, spec, &rows, drops, &mut spans)?;
-    let mut done: usize = spans.iter().map(|(rows, _)| rows.len()).sum();
-    let resumed = done;
+    let (computer, rows) = (Computer::new(spec)?, spec.selected());
+    let mut kept = Kept::open(part, spec, existing == Existing::Replace)?;
+    let mut done = kept.resumed;
     if !watch(done) {
         return Ok(None);
     }
-    let results = journal::results(&spec.fields);
     let (mut block, mut size) = (Block::default(), computer.first_block());
-    let held: Vec<_> = spans.iter().map(|(rows, _)| rows.clone()).collect();
+    let held: Vec<_> = kept.spans.iter().map(|(rows, _)| rows.clone()).collect();
     for gap in gaps(&held, &rows) {
         let mut start = gap.start;
         while start < gap.end {
             let end = (start + size).min(gap.end);
             block.make_room(start, end - start, spec.fields.width());
             size = computer.fill(&mut block, start..end, BLOCK_S, |row| row)?;
-            let record = journal.append(&journal::kept(&block, results))?;
-            spans.push((start..end, record));
+            kept.add(&block)?;
             done += block.len();
             if !watch(done) && done < rows.len() {
                 return Ok(None);
@@ -104,12 +68,8 @@ pub fn run_rows(
             start = end;
         }
     }
-    spans.sort_by_key(|(rows, _)| rows.start);
-    Ok(Some(Kept {
-        spans,
-        resumed,
-        journal,
-    }))
+    kept.spans.sort_by_key(|(rows, _)| rows.start);
+    Ok(Some(kept))
 }
 
 /// What rows are computed with.
@@ -122,21 +82,22 @@ struct Computer<'a> {
 
 impl<'a> Computer<'a> {
     fn new(spec: &'a Spec) -> Result<Self, SceneError> {
-        let mut computer = Self {
-            spec,
-            templates: Templates::new(spec)?,
-            responses: if spec.has_many_ratios() {
-                Tabulated::on_lattice()
-            } else {
-                Tabulated::default()
-            },
-            outcomes: Outcomes::default(),
+        let templates = Templates::new(spec)?;
+        let responses = match spec.has_many_ratios() {
+            true => Tabulated::on_lattice(),
+            false => Tabulated::default(),
         };
-        if spec.kernels.is_none() {
-            let row = |row, memory: &mut Memory| computer.templates.contact(row, memory);
-            computer.outcomes = outcomes(spec.rows(), &computer.responses, row);
-        }
-        Ok(computer)
+        let row = |row, memory: &mut Memory| templates.contact(row, memory);
+        let outcomes = match spec.kernels {
+            Some(_) => Outcomes::default(),
+            None => outcomes(spec.rows(), &responses, row),
+        };
+        Ok(Self {
+            spec,
+            templates,
+            responses,
+            outcomes,
+        })
     }
 
     /// Rows of a first block: with probes one may take seconds.
@@ -171,8 +132,7 @@ impl<'a> Computer<'a> {
         Ok(next_size(rows.len(), took_s, wanted_s))
     }
 
-    /// Fills the numbers and models of consecutive rows; gives those that failed. Where the fields at the probes alone did,
-    /// the contact stays.
+    /// Fills the numbers and models of consecutive rows; gives those that failed.
     fn portion(
         &self,
         start: usize,
@@ -185,27 +145,10 @@ impl<'a> Computer<'a> {
         for (row, (numbers, model)) in (start..).zip(each.zip(models)) {
             numbers.fill(f64::NAN);
             *model = NO_MODEL;
-            let found = match self.observed(row_of(row), &mut solver, &mut memory) {
-                Ok(found) => found,
-                Err(reason) => {
-                    failures.push((row, reason));
-                    continue;
-                }
-            };
-            let (of_contact, of_probes) = numbers.split_at_mut(QUANTITIES.len());
-            for (number, quantity) in of_contact.iter_mut().zip(QUANTITIES) {
-                *number = (quantity.of_contact)(&found.results);
-            }
-            let index = Model::ALL.iter().position(|m| *m == found.model);
-            *model = index.map_or(NO_MODEL, |index| index as u8);
-            match found.peaks {
-                Some(Ok(peaks)) => of_probes
-                    .iter_mut()
-                    .zip(probed_numbers(&peaks))
-                    .for_each(|(number, found)| *number = found),
-                Some(Err(reason)) => failures.push((row, reason)),
-                None => {}
-            }
+            let filled = self
+                .observed(row_of(row), &mut solver, &mut memory)
+                .and_then(|found| fill_row(numbers, model, found));
+            failures.extend(filled.err().map(|reason| (row, reason.to_string())));
         }
         failures
     }
@@ -215,19 +158,30 @@ impl<'a> Computer<'a> {
         row: usize,
         solver: &mut Solver<'_, Tabulated>,
         memory: &mut Memory,
-    ) -> Result<Observed, String> {
+    ) -> Result<Observed, AnyError> {
         if let Some(kernels) = &self.spec.kernels {
-            let scene = self.templates.scene(row, memory);
-            return observe(
-                solver,
-                scene.map_err(|error| error.to_string())?,
-                &kernels.choice,
-            );
+            let scene = self.templates.scene(row, memory)?;
+            return Ok(observe(solver, scene, &kernels.choice)?);
         }
-        let contact = self.templates.contact(row, memory);
-        let (collision, settings) = contact.map_err(|error| error.to_string())?;
-        collide(solver, &collision, &settings).map_err(|error| error.to_string())
+        let (collision, settings) = self.templates.contact(row, memory)?;
+        Ok(collide(solver, &collision, &settings)?)
     }
+}
+
+/// Fills the numbers and the model of a row. Where the fields at the probes alone failed, the contact stays.
+fn fill_row(numbers: &mut [f64], model: &mut u8, found: Observed) -> Result<(), AnyError> {
+    let (of_contact, of_probes) = numbers.split_at_mut(QUANTITIES.len());
+    for (number, quantity) in of_contact.iter_mut().zip(QUANTITIES) {
+        *number = (quantity.of_contact)(&found.results);
+    }
+    let index = Model::ALL.iter().position(|m| *m == found.model);
+    *model = index.map_or(NO_MODEL, |index| index as u8);
+    if let Some(peaks) = found.peaks.transpose()? {
+        for (number, found) in of_probes.iter_mut().zip(probed_numbers(&peaks)) {
+            *number = found;
+        }
+    }
+    Ok(())
 }
 
 /// Rows that are held in memory together, at most: eight bytes for each of their numbers.

@@ -6,7 +6,7 @@ use super::error::SweepError;
 use super::fields::{Fields, columns_of_probes, stored_columns};
 use super::kernels::Kernels;
 use super::schema::{FIELDS, FORMAT_VERSION, LIST, SAMPLE};
-use super::shard::BLOCK;
+use super::shard::{BLOCK, Selection, grain};
 use crate::error::SceneError;
 use crate::quantities::{Described, QUANTITIES};
 use crate::scene::body::parse_materials;
@@ -15,9 +15,10 @@ use crate::scene::section::read_text;
 use crate::scene::section::{Section, parse};
 use contact::{Choice, Library, NUMBERS_REVISION, Plasticity};
 use impact::numbers::FIELDS_REVISION;
-use ledger::Identity;
+use ledger::{Identity, Shard};
 use output::Role;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 use toml::{Table, Value};
 
@@ -32,8 +33,10 @@ pub struct Spec {
     pub axes: Vec<Axis>,
     /// Everything spelled out, as TOML.
     pub resolved: String,
-    /// What was read beside it.
-    pub(super) files: Files,
+    /// The files that were read beside the sweep itself: its base scene and its materials.
+    pub inputs: Vec<Role>,
+    /// Materials by the name of their file, with its text: rows are computed from them, whatever becomes of the files.
+    libraries: Libraries,
     /// SHA-256, in hexadecimal, of everything that is asked and was read and of the program's version and numbers: two sweeps
     /// with the same have the same rows.
     pub sha256: String,
@@ -41,7 +44,11 @@ pub struct Spec {
     pub fields: Fields,
     /// Where the fields at probes have their kernels from, where they are asked for.
     pub(crate) kernels: Option<Kernels>,
+    /// The rows that are asked for as a part, where they are not the whole sweep in its own shape.
+    pub selection: Option<Selection>,
 }
+
+type Libraries = BTreeMap<String, (Library, String)>;
 
 /// Rows of a sweep at most: a place in a file of them is counted exactly.
 const MOST_ROWS: usize = 1_000_000_000_000;
@@ -88,29 +95,40 @@ impl Spec {
         in_range(&axes)?;
         let mut resolved = table.clone();
         resolved.insert("scene".into(), Value::Table(scene.clone()));
-        let mut spec = Self::new(scene, &directory, axes, resolved.to_string(), &[])?;
-        spec.files.inputs.extend(file);
+        let mut spec = Self::new(scene, &directory, axes, resolved.to_string(), true)?;
+        spec.inputs.extend(file);
         Ok(spec)
     }
 
-    /// One of a contact alone, with what makes it another one than its text says.
+    /// One of a contact alone; whether its text spells out the values of its axes.
     fn new(
         scene: Table,
         directory: &Path,
         axes: Vec<Axis>,
         resolved: String,
-        unspelled: &[Axis],
+        is_spelled: bool,
     ) -> Result<Self, SceneError> {
-        let files = Files::read(&scene, &axes, directory)?;
+        let (mut inputs, mut libraries) = (Vec::new(), Libraries::new());
+        for name in material_files(&scene, &axes) {
+            let path = directory.join(name);
+            let text = read_text(&path)?;
+            let own = parse_materials(&text).map_err(|error| error.in_file(&path))?;
+            let library = Library::built_in().clone().extended(&own);
+            libraries.insert(name.to_owned(), (library, text));
+            inputs.push(("a materials file", path));
+        }
+        let unspelled = if is_spelled { &[] } else { &axes[..] };
         Ok(Self {
-            sha256: identity(&resolved, &files, unspelled),
+            sha256: identity(&resolved, &libraries, unspelled),
             fields: own_fields(&scene, &axes, Vec::new()),
             directory: directory.to_owned(),
             scene,
             axes,
             resolved,
-            files,
+            inputs,
+            libraries,
             kernels: None,
+            selection: None,
         })
     }
 
@@ -141,14 +159,13 @@ impl Spec {
     ) -> Result<Self, SceneError> {
         let axes = vec![together(columns)?];
         check(&axes)?;
-        let (unspelled, resolved) = (axes.clone(), scene.to_string());
-        Self::new(scene.clone(), directory, axes, resolved, &unspelled)
+        Self::new(scene.clone(), directory, axes, scene.to_string(), false)
     }
 
-    /// The files that were read beside the sweep itself: its base scene and its materials.
-    #[must_use]
-    pub fn inputs(&self) -> &[Role] {
-        &self.files.inputs
+    /// The materials of a scene.
+    pub(super) fn library(&self, scene: &Table) -> &Library {
+        let own = word(scene, "materials", "file").and_then(|name| self.libraries.get(name));
+        own.map_or(Library::built_in(), |(library, _)| library)
     }
 
     /// Memory in bytes that a run takes, about: it does not depend on the number of rows.
@@ -166,6 +183,54 @@ impl Spec {
     #[must_use]
     pub fn rows(&self) -> usize {
         rows(&self.axes).unwrap_or(0)
+    }
+
+    /// The dimensions of what is asked for: the axes, or the one of a part.
+    #[must_use]
+    pub fn shape(&self) -> Vec<usize> {
+        match &self.selection {
+            Some(selection) => vec![selection.rows.len()],
+            None => self.axes.iter().map(|axis| axis.len).collect(),
+        }
+    }
+
+    /// Asks for the rows of a shard alone.
+    pub fn select_shard(&mut self, shard: Shard) {
+        let rows = shard.range(self.rows(), grain(&self.fields));
+        let shard = Some(shard);
+        self.selection = Some(Selection { rows, shard });
+    }
+
+    /// Asks for rows from one on up to another alone, which is not among them.
+    ///
+    /// # Errors
+    /// [`SceneError`] beyond the end.
+    pub fn select_rows(&mut self, rows: Range<usize>) -> Result<(), SceneError> {
+        if rows.end > self.rows() {
+            return Err(SceneError::out_of_range(
+                format!("the end of the rows, of a sweep of {},", self.rows()),
+                rows.end as f64,
+                "the rows of the sweep, which count from 0",
+            ));
+        }
+        self.selection = Some(Selection { rows, shard: None });
+        Ok(())
+    }
+
+    /// The rows that are asked for.
+    #[must_use]
+    pub fn selected(&self) -> Range<usize> {
+        let selection = self.selection.as_ref();
+        selection.map_or(0..self.rows(), |selection| selection.rows.clone())
+    }
+
+    /// The axes, each with the rows from one of its values to the next: the last runs fastest.
+    pub(super) fn strides(&self) -> impl Iterator<Item = (usize, &Axis)> {
+        let mut stride = self.rows().max(1);
+        self.axes.iter().map(move |axis| {
+            stride /= axis.len.max(1);
+            (stride, axis)
+        })
     }
 
     /// The keys that vary.
@@ -219,12 +284,10 @@ impl Spec {
 
 /// What is written unless columns are chosen: what flow brings only where a law of flow is asked for.
 fn own_fields(scene: &Table, axes: &[Axis], probed: Vec<Described>) -> Fields {
-    const KEY: &str = "plasticity";
-    let contact = scene.get("contact");
-    let law = contact.and_then(|contact| contact.get(KEY)?.as_str());
+    let law = word(scene, "contact", "plasticity");
     let mut columns = axes.iter().flat_map(|axis| &axis.columns);
     let yields = law.is_some_and(|law| law != Plasticity::None.name())
-        || columns.any(|column| column.section == "contact" && column.key == KEY);
+        || columns.any(|column| column.name() == "contact.plasticity");
     let mut fields = Fields::all(probed);
     let elastic = |name: &str| !QUANTITIES.iter().any(|q| q.is_of_flow && q.name == name);
     fields.retain(|name| yields || elastic(name));
@@ -233,13 +296,13 @@ fn own_fields(scene: &Table, axes: &[Axis], probed: Vec<Described>) -> Fields {
 
 /// Of the program's version, the revision of its numbers, the format, everything spelled out, the files that were read, and
 /// axes whose values are not spelled out.
-fn identity(resolved: &str, files: &Files, axes: &[Axis]) -> String {
+fn identity(resolved: &str, libraries: &Libraries, axes: &[Axis]) -> String {
     let mut identity = Identity::default()
         .with("software", env!("CARGO_PKG_VERSION"))
         .with("numbers", NUMBERS_REVISION.to_le_bytes())
         .with("format", FORMAT_VERSION)
         .with("sweep", resolved);
-    for (_, text) in files.libraries.values() {
+    for (_, text) in libraries.values() {
         identity = identity.with("materials", text);
     }
     for column in axes.iter().flat_map(|axis| &axis.columns) {
@@ -254,57 +317,25 @@ fn identity(resolved: &str, files: &Files, axes: &[Axis]) -> String {
     identity.hex()
 }
 
-/// What was read: rows are computed from it, whatever becomes of the files.
-#[derive(Debug, Clone, Default)]
-pub(super) struct Files {
-    /// Where each file is.
-    inputs: Vec<Role>,
-    /// Materials by the name of their file, with its text.
-    libraries: BTreeMap<String, (Library, String)>,
+/// The materials files of a base scene, and those that vary.
+fn material_files<'a>(scene: &'a Table, axes: &'a [Axis]) -> BTreeSet<&'a str> {
+    let columns = axes.iter().flat_map(|axis| &axis.columns);
+    let varied = columns.filter(|column| column.name() == "materials.file");
+    let varied = varied.filter_map(|column| column.values.texts()).flatten();
+    let named = word(scene, "materials", "file").into_iter();
+    named.chain(varied.map(String::as_str)).collect()
 }
 
-impl Files {
-    /// Reads the materials of a base scene, and those that vary.
-    fn read(scene: &Table, axes: &[Axis], directory: &Path) -> Result<Self, SceneError> {
-        let mut files = Self::default();
-        let mut names: Vec<&str> = named(scene).into_iter().collect();
-        for column in axes.iter().flat_map(|axis| &axis.columns) {
-            if let ("materials", "file", Values::Texts(words)) =
-                (column.section.as_str(), column.key.as_str(), &column.values)
-            {
-                names.extend(words.iter().map(String::as_str));
-            }
-        }
-        names.sort_unstable();
-        names.dedup();
-        for name in names {
-            let path = directory.join(name);
-            let text = read_text(&path)?;
-            let own = parse_materials(&text).map_err(|error| error.in_file(&path))?;
-            let library = Library::built_in().clone().extended(&own);
-            files.libraries.insert(name.to_owned(), (library, text));
-            files.inputs.push(("a materials file", path));
-        }
-        Ok(files)
-    }
-
-    /// The materials of a scene.
-    pub(super) fn library(&self, scene: &Table) -> &Library {
-        let own = named(scene).and_then(|name| self.libraries.get(name));
-        own.map_or(Library::built_in(), |(library, _)| library)
-    }
-}
-
-/// The materials file that a scene names.
-fn named(scene: &Table) -> Option<&str> {
-    scene.get("materials")?.as_table()?.get("file")?.as_str()
+/// The word of a key in a scene.
+pub(super) fn word<'a>(scene: &'a Table, section: &str, key: &str) -> Option<&'a str> {
+    scene.get(section)?.get(key)?.as_str()
 }
 
 /// The axes that the sections of a sweep say.
 fn axes(root: &Section<'_>) -> Result<Vec<Axis>, SceneError> {
     let mut axes = Vec::new();
     if let Some(product) = root.section("product")? {
-        for column in columns(&product, Some(MOST_ROWS))? {
+        for column in columns(&product, MOST_ROWS as f64)? {
             axes.push(Axis {
                 name: column.name(),
                 len: column.values.count(),
@@ -313,7 +344,7 @@ fn axes(root: &Section<'_>) -> Result<Vec<Axis>, SceneError> {
         }
     }
     if let Some(list) = root.section("list")? {
-        axes.push(together(columns(&list, None)?)?);
+        axes.push(together(columns(&list, f64::INFINITY)?)?);
     }
     if let Some(random) = root.section("random")? {
         axes.push(drawn(&random)?);
@@ -341,17 +372,17 @@ fn base(
 }
 
 /// The scene keys below a section of the sweep, with their values, so many rows at most where each varies by itself.
-fn columns(section: &Section<'_>, most: Option<usize>) -> Result<Vec<Column>, SceneError> {
+fn columns(section: &Section<'_>, most: f64) -> Result<Vec<Column>, SceneError> {
     let (mut found, mut rows) = (Vec::new(), 1.0);
     for keys in section.subsections(&[])? {
         for key in keys.names() {
             let values = Values::read(&keys, key)?;
             rows *= values.count() as f64;
-            if most.is_some_and(|most| rows > most as f64) {
+            if rows > most {
                 return Err(too_many(rows));
             }
             found.push(Column {
-                section: keys.name().to_owned(),
+                section: keys.name.to_owned(),
                 key: key.to_owned(),
                 values,
             });
@@ -436,16 +467,11 @@ fn check(axes: &[Axis]) -> Result<(), SceneError> {
             "say in one of these sections which keys vary",
         ));
     }
-    let columns = axes.iter().flat_map(|axis| &axis.columns);
-    let names: Vec<String> = columns.map(Column::name).collect();
-    for (i, name) in names.iter().enumerate() {
-        if names[..i].contains(name) {
-            return Err(SceneError::conflict(
-                name.clone(),
-                name.clone(),
-                "a key varies along one axis only",
-            ));
-        }
+    let mut names = BTreeSet::new();
+    let mut columns = axes.iter().flat_map(|axis| &axis.columns);
+    if let Some(twice) = columns.find(|column| !names.insert(column.name())) {
+        let reason = "a key varies along one axis only";
+        return Err(SceneError::conflict(twice.name(), twice.name(), reason));
     }
     match rows(axes) {
         Some(rows) if rows <= MOST_ROWS => Ok(()),

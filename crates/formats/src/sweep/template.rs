@@ -1,7 +1,7 @@
 //! From a row's place to its scene: parsed once for all rows that differ in plain numbers only.
 
-use super::axes::{Column, Values, place};
-use super::spec::Spec;
+use super::axes::{Axis, Column, Values};
+use super::spec::{Spec, word};
 use crate::error::SceneError;
 use crate::scene::keys::{Range, Set, keys_of};
 use crate::scene::{Form, scene_with};
@@ -13,7 +13,8 @@ use toml::Value;
 /// A column of plain numbers, which are set after a scene was parsed with another number.
 #[derive(Debug)]
 struct Fast<'a> {
-    axis: usize,
+    /// Rows from one of its numbers to the next.
+    stride: usize,
     column: &'a Column,
     range: Range,
     stand_in: f64,
@@ -25,19 +26,14 @@ struct Fast<'a> {
 pub(crate) struct Templates<'a> {
     spec: &'a Spec,
     fast: Vec<Fast<'a>>,
-    /// Axes with a column that needs parsing.
-    slow: Vec<usize>,
+    /// Axes with a column that needs parsing, with their strides.
+    slow: Vec<(usize, &'a Axis)>,
     /// The templates where there are not too many of them.
     ready: Vec<Result<Scene, SceneError>>,
 }
 
-/// What a thread remembers of the row before.
-#[derive(Debug, Default)]
-pub(crate) struct Memory {
-    place: Vec<usize>,
-    /// Its template and scene, which the next row likely shares.
-    scratch: Option<(usize, Result<Scene, SceneError>)>,
-}
+/// What a thread remembers of the row before: its template and scene, which the next row likely shares.
+pub(crate) type Memory = Option<(usize, Result<Scene, SceneError>)>;
 
 /// Templates that are parsed ahead.
 const READY: usize = 4096;
@@ -45,59 +41,51 @@ const READY: usize = 4096;
 impl<'a> Templates<'a> {
     /// Parses the first template, so that a misspelt key is an error of the sweep and not of each row.
     pub(crate) fn new(spec: &'a Spec) -> Result<Self, SceneError> {
-        let mut templates = Self {
-            spec,
-            fast: Vec::new(),
-            slow: Vec::new(),
-            ready: Vec::new(),
-        };
-        for (index, axis) in spec.axes.iter().enumerate() {
+        let (mut fast, mut slow) = (Vec::new(), Vec::new());
+        for (stride, axis) in spec.strides() {
+            let before = fast.len();
             let columns = axis.columns.iter();
-            let found = columns.filter_map(|column| fast(spec, index, column));
-            let before = templates.fast.len();
-            templates.fast.extend(found);
-            if templates.fast.len() - before < axis.columns.len() {
-                templates.slow.push(index);
+            fast.extend(columns.filter_map(|column| as_numbers(spec, stride, column)));
+            if fast.len() - before < axis.columns.len() {
+                slow.push((stride, axis));
             }
         }
-        let origin = vec![0; spec.axes.len()];
-        match templates.parse(&origin) {
+        let mut templates = Self {
+            spec,
+            fast,
+            slow,
+            ready: Vec::new(),
+        };
+        match templates.parse(0) {
             Ok(scene) => contact_only(&scene, spec.kernels.is_some())?,
             // a row that fails
             Err(error) if error.is_of_numbers() => {}
             Err(error) => return Err(error),
         }
         templates.check_words()?;
-        let count = templates
-            .slow
-            .iter()
-            .try_fold(1_usize, |n, &axis| n.checked_mul(spec.axes[axis].len))
-            .filter(|&n| n <= READY);
-        if let Some(count) = count {
-            templates.ready = (0..count)
-                .map(|id| templates.parse(&templates.place(id)))
-                .collect();
+        let mut lengths = templates.slow.iter().map(|(_, axis)| axis.len);
+        let count = lengths.try_fold(1_usize, usize::checked_mul);
+        if let Some(count) = count.filter(|&n| n <= READY) {
+            let parsed = (0..count).map(|id| templates.parse(templates.first_row(id)));
+            templates.ready = parsed.collect();
         }
         Ok(templates)
     }
 
     /// Refuses a word of any list that is not known: it would be a row that fails, after hours perhaps.
     fn check_words(&self) -> Result<(), SceneError> {
-        for (index, axis) in self.spec.axes.iter().enumerate() {
+        for (stride, axis) in self.spec.strides() {
             let columns = axis.columns.iter().map(|column| &column.values);
             let lists: Vec<_> = columns.filter_map(Values::texts).collect();
             let mut known = BTreeSet::new();
             let rows = if lists.is_empty() { 0 } else { axis.len };
             for i in 0..rows {
                 let words: Vec<&str> = lists.iter().map(|texts| texts[i].as_str()).collect();
-                if !known.insert(words) {
-                    continue;
-                }
-                let mut place = vec![0; self.spec.axes.len()];
-                place[index] = i;
-                match self.parse(&place) {
-                    Err(error) if error.is_of_words() => return Err(error),
-                    Ok(_) | Err(_) => {}
+                if known.insert(words)
+                    && let Err(error) = self.parse(i * stride)
+                    && error.is_of_words()
+                {
+                    return Err(error);
                 }
             }
         }
@@ -122,69 +110,64 @@ impl<'a> Templates<'a> {
         row: usize,
         memory: &'m mut Memory,
     ) -> Result<&'m Scene, SceneError> {
-        let Memory { place: at, scratch } = memory;
-        place(&self.spec.axes, row, at);
-        let id = self.slow.iter().fold(0_usize, |id, &axis| {
-            id.wrapping_mul(self.spec.axes[axis].len)
-                .wrapping_add(at[axis])
+        let id = self.slow.iter().fold(0_usize, |id, (stride, axis)| {
+            let place = row / stride % axis.len;
+            id.wrapping_mul(axis.len).wrapping_add(place)
         });
         let template = || match self.ready.get(id) {
             Some(template) => template.clone(),
-            None => self.parse(at),
+            None => self.parse(row),
         };
-        if scratch.as_ref().is_none_or(|(known, _)| *known != id) {
-            *scratch = None;
+        if memory.as_ref().is_none_or(|(known, _)| *known != id) {
+            *memory = None;
         }
-        let (_, scene) = scratch.get_or_insert_with(|| (id, template()));
+        let (_, scene) = memory.get_or_insert_with(|| (id, template()));
         let scene = scene.as_mut().map_err(|error| error.clone())?;
         for fast in &self.fast {
-            let number = fast.column.values.number(at[fast.axis]);
+            let values = &fast.column.values;
+            let number = values.number(row / fast.stride % values.count());
             fast.set(scene, number.unwrap_or(f64::NAN))?;
         }
         Ok(scene)
     }
 
-    /// The place along all axes of a template; zero along the fast ones.
-    fn place(&self, id: usize) -> Vec<usize> {
-        let mut place = vec![0; self.spec.axes.len()];
+    /// The first row of a template.
+    fn first_row(&self, id: usize) -> usize {
         let mut rest = id;
-        for &axis in self.slow.iter().rev() {
-            let len = self.spec.axes[axis].len;
-            place[axis] = rest % len;
-            rest /= len;
-        }
-        place
+        let slow = self.slow.iter().rev().map(|(stride, axis)| {
+            let place = rest % axis.len;
+            rest /= axis.len;
+            place * stride
+        });
+        slow.sum()
     }
 
-    fn parse(&self, place: &[usize]) -> Result<Scene, SceneError> {
+    fn parse(&self, row: usize) -> Result<Scene, SceneError> {
         let mut table = self.spec.scene.clone();
-        for (axis, &index) in self.spec.axes.iter().zip(place) {
+        for (stride, axis) in self.spec.strides() {
             for column in &axis.columns {
                 let is_of = |fast: &&Fast<'_>| std::ptr::eq(fast.column, column);
                 let value = match self.fast.iter().find(is_of) {
                     Some(fast) => Value::Float(fast.stand_in),
-                    None => column.values.get(index),
+                    None => column.values.get(row / stride % axis.len.max(1)),
                 };
                 column.put(&mut table, value)?;
             }
         }
-        let library = self.spec.files.library(&table);
+        let library = self.spec.library(&table);
         scene_with(&table, &self.spec.directory, library)
     }
 }
 
 /// A sweep is about contacts, and what probes see of them where their kernels are known.
 fn contact_only(scene: &Scene, observed: bool) -> Result<(), SceneError> {
-    let found = if scene.record().is_some() {
-        "[force]"
-    } else if !scene.probes.is_empty() && !observed {
-        "[[probe]]"
-    } else if scene.section.is_some() {
-        "[map]"
-    } else {
-        return Ok(());
-    };
-    Err(contacts_only(found))
+    let sections = [
+        ("[force]", scene.record().is_some()),
+        ("[[probe]]", !scene.probes.is_empty() && !observed),
+        ("[map]", scene.section.is_some()),
+    ];
+    let found = sections.into_iter().find(|(_, is_there)| *is_there);
+    found.map_or(Ok(()), |(name, _)| Err(contacts_only(name)))
 }
 
 fn contacts_only(found: &str) -> SceneError {
@@ -196,7 +179,7 @@ fn contacts_only(found: &str) -> SceneError {
 }
 
 /// The column as plain numbers, if that is what it is.
-fn fast<'a>(spec: &'a Spec, axis: usize, column: &'a Column) -> Option<Fast<'a>> {
+fn as_numbers<'a>(spec: &'a Spec, stride: usize, column: &'a Column) -> Option<Fast<'a>> {
     let key = keys_of(&column.section).find(|key| key.name == column.key)?;
     let (set, stand_in, range) = (key.set?, key.stand_in?, key.range?);
     let needs_ball = matches!(set, Set::Ball(_)) && column.section == "striker";
@@ -209,7 +192,7 @@ fn fast<'a>(spec: &'a Spec, axis: usize, column: &'a Column) -> Option<Fast<'a>>
     let in_scene = section.is_some_and(|section| section.keys().any(|key| speed(key)));
     let varies = (spec.columns()).any(|other| other.section == column.section && speed(&other.key));
     (!in_scene && !varies).then_some(Fast {
-        axis,
+        stride,
         column,
         range,
         stand_in,
@@ -219,12 +202,9 @@ fn fast<'a>(spec: &'a Spec, axis: usize, column: &'a Column) -> Option<Fast<'a>>
 
 /// Whether the striker of every row is a ball.
 fn always_ball(spec: &Spec) -> bool {
-    let striker = spec.scene.get("striker").and_then(Value::as_table);
-    let shape = striker.and_then(|striker| striker.get("shape")?.as_str());
-    shape == Some(Form::Ball.name())
-        && spec
-            .columns()
-            .all(|column| column.name() != "striker.shape")
+    let mut columns = spec.columns();
+    word(&spec.scene, "striker", "shape") == Some(Form::Ball.name())
+        && columns.all(|column| column.name() != "striker.shape")
 }
 
 impl Fast<'_> {

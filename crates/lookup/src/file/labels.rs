@@ -39,19 +39,22 @@ pub fn reason(error: &hdf5::Error) -> String {
     }
 }
 
-/// Gives an object a text attribute; a NUL, which a file cannot hold, becomes a blank.
+/// A text as files hold it; a NUL, which they cannot hold, becomes a blank.
+///
+/// # Errors
+/// None that is known.
+pub fn unicode(text: &str) -> Result<VarLenUnicode, hdf5::Error> {
+    let text = text.replace('\0', " ").parse();
+    text.map_err(|_| "a text holds a NUL".into())
+}
+
+/// Gives an object a text attribute.
 ///
 /// # Errors
 /// What the library says.
 pub fn text(place: &Location, name: &str, value: &str) -> Result<(), hdf5::Error> {
-    let value: VarLenUnicode = value
-        .replace('\0', " ")
-        .parse()
-        .map_err(|_| hdf5::Error::from("a text holds a NUL"))?;
-    place
-        .new_attr::<VarLenUnicode>()
-        .create(name)?
-        .write_scalar(&value)
+    let attribute = place.new_attr::<VarLenUnicode>().create(name)?;
+    attribute.write_scalar(&unicode(value)?)
 }
 
 /// Makes `scale` a dimension scale called `name`.

@@ -32,7 +32,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let claimed = arguments.overwrite.claim(output, ROWS, &[])?;
     let mut parts = Parts::in_folder(&arguments.folder, None).map_err(failure)?;
     // with --force the output itself may be a merged sweep of before
-    let there = claimed.real().canonicalize().ok();
+    let there = claimed.real.canonicalize().ok();
     let is_there = |path: &Path| there.is_some() && path.canonicalize().ok() == there;
     if let Some(part) = parts.parts.iter().find(|part| is_there(&part.path)) {
         let part = part.path.display();

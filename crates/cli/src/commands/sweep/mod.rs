@@ -13,8 +13,8 @@ use fault::Fault as _;
 use formats::parts::check_complete;
 use formats::sweep::schema::COUNTED;
 use formats::sweep::{
-    Axis, Blocks, JournalError, Kept, Precision, Selection, Shard, Spec, SweepError, is_computed,
-    print_csv, row_bytes, run_rows, stage_csv, stage_rows,
+    Axis, Blocks, JournalError, Kept, Precision, Shard, Spec, SweepError, is_computed, print_csv,
+    row_bytes, run_rows, stage_csv, stage_rows,
 };
 use formats::{Existing, Output, OutputError, QUANTITIES};
 use output::{CSV, Fault, Staged, apart, behind, free_disk, is_standard};
@@ -128,9 +128,14 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
 
 fn compute(arguments: &Run, sweep: &Path, output: &Path) -> Result<(), Failure> {
     let start = Instant::now();
-    let spec = spec(arguments, sweep)?;
+    let mut spec = spec(arguments, sweep)?;
     let (memory, needed) = (arguments.memory, spec.memory_bytes());
     memory.check(needed, "the sweep", "ask for fewer values")?;
+    match (arguments.shard, &arguments.rows) {
+        (Some(shard), _) => spec.select_shard(shard),
+        (None, Some(rows)) => spec.select_rows(rows.clone())?,
+        (None, None) => {}
+    }
     let Some(outputs) = Outputs::claim(arguments, sweep, output, &spec)? else {
         return say_complete(output, arguments.json);
     };
@@ -142,7 +147,7 @@ fn compute(arguments: &Run, sweep: &Path, output: &Path) -> Result<(), Failure> 
     let computing_s = start.elapsed().as_secs_f64();
     let tally = Tally::of(&kept).map_err(|fault| OutputError::writing(&outputs.part, fault))?;
     if let Some((row, reason)) = &tally.first {
-        let (failed, rows) = (tally.failed, outputs.rows.len());
+        let (failed, rows) = (tally.failed, spec.selected().len());
         say(format!(
             "warning: {failed} of {rows} scenes failed, the first in row {row} (rows count from 0): {reason}"
         ));
@@ -170,14 +175,12 @@ fn report(
     resumed: usize,
 ) -> (Value, String) {
     let [yielding, cracking] = tally.beyond;
-    let (rows, failed) = (outputs.rows.len(), tally.failed);
-    let output = outputs.results.path().display().to_string();
-    let part = outputs.selection.as_ref();
-    let lengths = spec.axes.iter().map(|axis| axis.len).collect();
+    let (rows, failed) = (spec.selected().len(), tally.failed);
+    let output = outputs.results.path.display().to_string();
     let mut value = json!({
         "output": output,
         "csv": arguments.csv.as_ref().map(|path| path.display().to_string()),
-        "shape": part.map_or(lengths, |part| vec![part.rows.len()]),
+        "shape": spec.shape(),
         "rows": rows,
         "sweep_rows": spec.rows(),
         "sweep_sha256": spec.sha256,
@@ -191,7 +194,7 @@ fn report(
     let axis = |axis: &Axis| format!("{} ({})", axis.name, axis.len);
     let axes: Vec<String> = spec.axes.iter().map(axis).collect();
     let mut text = vec![("axes", axes.join(" x "))];
-    if let Some(part) = part {
+    if let Some(part) = &spec.selection {
         let Range { start, end } = part.rows;
         value["first_row"] = start.into();
         let mut of = String::new();
@@ -223,7 +226,7 @@ fn report(
 /// The sweep, and what of its results is written.
 fn spec(arguments: &Run, sweep: &Path) -> Result<Spec, Failure> {
     let spec = Spec::from_file(sweep).map_err(|error| {
-        let is_scene = error.culprit().key == Some("scene");
+        let is_scene = error.culprit().key.as_deref() == Some("scene");
         Failure::from(error).hint_if(is_scene, "; one scene is computed by `hertzlamb impact`")
     })?;
     let mut spec = arguments.kernels.with_fields(spec)?;
@@ -239,15 +242,14 @@ fn spec(arguments: &Run, sweep: &Path) -> Result<Spec, Failure> {
 /// Computes the rows; what is done is kept from moment to moment.
 fn rows(overwrite: Overwrite, spec: &Spec, outputs: &Outputs) -> Result<Option<Kept>, SweepError> {
     static KEPT: AtomicUsize = AtomicUsize::new(0);
-    let (range, part) = (outputs.rows.clone(), &outputs.part);
-    let (rows, place) = (range.len(), part.clone());
+    let (rows, place) = (spec.selected().len(), outputs.part.clone());
     process::say_then(move || {
         let (kept, place) = (KEPT.load(Ordering::Relaxed), place.display());
         format!("{kept} of {rows} scenes are kept in {place}; the same command goes on with them")
     });
     let progress = Bar::new();
     progress.total("scenes", rows as u64);
-    run_rows(spec, range, part, overwrite.existing(), |rows| {
+    run_rows(spec, &outputs.part, overwrite.existing(), |rows| {
         KEPT.store(rows, Ordering::Relaxed);
         progress.set(rows as u64);
         true
@@ -257,7 +259,7 @@ fn rows(overwrite: Overwrite, spec: &Spec, outputs: &Outputs) -> Result<Option<K
 /// A sweep that could not be run or joined, with what to do.
 fn failure(error: SweepError) -> Failure {
     let other = matches!(error, SweepError::Journal(JournalError::Other(..)));
-    let missing = matches!(error, SweepError::Missing { .. });
+    let missing = matches!(error, SweepError::Missing(..));
     let drop = "; give --force to drop it, or another output to keep it";
     Failure::from(error)
         .hint_if(other, drop)
@@ -268,9 +270,6 @@ fn failure(error: SweepError) -> Failure {
 struct Outputs {
     results: Output,
     csv: Option<Output>,
-    /// The rows, where they are not the whole sweep in its own shape.
-    selection: Option<Selection>,
-    rows: Range<usize>,
     /// Whether the rows go to standard output.
     print: bool,
     /// Where finished blocks are kept until all are there: beside the results, under their name and `.part`.
@@ -285,10 +284,6 @@ impl Outputs {
         output: &Path,
         spec: &Spec,
     ) -> Result<Option<Self>, Failure> {
-        let of_rows = |rows: &Range<usize>| Selection::of_rows(rows.clone(), spec.rows());
-        let of_rows = arguments.rows.as_ref().map(of_rows).transpose()?;
-        let of_shard = |shard| Selection::of_shard(shard, spec.rows(), &spec.fields);
-        let selection = arguments.shard.map(of_shard).or(of_rows);
         let print = arguments.csv.as_deref().is_some_and(is_standard);
         if print && arguments.json {
             return Err(Failure::input(
@@ -306,39 +301,35 @@ impl Outputs {
         csv.map_or(Ok(()), |csv| CSV.check(csv))?;
         let outputs: Vec<&Path> = [output, &part].into_iter().chain(csv).collect();
         let mut inputs = vec![("the sweep", sweep.to_owned())];
-        inputs.extend_from_slice(spec.inputs());
+        inputs.extend_from_slice(&spec.inputs);
         inputs.extend(arguments.kernels.input());
         apart(&outputs, &inputs)?;
         let claim = |path: &Path| Output::claim(path, Existing::KeepUnlessSame);
         let (results, csv) = (claim(output)?, csv.map(claim).transpose()?);
         // a run that was killed while it gave its outputs their names has left some of them
         let wanted = arguments.overwrite.existing();
-        let whole = 0..spec.rows();
-        let rows = selection.as_ref().map_or(whole, |some| some.rows.clone());
-        let finish = wanted == Existing::Keep && is_computed(spec, rows.clone(), &part);
-        if arguments.skip_complete && !finish && results.real().exists() {
-            check_complete(output, spec, selection.as_ref()).map_err(Failure::work)?;
-            return match csv.filter(|csv| !csv.real().exists()) {
+        let finish = wanted == Existing::Keep && is_computed(spec, &part);
+        if arguments.skip_complete && !finish && results.real.exists() {
+            check_complete(output, spec).map_err(Failure::work)?;
+            return match csv.filter(|csv| !csv.real.exists()) {
                 None if !print => Ok(None),
                 None => Err(Failure::work("--skip-complete has no rows for --csv -")),
                 Some(csv) => Err(Failure::work(format!(
                     "{} is complete, but {} is not there; give --force to compute both",
                     output.display(),
-                    csv.path().display()
+                    csv.path.display()
                 ))),
             };
         }
         let existing = if finish {
             Existing::KeepUnlessSame
         } else {
-            check_disk(spec, rows.len(), &part)?;
+            check_disk(spec, &part)?;
             wanted
         };
         Ok(Some(Self {
             results: results.over(existing)?,
             csv: csv.map(|csv| csv.over(existing)).transpose()?,
-            selection,
-            rows,
             print,
             part,
         }))
@@ -346,7 +337,7 @@ impl Outputs {
 
     /// Writes all outputs, then gives them their names.
     fn write(&self, spec: &Spec, blocks: &impl Blocks) -> Result<(), Failure> {
-        let results = stage_rows(&self.results, spec, self.selection.as_ref(), blocks)?;
+        let results = stage_rows(&self.results, spec, blocks)?;
         let csv = self.csv.as_ref();
         let csv = csv.map(|csv| stage_csv(csv, spec, blocks)).transpose()?;
         results.commit()?;
@@ -355,8 +346,8 @@ impl Outputs {
 }
 
 /// Refuses rows that the disk does not hold, in the file and, while it is written, in the journal.
-fn check_disk(spec: &Spec, rows: usize, part: &Path) -> Result<(), Failure> {
-    let (bytes, kept) = row_bytes(spec);
+fn check_disk(spec: &Spec, part: &Path) -> Result<(), Failure> {
+    let (rows, (bytes, kept)) = (spec.selected().len(), row_bytes(spec));
     let there = std::fs::metadata(part).map_or(0.0, |journal| journal.len() as f64);
     let needed = rows as f64 * (bytes + kept) as f64 - there;
     match free_disk(part) {

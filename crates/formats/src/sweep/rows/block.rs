@@ -66,6 +66,11 @@ impl Block {
         self.models.is_empty()
     }
 
+    /// The rows, by their numbers in the sweep.
+    pub(crate) fn range(&self) -> Range<usize> {
+        self.start..self.start + self.len()
+    }
+
     /// The numbers of each row.
     pub fn rows(&self) -> impl Iterator<Item = &[f64]> {
         self.numbers.chunks_exact(self.width.max(1))
@@ -77,11 +82,6 @@ impl Block {
         for (row, number) in rows.zip(numbers) {
             row[place] = number;
         }
-    }
-
-    /// A result in some rows, which count from the first.
-    pub(super) fn column(&self, place: usize, some: Range<usize>) -> impl Iterator<Item = f64> {
-        some.map(move |row| self.numbers[row * self.width + place])
     }
 
     /// The failures of some rows, which count from the first.
@@ -114,7 +114,7 @@ impl Block {
 
     /// Whether it can have been computed: known models, and a reason within the block for each scene that failed.
     pub(crate) fn holds(&self) -> bool {
-        let rows = self.start..self.start + self.len();
+        let rows = self.range();
         let failed = |model: &u8| *model == NO_MODEL;
         let known = |model: &u8| usize::from(*model) < Model::ALL.len() || failed(model);
         self.models.iter().all(known)

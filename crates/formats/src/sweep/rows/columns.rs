@@ -2,12 +2,10 @@
 
 use super::block::{Block, Blocks};
 use crate::quantities::Described;
-use crate::sweep::axes::Values;
+use crate::sweep::axes::{Column as Key, Values};
 use crate::sweep::fields::Precision;
 use crate::sweep::schema::{FAILURE, MODEL, part};
-use crate::sweep::shard::Selection;
 use crate::sweep::spec::Spec;
-use contact::{Choice, Model};
 use output::Fault;
 use std::ops::Range;
 
@@ -37,7 +35,7 @@ pub(crate) struct Column<'a> {
 }
 
 /// The values of a column in some rows.
-#[derive(Debug)]
+#[derive(Debug, PartialEq)]
 pub(crate) enum Cells<'b> {
     Whole(Vec<i64>),
     Double(Vec<f64>),
@@ -53,17 +51,10 @@ pub(crate) enum Cells<'b> {
 pub(crate) fn columns(spec: &Spec) -> Vec<Column<'_>> {
     let fixed = |described, what| Column { described, what };
     let mut found = vec![fixed(part::ROW.into(), What::Row)];
-    let mut stride = spec.rows();
-    for axis in &spec.axes {
-        stride /= axis.len.max(1);
+    for (stride, axis) in spec.strides() {
         for key in &axis.columns {
-            let described = Described {
-                meaning: format!("scene key {}", key.name()),
-                unit: key_unit(&key.key).0.to_owned(),
-                name: key.name(),
-            };
             let values = &key.values;
-            found.push(fixed(described, What::Key { stride, values }));
+            found.push(fixed(described(key), What::Key { stride, values }));
         }
     }
     let numbers = spec.fields.quantities();
@@ -71,6 +62,15 @@ pub(crate) fn columns(spec: &Spec) -> Vec<Column<'_>> {
     found.push(fixed(MODEL.into(), What::Model));
     found.push(fixed(FAILURE.into(), What::Failure));
     found
+}
+
+/// What a key that varies is.
+pub(super) fn described(key: &Key) -> Described {
+    Described {
+        meaning: format!("scene key {}", key.name()),
+        unit: key_unit(&key.key).0.to_owned(),
+        name: key.name(),
+    }
 }
 
 /// Names of the columns of a part.
@@ -108,11 +108,11 @@ impl What<'_> {
                 }
             }
             Self::Number(k) => {
-                let numbers = block.column(k, some);
+                let numbers = some.map(|row| block.numbers[row * block.width + k]);
                 match spec.fields.precision {
                     Precision::Double => Cells::Double(numbers.collect()),
                     Precision::Single => {
-                        let name = &spec.fields.named(k).name;
+                        let name = &spec.fields.known[k].name;
                         let rounded = numbers.zip(rows).map(|(x, row)| single(x, row, name));
                         Cells::Single(rounded.collect::<Result<_, _>>()?)
                     }
@@ -141,17 +141,13 @@ fn single(number: f64, row: usize, name: &str) -> Result<f32, Fault> {
     Ok(rounded)
 }
 
-/// The rows of a selection, or all of a sweep.
-pub(super) fn rows_of(spec: &Spec, selection: Option<&Selection>) -> Range<usize> {
-    selection.map_or(0..spec.rows(), |selection| selection.rows.clone())
-}
-
-/// Shows blocks that have to be all rows of a range, in order; gives the number of failed ones.
+/// Shows blocks that have to be all rows that are asked for, in order; gives the number of failed ones.
 pub(super) fn each_of(
-    rows: &Range<usize>,
+    spec: &Spec,
     blocks: &(impl Blocks + ?Sized),
     visit: &mut dyn FnMut(&Block) -> Result<(), Fault>,
 ) -> Result<usize, Fault> {
+    let rows = spec.selected();
     let (mut next, mut failed) = (rows.start, 0);
     let missing = |row: usize| Fault::from(format!("row {row} is not there"));
     blocks.each(&mut |block| {
@@ -169,11 +165,6 @@ pub(super) fn each_of(
     } else {
         Err(missing(next))
     }
-}
-
-/// The name of a model by its index; none for a failed scene.
-pub(super) fn model_name(index: u8) -> Option<&'static str> {
-    Some(Model::ALL.get(usize::from(index))?.name())
 }
 
 /// The unit that a scene key carries in its name, and the ending that says so; `1` and nothing without one.

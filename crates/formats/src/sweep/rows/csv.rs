@@ -1,8 +1,9 @@
 //! The rows of a sweep as text.
 
 use super::block::{Block, Blocks};
-use super::columns::{Cells, Column, columns, model_name};
+use super::columns::{Cells, Column, columns};
 use crate::sweep::spec::Spec;
+use contact::{Choice, Model};
 use output::{Fault, Output, OutputError, Staged};
 use rayon::prelude::*;
 use std::fmt::Write as _;
@@ -43,18 +44,15 @@ pub fn print_csv(
         let rows = (0..block.len()).into_par_iter().step_by(AT_A_TIME);
         let parts = rows.map(|from| lines(spec, columns, block, from));
         let parts: Vec<String> = parts.collect::<Result<_, Fault>>()?;
-        let mut written = parts.iter().map(|part| file.write_all(part.as_bytes()));
-        written.find_map(Result::err).map_or(Ok(()), |error| {
+        let written = (parts.iter()).try_for_each(|part| file.write_all(part.as_bytes()));
+        written.map_err(|error| {
             let fault = Fault::from(error.to_string());
             unwritten = Some(error);
-            Err(fault)
+            fault
         })
     });
-    match (unwritten, read) {
-        (Some(error), _) => Err(error),
-        (None, Err(fault)) => Err(io::Error::other(fault.reason)),
-        (None, Ok(())) => Ok(()),
-    }
+    let unread = || read.map_err(|fault| io::Error::other(fault.reason));
+    unwritten.map_or_else(unread, Err)
 }
 
 /// Lines that are made together.
@@ -86,7 +84,10 @@ fn lines(spec: &Spec, columns: &[Column<'_>], block: &Block, from: usize) -> Res
                     let word = words.map_or("", |words| &words[places[i] as usize]);
                     write!(text, "{}", quoted(word))
                 }
-                Cells::Models(models) => text.write_str(model_name(models[i]).unwrap_or("")),
+                Cells::Models(models) => {
+                    let model = Model::ALL.get(usize::from(models[i]));
+                    text.write_str(model.map_or("", |model| model.name()))
+                }
                 Cells::Reasons(reasons) => write!(text, "{}", quoted(reasons[i].unwrap_or(""))),
             };
         }

@@ -12,14 +12,6 @@ use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom};
 use std::ops::Range;
 use std::path::Path;
-#[cfg(feature = "parquet")]
-use {
-    super::columns::{Column, rows_of},
-    crate::sweep::schema::{self, part},
-    crate::sweep::spec::Spec,
-    serde_json::json,
-    std::io::Write,
-};
 
 /// Version of the format: the first number changes when a reader of the old one would fail.
 pub const FORMAT_VERSION: &str = "1.2";
@@ -30,13 +22,9 @@ pub(crate) const MAGIC: &[u8; 4] = b"PAR1";
 const BEGIN: &[u8] = b"{\"file_type\":\"hertzlamb sweep";
 const SEAL: &[u8] = b",\"seal\":\"";
 /// Digits of a seal.
-const DIGITS: usize = 64;
+pub(super) const DIGITS: usize = 64;
 /// Bytes behind the footer: its length and the magic number.
-const TAIL: u64 = 8;
-
-/// Key of the text in the footer.
-#[cfg(feature = "parquet")]
-pub(super) const KEY: &str = "hertzlamb";
+pub(super) const TAIL: u64 = 8;
 
 /// The text, key by key.
 #[derive(Debug, Clone, Serialize, Deserialize)]
@@ -44,20 +32,20 @@ pub(crate) struct Footer {
     /// `hertzlamb sweep` or `hertzlamb sweep part`.
     pub(crate) file_type: String,
     /// Blank until the file is written.
-    seal: String,
+    pub(super) seal: String,
     pub(crate) format_version: String,
-    software_version: String,
+    pub(super) software_version: String,
     /// The sweep with its base scene, as TOML.
     pub(crate) sweep: String,
-    sweep_sha256: String,
-    shard: String,
-    sweep_rows: usize,
-    first_row: usize,
-    rows: usize,
-    failed: usize,
+    pub(super) sweep_sha256: String,
+    pub(super) shard: String,
+    pub(super) sweep_rows: usize,
+    pub(super) first_row: usize,
+    pub(super) rows: usize,
+    pub(super) failed: usize,
     /// Unit and meaning of each.
-    columns: Map<String, Value>,
-    bits: usize,
+    pub(super) columns: Map<String, Value>,
+    pub(super) bits: usize,
     /// SHA-256 of the bytes of each.
     pub(crate) row_groups: Vec<String>,
     /// Bytes before the footer.
@@ -109,7 +97,7 @@ impl Footer {
         let mut fields = Fields::all(stored_columns(&parse(&self.sweep).ok()?).ok()?);
         fields.retain(|name| self.columns.contains_key(name));
         let mut precisions = [Precision::Double, Precision::Single].into_iter();
-        fields.precision = precisions.find(|precision| self.bits == 8 * precision.bytes())?;
+        fields.precision = precisions.find(|precision| self.bits == *precision as usize)?;
         Some(Part {
             path: path.to_owned(),
             sha256: self.sweep_sha256.clone(),
@@ -123,57 +111,10 @@ impl Footer {
             sealed: true,
         })
     }
-
-    /// Of all rows of a sweep or of some, before their groups are known.
-    #[cfg(feature = "parquet")]
-    pub(super) fn of(
-        spec: &Spec,
-        selection: Option<&Selection>,
-        columns: &[Column<'_>],
-        failed: usize,
-    ) -> Self {
-        let described = columns.iter().map(|Column { described, .. }| {
-            let labels = json!({ "units": described.unit, "long_name": described.meaning });
-            (described.name.clone(), labels)
-        });
-        let rows = rows_of(spec, selection);
-        let shard = selection.and_then(|selection| selection.shard);
-        Self {
-            file_type: selection
-                .map_or(schema::FILE_TYPE, |_| part::FILE_TYPE)
-                .to_owned(),
-            seal: "0".repeat(DIGITS),
-            format_version: FORMAT_VERSION.to_owned(),
-            software_version: env!("CARGO_PKG_VERSION").to_owned(),
-            sweep: spec.resolved.clone(),
-            sweep_sha256: spec.sha256.clone(),
-            shard: shard.map_or_else(String::new, |shard| shard.to_string()),
-            sweep_rows: spec.rows(),
-            first_row: rows.start,
-            rows: rows.len(),
-            failed,
-            columns: described.collect(),
-            bits: 8 * spec.fields.precision.bytes(),
-            row_groups: Vec::new(),
-            data_bytes: 0,
-        }
-    }
-}
-
-/// Seals the footer of a file that is written.
-#[cfg(feature = "parquet")]
-pub(super) fn seal(path: &Path) -> io::Result<()> {
-    let (bytes, length) = footer_of(path)?;
-    let placed = bytes.and_then(|bytes| Some((seal_in(&bytes)?, bytes)));
-    let (digits, bytes) = placed.ok_or_else(|| io::Error::other("its footer has no seal"))?;
-    let place = length - TAIL - bytes.len() as u64 + digits.start as u64;
-    let mut file = File::options().write(true).open(path)?;
-    file.seek(SeekFrom::Start(place))?;
-    file.write_all(sum_without(&bytes, &digits).as_bytes())
 }
 
 /// The footer without its length and magic number, if there is one, and the length of the file.
-fn footer_of(path: &Path) -> io::Result<(Option<Vec<u8>>, u64)> {
+pub(super) fn footer_of(path: &Path) -> io::Result<(Option<Vec<u8>>, u64)> {
     let mut file = File::open(path)?;
     let length = file.metadata()?.len();
     let (mut head, mut tail) = ([0; 4], [0; TAIL as usize]);
@@ -195,7 +136,7 @@ fn footer_of(path: &Path) -> io::Result<(Option<Vec<u8>>, u64)> {
 }
 
 /// Where the digits of the seal are.
-fn seal_in(footer: &[u8]) -> Option<Range<usize>> {
+pub(super) fn seal_in(footer: &[u8]) -> Option<Range<usize>> {
     let begin = find(footer, BEGIN)?;
     let start = begin + find(&footer[begin..], SEAL)? + SEAL.len();
     footer
@@ -204,7 +145,7 @@ fn seal_in(footer: &[u8]) -> Option<Range<usize>> {
 }
 
 /// SHA-256 of a footer whose seal is blank.
-fn sum_without(footer: &[u8], digits: &Range<usize>) -> String {
+pub(super) fn sum_without(footer: &[u8], digits: &Range<usize>) -> String {
     let mut hash = Sha256::new();
     hash.update(&footer[..digits.start]);
     hash.update([b'0'; DIGITS]);

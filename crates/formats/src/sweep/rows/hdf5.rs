@@ -3,8 +3,8 @@
 //!
 //! The datasets are reserved through the library and filled a block at a time.
 
-use super::block::{Block, Blocks};
-use super::columns::{Cells, Column, What, columns, each_of, key_unit, rows_of};
+use super::block::{Blocks, NO_MODEL};
+use super::columns::{Cells, Column, What, columns, described, each_of};
 use crate::hdf::{
     attach_all, attach_scale, describe, new_file, numbers, reason, reserve, scalar, set_scale,
     some_at_a_time, text, texts,
@@ -15,10 +15,10 @@ use crate::sweep::axes::{Axis, Column as Key, Values};
 use crate::sweep::fields::Precision;
 use crate::sweep::journal::results as kept_results;
 use crate::sweep::schema::{self, part};
-use crate::sweep::shard::Selection;
 use crate::sweep::spec::Spec;
 use contact::{Choice, Model};
-use hdf5::{Dataset, Group, H5Type, Hyperslab, SliceOrIndex};
+use hdf5::types::OwnedDynValue;
+use hdf5::{Dataset, Group, Hyperslab, SliceOrIndex};
 use output::{Fault, Output, OutputError, Staged};
 use std::collections::HashMap;
 use std::fs::File;
@@ -31,8 +31,8 @@ const MOST_REASONS: usize = 100_000;
 /// What stands for all later ones.
 const OTHER_REASON: &str = "a reason unlike the first 100000: compute the row by itself";
 
-/// Writes rows, whose blocks are all there in order, into an output that was claimed before the work: a selection as a part, or
-/// all of them.
+/// Writes rows, whose blocks are all there in order, into an output that was claimed before the work: those that are
+/// selected as a part, or all of them.
 ///
 /// With `sources` the results of the whole lie in files that have some of the rows each, with their paths seen from the folder
 /// of the output: only which failure a scene has is copied, because each of them counts its own, and nothing but the failures
@@ -42,23 +42,14 @@ const OTHER_REASON: &str = "a reason unlike the first 100000: compute the row by
 pub(crate) fn stage_hdf5<'a>(
     output: &'a Output,
     spec: &Spec,
-    selection: Option<&Selection>,
     sources: Option<&[(String, Range<usize>)]>,
     blocks: &(impl Blocks + ?Sized),
 ) -> Result<Staged<'a>, OutputError> {
     output.stage(|path| {
         let told = |error: hdf5::Error| Fault::from(reason(&error));
         let file = new_file().create(path).map_err(told)?;
-        let mut table = Table {
-            spec,
-            reserved: Vec::new(),
-        };
-        let begun = match selection {
-            Some(selection) => table.begin_part(&file, selection),
-            None => table.begin_whole(&file, sources),
-        };
-        begun.map_err(told)?;
-        let (failed, reasons) = table.fill(path, &rows_of(spec, selection), blocks)?;
+        let reserved = begin(&file, spec, sources).map_err(told)?;
+        let (failed, reasons) = fill(path, spec, &reserved, blocks)?;
         finish(file, failed, &reasons).map_err(told)?;
         ledger::seal(path).map_err(Fault::from)
     })
@@ -76,207 +67,174 @@ fn finish(file: hdf5::File, failed: usize, reasons: &[String]) -> Result<(), hdf
 /// Bytes that a row takes in a part, and in the journal while it is computed.
 #[must_use]
 pub fn row_bytes(spec: &Spec) -> (usize, usize) {
-    let words = |key: &Key| if key.values.texts().is_some() { 4 } else { 8 };
-    let keys: usize = spec.columns().map(words).sum();
     let fields = &spec.fields;
-    let results = fields.precision.bytes() * fields.places.len() + 1;
+    let cells = columns(spec).into_iter();
+    let cells = cells.map(|column| missing(column.what, fields.precision));
     let kept = kept_results(fields).count_ones() as usize + fields.width() - QUANTITIES.len();
-    (8 + keys + results + 4, 8 * kept + 1)
+    let bytes = cells.map(|cell| cell.type_descriptor().size()).sum();
+    (bytes, 8 * kept + 1)
 }
 
-/// A file that is being written: the columns that are reserved in it, with the places of their numbers.
-struct Table<'a> {
+/// What stands in a column for what is not there; it has the type of the column.
+fn missing(what: What<'_>, precision: Precision) -> OwnedDynValue {
+    match (what, precision) {
+        (What::Row, _) => 0_i64.into(),
+        (What::Key { .. }, _) if what.words().is_some() => 0_u32.into(),
+        (What::Key { .. }, _) | (What::Number(_), Precision::Double) => f64::NAN.into(),
+        (What::Number(_), Precision::Single) => f32::NAN.into(),
+        (What::Model, _) => NO_MODEL.into(),
+        (What::Failure, _) => (-1_i32).into(),
+    }
+}
+
+/// A column that is reserved in a file, with the place of its numbers there.
+type Reserved<'a> = (What<'a>, Option<u64>);
+
+/// Everything but the rows of a whole sweep, which has its keys along the dimensions of the results, or of a part, which has
+/// them as columns.
+fn begin<'a>(
+    file: &hdf5::File,
     spec: &'a Spec,
-    reserved: Vec<(What<'a>, Option<u64>)>,
+    sources: Option<&[(String, Range<usize>)]>,
+) -> Result<Vec<Reserved<'a>>, hdf5::Error> {
+    write_root(file, spec)?;
+    let group = file.create_group(schema::RESULTS)?;
+    let words = spec.selection.as_ref();
+    let words = words.map(|_| file.create_group(part::WORDS)).transpose()?;
+    let (mut scales, mut beside) = match words {
+        Some(_) => (Vec::new(), Vec::new()),
+        None => write_scales(&group, &spec.axes)?,
+    };
+    let shape = spec.shape();
+    let mut reserved = Vec::new();
+    for Column {
+        mut described,
+        what,
+    } in columns(spec)
+    {
+        let is_key = matches!(what, What::Key { .. });
+        if words.is_none() && (is_key || matches!(what, What::Row)) {
+            continue;
+        }
+        let name = described.name.clone();
+        if let (Some(words), Some(values)) = (&words, what.words()) {
+            texts(words, &(&name, "1", "words of a scene key"), values)?;
+            let of_key = described.meaning;
+            described.meaning = format!("index of the {of_key} in /{}/{name}", part::WORDS);
+        }
+        let (labels, missing) = (described.labels(), missing(what, spec.fields.precision));
+        let dataset = match (sources, what) {
+            (Some(from), What::Number(_) | What::Model) => {
+                refer(&group, &labels, &shape, from, missing)?
+            }
+            _ => {
+                let (dataset, place) = reserve(&group, &labels, &shape, missing.type_descriptor())?;
+                reserved.push((what, place));
+                dataset
+            }
+        };
+        if let What::Row = what {
+            set_scale(&dataset, &name)?;
+            scales.push(dataset);
+            continue;
+        }
+        if let What::Model = what {
+            // by their indices, divided by blanks
+            let names: Vec<&str> = Model::ALL.iter().map(|m| m.name()).collect();
+            text(&dataset, schema::NAMES, &names.join(" "))?;
+        }
+        attach_all(&dataset, &scales, 0)?;
+        if is_key {
+            beside.push(name);
+        } else if !beside.is_empty() {
+            text(&dataset, COORDINATES, &beside.join(" "))?;
+        }
+    }
+    if let Some(sources) = sources {
+        let places: Vec<&str> = sources.iter().map(|(path, _)| path.as_str()).collect();
+        text(file, part::PARTS, &places.join("\n"))?;
+    }
+    Ok(reserved)
 }
 
-impl<'a> Table<'a> {
-    /// Everything of a whole sweep but the rows.
-    fn begin_whole(
-        &mut self,
-        file: &hdf5::File,
-        sources: Option<&[(String, Range<usize>)]>,
-    ) -> Result<(), hdf5::Error> {
-        let spec = self.spec;
-        write_texts(file, spec, schema::FILE_TYPE, schema::FORMAT_VERSION)?;
-        scalar(file, schema::ROWS, spec.rows() as u64)?;
-        write_axes(file, &spec.axes)?;
-        let shape: Vec<usize> = spec.axes.iter().map(|axis| axis.len).collect();
-        let group = file.create_group(schema::RESULTS)?;
-        let (scales, beside) = write_scales(&group, &spec.axes)?;
-        let scales: Vec<&Dataset> = scales.iter().collect();
-        for column in columns(spec) {
-            let labels = column.described.labels();
-            let dataset = match (column.what, sources, spec.fields.precision) {
-                (What::Row | What::Key { .. }, _, _) => continue,
-                (What::Failure, _, _) | (_, None, _) => {
-                    self.reserve(column.what, &group, &labels, &shape)?
-                }
-                (What::Model, Some(from), _) => refer(&group, &labels, &shape, from, u8::MAX)?,
-                (What::Number(_), Some(from), Precision::Double) => {
-                    refer(&group, &labels, &shape, from, f64::NAN)?
-                }
-                (What::Number(_), Some(from), Precision::Single) => {
-                    refer(&group, &labels, &shape, from, f32::NAN)?
-                }
-            };
-            name_models(&dataset, column.what)?;
-            attach_all(&dataset, &scales, 0)?;
-            if !beside.is_empty() {
-                text(&dataset, COORDINATES, &beside.join(" "))?;
+/// Writes all rows into the file at `path`, which the library has open: it writes to other places of it. Gives the
+/// number of failed rows, and the distinct reasons in the order in which they come.
+fn fill(
+    path: &Path,
+    spec: &Spec,
+    reserved: &[Reserved<'_>],
+    blocks: &(impl Blocks + ?Sized),
+) -> Result<(usize, Vec<String>), Fault> {
+    let mut file = File::options().write(true).open(path)?;
+    let (mut reasons, mut known) = (Vec::new(), HashMap::new());
+    let failed = each_of(spec, blocks, &mut |block| {
+        for (_, reason) in &block.failures {
+            if known.contains_key(reason) || reasons.len() > MOST_REASONS {
+                continue;
+            }
+            if reasons.len() == MOST_REASONS {
+                reasons.push(OTHER_REASON.to_owned());
+            } else {
+                known.insert(reason.clone(), reasons.len() as i32);
+                reasons.push(reason.clone());
             }
         }
-        sources.map_or(Ok(()), |sources| {
-            let places: Vec<&str> = sources.iter().map(|(path, _)| path.as_str()).collect();
-            text(file, part::PARTS, &places.join("\n"))
-        })
-    }
-
-    /// Everything of a part but the rows.
-    fn begin_part(&mut self, file: &hdf5::File, selection: &Selection) -> Result<(), hdf5::Error> {
-        let spec = self.spec;
-        write_texts(file, spec, part::FILE_TYPE, part::FORMAT_VERSION)?;
-        let shard = selection.shard.map(|shard| shard.to_string());
-        text(file, part::SHARD, &shard.unwrap_or_default())?;
-        scalar(file, part::SWEEP_ROWS, spec.rows() as u64)?;
-        scalar(file, part::FIRST_ROW, selection.rows.start as u64)?;
-        scalar(file, schema::ROWS, selection.rows.len() as u64)?;
-        let shape = [selection.rows.len()];
-        let group = file.create_group(schema::RESULTS)?;
-        let words = file.create_group(part::WORDS)?;
-        let (mut row, mut keys) = (None, Vec::new());
-        for Column { described, what } in columns(spec) {
-            let (name, unit, mut meaning) = (described.name, described.unit, described.meaning);
-            if let Some(values) = what.words() {
-                texts(&words, &(&name, "1", "words of a scene key"), values)?;
-                meaning = format!("index of the {meaning} in /{}/{name}", part::WORDS);
-            }
-            let dataset = self.reserve(what, &group, &(&name, &unit, &meaning), &shape)?;
-            let Some(row) = &row else {
-                set_scale(&dataset, part::ROW.0)?;
-                row = Some(dataset);
-                continue;
-            };
-            name_models(&dataset, what)?;
-            attach_scale(&dataset, row, 0)?;
-            if let What::Key { .. } = what {
-                keys.push(name);
-            } else {
-                text(&dataset, COORDINATES, &keys.join(" "))?;
-            }
+        for (what, place) in reserved {
+            let Some(place) = place else { continue };
+            let (bytes, width) = bytes(what.cells(spec, block, 0..block.len())?, &known);
+            let before = (block.start - spec.selected().start) * width;
+            file.seek(SeekFrom::Start(place + before as u64))?;
+            file.write_all(&bytes)?;
         }
         Ok(())
-    }
+    })?;
+    Ok((failed, reasons))
+}
 
-    /// Makes the dataset of a column.
-    fn reserve(
-        &mut self,
-        what: What<'a>,
-        group: &Group,
-        labels: &Labels<'_>,
-        shape: &[usize],
-    ) -> Result<Dataset, hdf5::Error> {
-        let (dataset, place) = match (what, self.spec.fields.precision) {
-            (What::Row, _) => reserve::<i64>(group, labels, shape)?,
-            (What::Key { .. }, _) if what.words().is_some() => {
-                reserve::<u32>(group, labels, shape)?
-            }
-            (What::Key { .. }, _) | (What::Number(_), Precision::Double) => {
-                reserve::<f64>(group, labels, shape)?
-            }
-            (What::Number(_), Precision::Single) => reserve::<f32>(group, labels, shape)?,
-            (What::Model, _) => reserve::<u8>(group, labels, shape)?,
-            (What::Failure, _) => reserve::<i32>(group, labels, shape)?,
-        };
-        self.reserved.push((what, place));
-        Ok(dataset)
+/// The bytes of some cells, and of one of them; reasons are told by their numbers.
+fn bytes(cells: Cells<'_>, reasons: &HashMap<String, i32>) -> (Vec<u8>, usize) {
+    fn all<T, const N: usize>(
+        values: impl IntoIterator<Item = T>,
+        bytes: fn(T) -> [u8; N],
+    ) -> (Vec<u8>, usize) {
+        (values.into_iter().flat_map(bytes).collect(), N)
     }
-
-    /// Writes all rows into the file at `path`, which the library has open: it writes to other places of it. Gives the
-    /// number of failed rows, and the distinct reasons in the order in which they come.
-    fn fill(
-        &self,
-        path: &Path,
-        rows: &Range<usize>,
-        blocks: &(impl Blocks + ?Sized),
-    ) -> Result<(usize, Vec<String>), Fault> {
-        let mut file = File::options().write(true).open(path)?;
-        let (mut reasons, mut known) = (Vec::new(), HashMap::new());
-        let failed = each_of(rows, blocks, &mut |block| {
-            for (_, reason) in &block.failures {
-                if known.contains_key(reason) || reasons.len() > MOST_REASONS {
-                    continue;
-                }
-                if reasons.len() == MOST_REASONS {
-                    reasons.push(OTHER_REASON.to_owned());
-                } else {
-                    known.insert(reason.clone(), reasons.len() as i32);
-                    reasons.push(reason.clone());
-                }
-            }
-            for (what, place) in &self.reserved {
-                let Some(place) = place else { continue };
-                let (bytes, width) = self.bytes(*what, block, &known)?;
-                let before = (block.start - rows.start) * width;
-                file.seek(SeekFrom::Start(place + before as u64))?;
-                file.write_all(&bytes)?;
-            }
-            Ok(())
-        })?;
-        Ok((failed, reasons))
-    }
-
-    /// The bytes of a column's rows, and of one of them.
-    fn bytes(
-        &self,
-        what: What<'_>,
-        block: &Block,
-        reasons: &HashMap<String, i32>,
-    ) -> Result<(Vec<u8>, usize), Fault> {
-        fn all<T, const N: usize>(
-            values: impl IntoIterator<Item = T>,
-            bytes: fn(T) -> [u8; N],
-        ) -> (Vec<u8>, usize) {
-            (values.into_iter().flat_map(bytes).collect(), N)
+    match cells {
+        Cells::Whole(values) => all(values, i64::to_ne_bytes),
+        Cells::Double(values) => all(values, f64::to_ne_bytes),
+        Cells::Single(values) => all(values, f32::to_ne_bytes),
+        Cells::Words(values) => all(values, u32::to_ne_bytes),
+        Cells::Models(models) => (models.to_vec(), 1),
+        Cells::Reasons(values) => {
+            let other = MOST_REASONS as i32;
+            let number = |reason| reasons.get(reason).copied().unwrap_or(other);
+            let numbers = values.into_iter().map(|reason| reason.map_or(-1, number));
+            all(numbers, i32::to_ne_bytes)
         }
-        let cells = what.cells(self.spec, block, 0..block.len())?;
-        Ok(match cells {
-            Cells::Whole(values) => all(values, i64::to_ne_bytes),
-            Cells::Double(values) => all(values, f64::to_ne_bytes),
-            Cells::Single(values) => all(values, f32::to_ne_bytes),
-            Cells::Words(values) => all(values, u32::to_ne_bytes),
-            Cells::Models(models) => (models.to_vec(), 1),
-            Cells::Reasons(values) => {
-                let of = |reason: &str| reasons.get(reason).copied();
-                let index = |reason: Option<&str>| {
-                    reason.map_or(-1, |reason| of(reason).unwrap_or(MOST_REASONS as i32))
-                };
-                all(values.into_iter().map(index), i32::to_ne_bytes)
-            }
-        })
     }
 }
 
-/// The texts of the root.
-fn write_texts(
-    file: &hdf5::File,
-    spec: &Spec,
-    file_type: &str,
-    version: &str,
-) -> Result<(), hdf5::Error> {
+/// What the root of a sweep or of a part says of it and, of a whole sweep, its axes.
+fn write_root(file: &hdf5::File, spec: &Spec) -> Result<(), hdf5::Error> {
+    let [file_type, version] = match spec.selection {
+        Some(_) => [part::FILE_TYPE, part::FORMAT_VERSION],
+        None => [schema::FILE_TYPE, schema::FORMAT_VERSION],
+    };
     let software = env!("CARGO_PKG_VERSION");
     let values = [file_type, version, software, &spec.resolved, &spec.sha256];
-    let mut named = schema::TEXTS.into_iter().zip(values);
-    named.try_for_each(|(name, value)| text(file, name, value))
-}
-
-/// The models by their indices, divided by blanks, at the column of models.
-fn name_models(dataset: &Dataset, what: What<'_>) -> Result<(), hdf5::Error> {
-    let What::Model = what else {
-        return Ok(());
+    for (name, value) in schema::TEXTS.into_iter().zip(values) {
+        text(file, name, value)?;
+    }
+    let rows = spec.selected();
+    let Some(selection) = &spec.selection else {
+        scalar(file, schema::ROWS, rows.len() as u64)?;
+        return write_axes(file, &spec.axes);
     };
-    let names: Vec<&str> = Model::ALL.iter().map(|m| m.name()).collect();
-    text(dataset, schema::NAMES, &names.join(" "))
+    let shard = selection.shard.map(|shard| shard.to_string());
+    text(file, part::SHARD, &shard.unwrap_or_default())?;
+    scalar(file, part::SWEEP_ROWS, spec.rows() as u64)?;
+    scalar(file, part::FIRST_ROW, rows.start as u64)?;
+    scalar(file, schema::ROWS, rows.len() as u64)
 }
 
 /// The keys that vary, each with the axis that it belongs to.
@@ -299,18 +257,16 @@ fn write_axes(file: &hdf5::File, axes: &[Axis]) -> Result<(), hdf5::Error> {
 fn write_scales(group: &Group, axes: &[Axis]) -> Result<(Vec<Dataset>, Vec<String>), hdf5::Error> {
     let (mut scales, mut beside) = (Vec::new(), Vec::new());
     for axis in axes {
-        if let [only] = axis.columns.as_slice()
-            && only.name() == axis.name
-        {
-            let dataset = write_key(group, only)?;
-            set_scale(&dataset, &axis.name)?;
-            scales.push(dataset);
-            continue;
-        }
-        let labels = (axis.name.as_str(), "1", schema::NUMBERED);
-        let along = some_at_a_time(group, &labels, axis.len, |i| i as i64)?;
+        let own = axis.columns.iter().find(|key| key.name() == axis.name);
+        let along = match own {
+            Some(key) => write_key(group, key)?,
+            None => {
+                let labels = (axis.name.as_str(), "1", schema::NUMBERED);
+                some_at_a_time(group, &labels, axis.len, |i| i as i64)?
+            }
+        };
         set_scale(&along, &axis.name)?;
-        for key in &axis.columns {
+        for key in axis.columns.iter().filter(|_| own.is_none()) {
             attach_scale(&write_key(group, key)?, &along, 0)?;
             beside.push(key.name());
         }
@@ -320,9 +276,8 @@ fn write_scales(group: &Group, axes: &[Axis]) -> Result<(Vec<Dataset>, Vec<Strin
 }
 
 fn write_key(group: &Group, key: &Key) -> Result<Dataset, hdf5::Error> {
-    let name = key.name();
-    let meaning = format!("scene key {name}");
-    let labels = (name.as_str(), key_unit(&key.key).0, meaning.as_str());
+    let described = described(key);
+    let labels = described.labels();
     match &key.values {
         Values::Numbers(values) => numbers(group, &labels, &[values.len()], values),
         Values::Texts(values) => texts(group, &labels, values),
@@ -331,15 +286,16 @@ fn write_key(group: &Group, key: &Key) -> Result<Dataset, hdf5::Error> {
 }
 
 /// A dataset of the numbers in the parts.
-fn refer<T: H5Type + Copy + Into<hdf5::types::OwnedDynValue>>(
+fn refer(
     group: &Group,
     labels: &Labels<'_>,
     shape: &[usize],
     sources: &[(String, Range<usize>)],
-    missing: T,
+    missing: OwnedDynValue,
 ) -> Result<Dataset, hdf5::Error> {
     let mut builder = group
-        .new_dataset::<T>()
+        .new_dataset_builder()
+        .empty_as(missing.type_descriptor())
         .shape(shape)
         .fill_value(missing)
         .obj_track_times(false);

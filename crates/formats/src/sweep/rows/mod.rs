@@ -22,7 +22,6 @@ pub use csv::{print_csv, stage_csv};
 pub use footer::FORMAT_VERSION as PARQUET_VERSION;
 pub(crate) use footer::{Footer, MAGIC};
 
-use super::shard::Selection;
 use super::spec::Spec;
 use output::{Output, OutputError, PARQUET, ROWS, Staged};
 use std::path::Path;
@@ -39,7 +38,7 @@ pub fn check_rows(path: &Path) -> Result<(), OutputError> {
     Ok(())
 }
 
-/// Writes all rows of a sweep, or some of them as a part, into an output that was claimed before the work.
+/// Writes all rows of a sweep, or those that it selects as a part, into an output that was claimed before the work.
 ///
 /// No more than a few blocks are in memory, and the bytes do not depend on how rows are divided into blocks.
 ///
@@ -48,13 +47,12 @@ pub fn check_rows(path: &Path) -> Result<(), OutputError> {
 pub fn stage_rows<'a>(
     output: &'a Output,
     spec: &Spec,
-    selection: Option<&Selection>,
     blocks: &(impl Blocks + ?Sized),
 ) -> Result<Staged<'a>, OutputError> {
-    check_rows(output.path())?;
+    check_rows(&output.path)?;
     #[cfg(feature = "parquet")]
-    if PARQUET.is_of(output.path()) {
-        return stage_parquet(output, spec, selection, blocks);
+    if PARQUET.is_of(&output.path) {
+        return stage_parquet(output, spec, blocks);
     }
-    stage_hdf5(output, spec, selection, None, blocks)
+    stage_hdf5(output, spec, None, blocks)
 }

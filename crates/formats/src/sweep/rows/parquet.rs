@@ -1,13 +1,14 @@
 //! Rows as Parquet, as `data-schema/sweep.md` writes it down: groups of rows, each column of one encoded by itself.
 
 use super::block::{Block, Blocks};
-use super::columns::{Cells, Column, What, columns, each_of, model_name, rows_of};
-use super::footer::{Footer, KEY, seal};
+use super::columns::{Cells, Column, What, columns, each_of};
+use super::footer::{DIGITS, FORMAT_VERSION, Footer, TAIL, footer_of, seal_in, sum_without};
 use crate::sweep::axes::Values;
 use crate::sweep::fields::Precision;
-use crate::sweep::shard::Selection;
+use crate::sweep::schema::{FILE_TYPE, part};
 use crate::sweep::spec::Spec;
 use bytes::Bytes;
+use contact::{Choice, Model};
 use output::{Fault, Output, OutputError, Staged};
 use parquet::basic::{Compression, Encoding, LogicalType, Repetition, Type as Physical, ZstdLevel};
 use parquet::column::writer::{
@@ -20,9 +21,10 @@ use parquet::file::properties::{EnabledStatistics, WriterProperties, WriterPrope
 use parquet::file::writer::{SerializedFileWriter, SerializedPageWriter, TrackedWrite};
 use parquet::schema::types::{ColumnDescPtr, ColumnPath, Type, TypePtr};
 use rayon::prelude::*;
+use serde_json::json;
 use sha2::{Digest, Sha256};
 use std::fs::File;
-use std::io::BufWriter;
+use std::io::{self, BufWriter, Seek, SeekFrom, Write};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -41,107 +43,120 @@ const MOST_INDEXED: usize = 1 << 16;
 pub(super) fn stage_parquet<'a>(
     output: &'a Output,
     spec: &Spec,
-    selection: Option<&Selection>,
     blocks: &(impl Blocks + ?Sized),
 ) -> Result<Staged<'a>, OutputError> {
     output.stage(|path| {
         let columns = columns(spec);
-        let mut table = Table::begin(path, spec, &columns)?;
-        let failed = each_of(&rows_of(spec, selection), blocks, &mut |block| {
-            table.take(block)
+        let file = BufWriter::with_capacity(1 << 20, File::create(path)?);
+        let schema = schema(spec, &columns).map_err(fault)?;
+        let properties = Arc::new(properties(&columns).map_err(fault)?);
+        let mut writer = SerializedFileWriter::new(file, schema, properties).map_err(fault)?;
+        let words: Vec<_> = columns.iter().map(words_of).collect();
+        let (mut row_groups, mut group) = (Vec::new(), Block::default());
+        let mut write = |group: &mut Block| {
+            row_groups.push(write_group(&mut writer, spec, &columns, &words, group)?);
+            *group = Block::default();
+            Ok::<_, Fault>(())
+        };
+        let failed = each_of(spec, blocks, &mut |block| {
+            let mut done = 0;
+            while done < block.len() {
+                let more = (block.len() - done).min(GROUP - group.len());
+                group.extend(block, done..done + more);
+                done += more;
+                if group.len() == GROUP {
+                    write(&mut group)?;
+                }
+            }
+            Ok(())
         })?;
-        table.finish(Footer::of(spec, selection, &columns, failed))?;
+        if !group.is_empty() {
+            write(&mut group)?;
+        }
+        let footer = Footer {
+            row_groups,
+            data_bytes: writer.bytes_written() as u64,
+            ..footer(spec, &columns, failed)
+        };
+        let text = serde_json::to_string(&footer).map_err(|error| error.to_string())?;
+        writer.append_key_value_metadata(KeyValue::new("hertzlamb".to_owned(), text));
+        writer.close().map_err(fault)?;
         seal(path).map_err(Fault::from)
     })
 }
 
-/// A file that is being written.
-struct Table<'a> {
-    spec: &'a Spec,
-    columns: &'a [Column<'a>],
-    /// The words that a column has by their numbers.
-    words: Vec<Vec<ByteArray>>,
-    writer: SerializedFileWriter<BufWriter<File>>,
-    /// SHA-256 of each group.
-    groups: Vec<String>,
-    /// The rows of the group that is being filled.
-    group: Block,
+/// The words that a column has by their numbers.
+fn words_of(column: &Column<'_>) -> Vec<ByteArray> {
+    if let What::Model = column.what {
+        return Model::ALL.iter().map(|model| model.name().into()).collect();
+    }
+    let words = column.what.words().into_iter().flatten();
+    words.map(|word| word.as_str().into()).collect()
 }
 
-impl<'a> Table<'a> {
-    fn begin(path: &Path, spec: &'a Spec, columns: &'a [Column<'a>]) -> Result<Self, Fault> {
-        let file = BufWriter::with_capacity(1 << 20, File::create(path)?);
-        let schema = schema(spec, columns).map_err(fault)?;
-        let properties = Arc::new(properties(columns).map_err(fault)?);
-        let words = columns.iter().map(|column| match column.what {
-            What::Model => (0..u8::MAX)
-                .map_while(model_name)
-                .map(ByteArray::from)
-                .collect(),
-            what => {
-                let words = what.words().into_iter().flatten();
-                words.map(|word| word.as_str().into()).collect()
-            }
-        });
-        Ok(Self {
-            spec,
-            columns,
-            words: words.collect(),
-            writer: SerializedFileWriter::new(file, schema, properties).map_err(fault)?,
-            groups: Vec::new(),
-            group: Block::default(),
+/// Writes a group of rows; gives the SHA-256 of its bytes.
+fn write_group(
+    writer: &mut SerializedFileWriter<BufWriter<File>>,
+    spec: &Spec,
+    columns: &[Column<'_>],
+    words: &[Vec<ByteArray>],
+    rows: &Block,
+) -> Result<String, Fault> {
+    let (described, properties) = (writer.schema_descr().columns(), writer.properties());
+    let columns = columns.par_iter().zip(words).zip(described);
+    let encoded: Vec<_> = columns
+        .map(|((column, words), described)| {
+            let cells = column.what.cells(spec, rows, 0..rows.len())?;
+            encode(cells, words, described, properties).map_err(fault)
         })
+        .collect();
+    let mut group = writer.next_row_group().map_err(fault)?;
+    let mut hash = Sha256::new();
+    for column in encoded {
+        let (bytes, closed) = column?;
+        hash.update(&bytes);
+        group.append_column(&bytes, closed).map_err(fault)?;
     }
+    group.close().map_err(fault)?;
+    Ok(format!("{:x}", hash.finalize()))
+}
 
-    /// Adds the rows of a block.
-    fn take(&mut self, block: &Block) -> Result<(), Fault> {
-        let mut done = 0;
-        while done < block.len() {
-            let more = (block.len() - done).min(GROUP - self.group.len());
-            self.group.extend(block, done..done + more);
-            done += more;
-            if self.group.len() == GROUP {
-                self.write_group()?;
-            }
-        }
-        Ok(())
+/// What the file says of itself, but for its groups.
+fn footer(spec: &Spec, columns: &[Column<'_>], failed: usize) -> Footer {
+    let described = columns.iter().map(|Column { described, .. }| {
+        let labels = json!({ "units": described.unit, "long_name": described.meaning });
+        (described.name.clone(), labels)
+    });
+    let (rows, selection) = (spec.selected(), spec.selection.as_ref());
+    let shard = selection.and_then(|selection| selection.shard);
+    Footer {
+        file_type: selection.map_or(FILE_TYPE, |_| part::FILE_TYPE).to_owned(),
+        seal: "0".repeat(DIGITS),
+        format_version: FORMAT_VERSION.to_owned(),
+        software_version: env!("CARGO_PKG_VERSION").to_owned(),
+        sweep: spec.resolved.clone(),
+        sweep_sha256: spec.sha256.clone(),
+        shard: shard.map_or_else(String::new, |shard| shard.to_string()),
+        sweep_rows: spec.rows(),
+        first_row: rows.start,
+        rows: rows.len(),
+        failed,
+        columns: described.collect(),
+        bits: spec.fields.precision as usize,
+        row_groups: Vec::new(),
+        data_bytes: 0,
     }
+}
 
-    fn write_group(&mut self) -> Result<(), Fault> {
-        let described = self.writer.schema_descr().columns();
-        let properties = self.writer.properties();
-        let columns = self.columns.par_iter().zip(&self.words).zip(described);
-        let encoded: Vec<_> = columns
-            .map(|((column, words), described)| {
-                let rows = 0..self.group.len();
-                let cells = column.what.cells(self.spec, &self.group, rows)?;
-                encode(cells, words, described, properties).map_err(fault)
-            })
-            .collect();
-        let mut group = self.writer.next_row_group().map_err(fault)?;
-        let mut hash = Sha256::new();
-        for column in encoded {
-            let (bytes, closed) = column?;
-            hash.update(&bytes);
-            group.append_column(&bytes, closed).map_err(fault)?;
-        }
-        group.close().map_err(fault)?;
-        self.groups.push(format!("{:x}", hash.finalize()));
-        self.group = Block::default();
-        Ok(())
-    }
-
-    fn finish(mut self, mut footer: Footer) -> Result<(), Fault> {
-        if !self.group.is_empty() {
-            self.write_group()?;
-        }
-        footer.data_bytes = self.writer.bytes_written() as u64;
-        footer.row_groups = self.groups;
-        let text = serde_json::to_string(&footer).map_err(|error| error.to_string())?;
-        let entry = KeyValue::new(KEY.to_owned(), text);
-        self.writer.append_key_value_metadata(entry);
-        self.writer.close().map(drop).map_err(fault)
-    }
+/// Seals the footer of a file that is written.
+fn seal(path: &Path) -> io::Result<()> {
+    let (bytes, length) = footer_of(path)?;
+    let placed = bytes.and_then(|bytes| Some((seal_in(&bytes)?, bytes)));
+    let (digits, bytes) = placed.ok_or_else(|| io::Error::other("its footer has no seal"))?;
+    let place = length - TAIL - bytes.len() as u64 + digits.start as u64;
+    let mut file = File::options().write(true).open(path)?;
+    file.seek(SeekFrom::Start(place))?;
+    file.write_all(sum_without(&bytes, &digits).as_bytes())
 }
 
 /// The bytes of a column in a group; NaN is no value.
@@ -204,15 +219,16 @@ fn write<T: DataType>(
 /// Names and types.
 fn schema(spec: &Spec, columns: &[Column<'_>]) -> Result<TypePtr, ParquetError> {
     let fields = columns.iter().map(|column| {
-        let (physical, repetition) = match (column.what, spec.fields.precision) {
-            (What::Row, _) => (Physical::INT64, Repetition::REQUIRED),
-            (What::Key { .. }, _) if column.what.words().is_some() => {
-                (Physical::BYTE_ARRAY, Repetition::REQUIRED)
-            }
-            (What::Key { .. }, _) => (Physical::DOUBLE, Repetition::REQUIRED),
-            (What::Number(_), Precision::Double) => (Physical::DOUBLE, Repetition::OPTIONAL),
-            (What::Number(_), Precision::Single) => (Physical::FLOAT, Repetition::OPTIONAL),
-            (What::Model | What::Failure, _) => (Physical::BYTE_ARRAY, Repetition::OPTIONAL),
+        let physical = match (column.what, spec.fields.precision) {
+            (What::Row, _) => Physical::INT64,
+            (What::Key { .. }, _) if column.what.words().is_none() => Physical::DOUBLE,
+            (What::Key { .. } | What::Model | What::Failure, _) => Physical::BYTE_ARRAY,
+            (What::Number(_), Precision::Double) => Physical::DOUBLE,
+            (What::Number(_), Precision::Single) => Physical::FLOAT,
+        };
+        let repetition = match column.what {
+            What::Row | What::Key { .. } => Repetition::REQUIRED,
+            What::Number(_) | What::Model | What::Failure => Repetition::OPTIONAL,
         };
         let text = (physical == Physical::BYTE_ARRAY).then_some(LogicalType::String);
         Type::primitive_type_builder(&column.described.name, physical)
