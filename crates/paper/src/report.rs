@@ -2,14 +2,11 @@
 
 use crate::case::Runs;
 use crate::figures::{self, Claim, Redrawn};
+use crate::files::{csv_file, drawn};
 use crate::numbers::{Numbers, Row};
 use fault::AnyError;
-use figure::{Figure, Layer, to_png, to_svg};
-use output::{Folder, NewFile, OutputError};
-use std::path::Path;
-
-/// Pixels of a PNG for each of the SVG's.
-const SCALE: f32 = 1.5;
+use figure::{Figure, Layer};
+use output::{Folder, NewFile};
 
 /// Columns of numbers.csv.
 const NUMBERS: &str = "section place what unit paper here relative_difference why";
@@ -57,10 +54,7 @@ impl Redone {
         for redrawn in &self.figures {
             let name = redrawn.name;
             let failed = |source| format!("{name} cannot be drawn: {source}");
-            let svg = to_svg(&redrawn.figure).map_err(failed)?;
-            let png = to_png(&redrawn.figure, SCALE).map_err(failed)?;
-            files.push(NewFile::of(format!("{name}.svg"), svg));
-            files.push(NewFile::of(format!("{name}.png"), png));
+            files.extend(drawn(name, &redrawn.figure).map_err(failed)?);
             let (csv, points) = (format!("{name}.csv"), points(&redrawn.figure));
             files.push(csv_file(&csv, "abscissa ordinate curve x y", points)?);
         }
@@ -114,26 +108,6 @@ impl Redone {
         }
         lines.join("\n") + "\n"
     }
-}
-
-/// A table as CSV.
-fn csv_file<const N: usize>(
-    name: &str,
-    columns: &str,
-    rows: impl IntoIterator<Item = [String; N]>,
-) -> Result<NewFile<'static>, OutputError> {
-    let write = || {
-        let mut writer = csv::Writer::from_writer(Vec::new());
-        writer.write_record(columns.split(' '))?;
-        for row in rows {
-            writer.write_record(row)?;
-        }
-        writer
-            .into_inner()
-            .map_err(|error| csv::Error::from(error.into_error()))
-    };
-    let failed = |error: csv::Error| OutputError::writing(Path::new(name), error.to_string());
-    Ok(NewFile::of(name, write().map_err(failed)?))
 }
 
 /// The points of a figure's curves: times in s, lengths in m, forces in N, speeds in m/s.

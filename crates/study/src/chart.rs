@@ -57,7 +57,7 @@ impl Chart {
         maps.extend(map::marches::figures(effort, &advance)?);
         progress.total("kernel maps", 1);
         maps.extend(map::kernels::figures(effort, &advance)?);
-        progress.total("models", map::models::rows(effort) + 1);
+        progress.total("models", effort.pick(15, 41));
         maps.extend(map::models::figures(effort, &advance)?);
         Ok(Self {
             effort,

@@ -13,7 +13,7 @@
 
 mod chart;
 mod inversion;
-pub mod map;
+mod map;
 mod measure;
 mod picture;
 mod question;

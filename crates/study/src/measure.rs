@@ -115,6 +115,16 @@ impl<T> Scene<'_, T> {
         });
         Ok(&mut self.records[place])
     }
+
+    /// The same with a tolerance as its setting.
+    pub(crate) fn to_tolerance(
+        &mut self,
+        method: &'static str,
+        tolerance: f64,
+        run: impl Fn() -> Run<T>,
+    ) -> Result<&mut Record, AnyError> {
+        self.add(method, format!("tolerance {tolerance:.0e}"), run)
+    }
 }
 
 #[cfg(test)]

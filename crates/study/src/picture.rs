@@ -2,7 +2,7 @@
 //! error against cost, one curve a method, the Pareto front drawn.
 
 use crate::record::{Question, Record, distinct, pareto_front};
-use figure::{Axis, Figure, Layer, Legend, Panel, Style};
+use figure::{Axis, Layer, Legend, Panel, Style};
 
 /// A picture of the chart.
 #[derive(Debug, Clone, PartialEq)]
@@ -17,10 +17,7 @@ pub struct Picture {
     pub caption: String,
 }
 
-/// Width of a picture in pixels.
-const WIDTH: f64 = 1020.0;
-
-/// Height of its plot.
+/// Height of a picture's plot in pixels.
 const HEIGHT: f64 = 478.0;
 
 impl Picture {
@@ -34,17 +31,14 @@ impl Picture {
         }
     }
 
+    /// Adds a curve.
+    pub(crate) fn line(&mut self, name: &str, style: Style, points: Vec<(f64, f64)>) {
+        self.add(Layer::line(name, style, points));
+    }
+
     /// Adds a layer.
     pub(crate) fn add(&mut self, layer: Layer) {
         self.panel.layers.push(layer);
-    }
-
-    /// What is drawn.
-    #[must_use]
-    pub fn figure(&self) -> Figure {
-        Figure::new(&self.title)
-            .width(WIDTH)
-            .panel(self.panel.clone())
     }
 
     /// What it is made of: the points of its curves, and the centres of the cells of its map under their classes.
@@ -76,7 +70,8 @@ pub(crate) fn diagrams(records: &[Record]) -> Vec<Picture> {
     for question in Question::ALL {
         let mine: Vec<&Record> = records.iter().filter(|r| r.question == question).collect();
         let scenes = distinct(mine.iter().map(|r| r.scene));
-        for (scene, name) in scenes.into_iter().zip(question.diagrams()) {
+        let [.., names] = question.words();
+        for (scene, name) in scenes.into_iter().zip(names.split(' ')) {
             let rows: Vec<&Record> = mine.iter().filter(|r| r.scene == scene).copied().collect();
             diagrams.push(diagram(question, scene, name, &rows));
         }
@@ -102,11 +97,12 @@ fn diagram(question: Question, scene: &str, name: &'static str, rows: &[&Record]
     let high = shown.iter().fold(0.0, |high, p| p.0.max(high));
     let lowest = shown.iter().fold(1.0, |low, p| p.1.min(low));
     let decade = |x: f64, up: f64| 10.0_f64.powf((x.log10() + up).floor());
+    let [asks, value, ..] = question.words();
     let mut figure = Picture::new(
         name,
-        &format!("{}: {scene}", question.name()),
+        &format!("{asks}: {scene}"),
         Axis::logarithmic("cost")
-            .unit(&format!("ns per value: {}", question.value()))
+            .unit(&format!("ns per value: {value}"))
             .range(decade(low, -0.1), decade(high, 1.1)),
         Axis::logarithmic("largest error over the largest value").range(decade(lowest, -0.2), 2.0),
     );
@@ -130,17 +126,10 @@ fn diagram(question: Question, scene: &str, name: &'static str, rows: &[&Record]
         } else {
             Style::Marked
         };
-        figure.add(Layer::line(
-            &format!("{method}{default}{failures}"),
-            style,
-            places(&own),
-        ));
+        let name = format!("{method}{default}{failures}");
+        figure.line(&name, style, places(&own));
     }
-    figure.add(Layer::line(
-        "Pareto front",
-        Style::HeavyDashed,
-        staircase(rows),
-    ));
+    figure.line("Pareto front", Style::HeavyDashed, staircase(rows));
     figure
 }
 
@@ -179,12 +168,9 @@ fn caption(question: Question, scene: &str) -> &'static str {
 /// The border of what the front dominates.
 fn staircase(rows: &[&Record]) -> Vec<(f64, f64)> {
     let mut points: Vec<(f64, f64)> = Vec::new();
-    for record in pareto_front(rows) {
-        let (cost, error) = place(record);
-        if let Some(&(_, before)) = points.last() {
-            points.push((cost, before));
-        }
-        points.push((cost, error));
+    for (cost, error) in pareto_front(rows).into_iter().map(place) {
+        let before = points.last().map(|&(_, before)| (cost, before));
+        points.extend(before.into_iter().chain([(cost, error)]));
     }
     points
 }

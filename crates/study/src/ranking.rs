@@ -27,15 +27,6 @@ pub(crate) struct Ranking<'a> {
 }
 
 impl Ranking<'_> {
-    /// Whether nothing is cheaper than the default path at this accuracy, by more than [`EQUAL`].
-    pub(crate) fn on_front(&self) -> bool {
-        match (self.best, self.own) {
-            (Some(best), Some(own)) => own.cost_ns <= EQUAL * best.cost_ns,
-            (None, None) => true,
-            (Some(_), None) | (None, Some(_)) => false,
-        }
-    }
-
     /// The cheapest that is ahead of the default path, in words; nothing where it is on the front.
     pub(crate) fn first_ahead(&self) -> Option<String> {
         Some(self.words(self.ahead.first()?))

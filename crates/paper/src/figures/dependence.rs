@@ -1,9 +1,9 @@
 //! Figure 5, the contact stress against the radius; and the paper's scheme against its step.
 
 use super::{Claim, HERTZ, Redrawn, WIDTH, single};
-use crate::case::{PRINTED_PA, RADIUS_M, STEP_S, TABLE_1_PA, VELOCITY_M_S};
+use crate::case::{PRINTED_PA, RADIUS_M, STEP_S, TABLE_1_PA};
 use crate::case::{coupled, explicit, hertz, kmax};
-use contact::{Collision, Exact, Solver};
+use contact::{Exact, Solver};
 use fault::AnyError;
 use figure::{Axis, Figure, Layer, Legend, Panel, Sharing, Style};
 use impact::Impact;
@@ -93,7 +93,7 @@ fn over_step(copper_pa: f64) -> Result<Vec<Found>, AnyError> {
         |solver, &i| {
             let step_s = f64::from(i) * SPACING_S;
             let impact = explicit(copper_pa, step_s)?;
-            let collision = Collision::new(&impact.half_space, &impact.striker, VELOCITY_M_S);
+            let collision = impact.collision();
             let summary = solver.solve(&collision, &impact.settings)?.summary;
             let units = collision.units();
             let values = [

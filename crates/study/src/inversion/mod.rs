@@ -130,7 +130,7 @@ impl Inversion {
     /// w over its static value.
     pub(crate) fn run(&self, medium: &Medium, place: [f64; 2], times: &[f64]) -> (Vec<Six>, u64) {
         let hankel = Hankel::new(medium, place, self.digits);
-        ((self.invert)(&hankel, times), hankel.evaluations())
+        ((self.invert)(&hankel, times), hankel.evaluations.get())
     }
 }
 

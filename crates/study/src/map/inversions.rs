@@ -41,21 +41,15 @@ pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Picture>
         for method in Inversion::pictured(effort) {
             let (values, _) = method.run(&medium, scene.place, &scene.times);
             let label = format!("{}, {}", method.name, method.setting);
-            figure.add(Layer::line(
-                &label,
-                Style::Plain,
-                over_time(&scene, &values),
-            ));
+            figure.line(&label, Style::Plain, over_time(&scene, &values));
             advance();
         }
         let own = over_time(&scene, &scene.by_kernel(&kernel)?);
-        figure.add(Layer::line("single integral, 1e-10", Style::Heavy, own));
+        figure.line("single integral, 1e-10", Style::Heavy, own);
         let ends = [scene.arrivals.first(), scene.arrivals.last()];
         for (arrival, label) in ends.into_iter().zip(["first front", "last front"]) {
-            figure
-                .panel
-                .layers
-                .extend(arrival.map(|&t| Layer::mark(t, label)));
+            let mark = arrival.map(|&t| Layer::mark(t, label));
+            figure.panel.layers.extend(mark);
         }
         CAPTION.clone_into(&mut figure.caption);
         figures.push(figure);

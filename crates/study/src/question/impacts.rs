@@ -3,17 +3,18 @@
 //! One value is the contact and its six fields at one point; the error is the largest over time and fields, over each
 //! field's peak, against an integral over the past of a force that was solved to 1e-9.
 
+use super::fields;
 use super::kernels::POISSON_RATIO;
 use crate::measure::{Effort, Scene};
 use crate::record::{Question, Record};
-use crate::scenes::{Density, ROD_RADIUS_M};
-use contact::{Model, Settings};
+use crate::scenes::Density;
+use contact::Model;
 use fault::AnyError;
 use halfspace::{FIELDS, Medium, Six};
 use impact::convolve::Convolver;
-use impact::kernels::{CellPlan, Pulse};
-use impact::{Excitation, HalfSpace, Impact, KernelSource, Material, Place, Striker};
+use impact::{Excitation, Impact, KernelSource};
 use lookup::Table;
+use paper::{RADIUS_M, TABLE_1_PA, coupled, growing};
 use std::sync::Arc;
 
 /// An impact and a point.
@@ -48,11 +49,10 @@ pub(crate) fn measure(
             errors: &|found: &Vec<(f64, Six)>| probed.errors(effort, found),
             records: &mut records,
         };
-        let at = |tolerance: f64| format!("tolerance {tolerance:.0e}");
         let tolerances: &[f64] = effort.pick(&[1e-3, 1e-5], &[1e-2, 1e-3, 1e-4, 1e-5, 1e-6]);
         for &tolerance in tolerances {
             let run = || Ok((probed.computed(tolerance)?, None));
-            scene.add("computed", at(tolerance), run)?.default_path = true;
+            scene.to_tolerance("computed", tolerance, run)?.default_path = true;
         }
         if probed.impact.settings.model == Model::Wave {
             for halvings in effort.pick(vec![3], vec![1, 3, 5, 7]) {
@@ -67,7 +67,9 @@ pub(crate) fn measure(
             for &tolerance in tolerances.iter().filter(|_| probed.is_within(&table)) {
                 let source = KernelSource::Table(table.clone());
                 let run = || Ok((probed.fields(tolerance, source.clone())?, None));
-                scene.add("looked up", at(tolerance), run)?.default_path = true;
+                scene
+                    .to_tolerance("looked up", tolerance, run)?
+                    .default_path = true;
             }
         }
         advance();
@@ -77,34 +79,21 @@ pub(crate) fn measure(
 
 /// A copper rod with a round tip on steel, on a fixed disc and with a contact that grows, near it and far away.
 fn scenes() -> Result<Vec<Probed>, AnyError> {
-    let steel = Material {
-        poisson_ratio: POISSON_RATIO,
-        ..Material::named("steel")?
-    };
-    let block = HalfSpace::new(steel)?;
-    let rod = Striker::new(Material::named("copper")?, 0.0122, ROD_RADIUS_M)?;
-    let fixed = Settings {
-        model: Model::Wave,
-        disc_radius_m: Some(ROD_RADIUS_M),
-        ..Settings::default()
-    };
-    let growing = Settings {
-        model: Model::Growing,
-        ..Settings::default()
-    };
-    [
+    let (fixed, growing) = (coupled(TABLE_1_PA, RADIUS_M)?, growing()?);
+    let scenes = [
         ("fixed disc, near", 100.0, &fixed, [0.004, 0.003]),
         ("fixed disc, far", 100.0, &fixed, [0.08, 0.06]),
         ("growing contact, near", 10.0, &growing, [0.0008, 0.0006]),
         ("growing contact, far", 10.0, &growing, [0.08, 0.06]),
-    ]
-    .into_iter()
-    .map(|(name, velocity_m_s, settings, place_m)| {
-        let mut impact = Impact::new(block.clone(), rod.clone(), velocity_m_s);
-        impact.settings = *settings;
+    ];
+    let probed = scenes.map(|(name, velocity_m_s, impact, place_m)| {
+        let impact = Impact {
+            velocity_m_s,
+            ..impact.clone()
+        };
         Probed::new(name, impact, place_m)
-    })
-    .collect()
+    });
+    probed.into_iter().collect()
 }
 
 impl Probed {
@@ -155,27 +144,16 @@ impl Probed {
         let run = self.impact.clone().to_tolerance(1e-6).solve()?;
         let excitation = run.excitation();
         let units = *excitation.units();
-        let [r_m, z_m] = self.place_m;
         let step_s = width * units.time_s();
         let end_s = self.end_s(excitation);
         let count = (end_s / step_s).ceil() as usize;
         let force: Vec<f64> = (0..count)
             .map(|n| excitation.force_n(n as f64 * step_s))
             .collect();
-        let place = Place {
-            r: r_m / units.disc_radius_m,
-            z: z_m / units.disc_radius_m,
-            disc_radius_m: units.disc_radius_m,
-        };
-        let plan = CellPlan {
-            step: width,
-            count: count + lookup::BEYOND,
-            pulse: Pulse::Smooth(excitation.end_s() / units.time_s()),
-            rates: false,
-            tolerance: 1e-8,
-        };
         let source = KernelSource::direct(excitation.medium(), 1e-8)?;
-        let cells = source.cells(POISSON_RATIO, place, plan)?;
+        let place = self.place_m.map(|x| x / units.disc_radius_m);
+        let length = excitation.end_s() / units.time_s();
+        let cells = fields::computed(&source, place, (count, width), length, 1e-8)?;
         let found = Convolver::new(&force).fields(&cells.static_part, &cells.smooth);
         let scale = [units.displacement_m_per_n(), units.stress_pa_per_n()];
         let at = |n: usize| std::array::from_fn(|f| scale[usize::from(f >= 2)] * found[f][n]);

@@ -5,10 +5,11 @@
 
 use crate::inversion::Inversion;
 use crate::measure::{Effort, Scene};
-use crate::record::{Question, Record, sizes};
+use crate::record::{Question, Record, off, sizes};
 use crate::scenes::Density;
 use fault::AnyError;
 use halfspace::{Arrivals, Deflection, Kernel, Medium, Profile, Six, SurfaceResponse, kausel};
+use lookup::Smoothness;
 use std::cell::RefCell;
 use tabulator::Progress;
 
@@ -21,7 +22,9 @@ pub(crate) struct KernelScene {
     /// Arrivals of the waves.
     pub(crate) arrivals: Vec<f64>,
     exact: Vec<Six>,
-    /// Largest values; infinite for a field that is not looked at.
+    /// The fields that are looked at.
+    fields: &'static [usize],
+    /// Largest values.
     scale: Six,
     static_part: Six,
     /// One over what the fields are measured in.
@@ -38,7 +41,7 @@ const INTERIOR: [f64; 2] = [0.55, 0.65];
 const NEAR: [f64; 2] = [0.01, -0.01];
 
 /// All six fields.
-const ALL: [usize; 6] = [0, 1, 2, 3, 4, 5];
+pub(crate) const ALL: [usize; 6] = [0, 1, 2, 3, 4, 5];
 
 impl KernelScene {
     /// Six fields at a point inside, from before the first arrival to long after the last.
@@ -82,7 +85,7 @@ impl KernelScene {
         medium: &Medium,
         [r, z]: [f64; 2],
         count: usize,
-        fields: &[usize],
+        fields: &'static [usize],
         near: &[f64],
     ) -> Result<Self, AnyError> {
         let kernel = Kernel::new(medium, Profile::Hertz, 1e-14)?;
@@ -104,13 +107,11 @@ impl KernelScene {
             times,
             arrivals: arrivals.sorted(),
             exact: Vec::new(),
-            scale: [f64::INFINITY; 6],
+            fields,
+            scale: [0.0; 6],
             static_part: kernel.static_field(r, z)?,
             per_unit: 1.0,
         };
-        for &f in fields {
-            scene.scale[f] = 0.0;
-        }
         for &t in &scene.times {
             let whole = scene.whole(kernel.remainder(r, z, t)?.value);
             for (scale, value) in scene.scale.iter_mut().zip(whole) {
@@ -139,23 +140,16 @@ impl KernelScene {
         self.times.iter().map(value).collect()
     }
 
-    /// Largest relative error over the fields at each time.
-    pub(crate) fn errors_over_time(&self, values: &[Six]) -> Vec<f64> {
-        let errors = values.iter().zip(&self.exact).map(|(v, exact)| {
-            let errors: Six = std::array::from_fn(|f| (v[f] - exact[f]) / self.scale[f]);
-            sizes(&errors)[0]
-        });
-        errors.collect()
+    /// The relative errors at all times.
+    fn errors(&self, values: &[Six]) -> Vec<f64> {
+        off(values, &self.exact, &self.scale, self.fields)
     }
 
-    /// The errors of the fields that are looked at.
-    fn errors(&self, values: &[Six]) -> Vec<f64> {
-        let live = (0..6).filter(|&f| self.scale[f].is_finite());
-        let live: Vec<usize> = live.collect();
-        let pairs = values.iter().zip(&self.exact);
-        pairs
-            .flat_map(|(v, exact)| live.iter().map(|&f| (v[f] - exact[f]) / self.scale[f]))
-            .collect()
+    /// The largest of them at each time.
+    pub(crate) fn errors_over_time(&self, values: &[Six]) -> Vec<f64> {
+        let errors = self.errors(values);
+        let largest = |errors: &[f64]| sizes(errors)[0];
+        errors.chunks(self.fields.len()).map(largest).collect()
     }
 }
 
@@ -189,9 +183,9 @@ pub(crate) fn measure(
         for digits in (1..=13).step_by(effort.pick(2, 1)) {
             let tolerance = 10.0_f64.powi(-digits);
             let kernel = Kernel::new(&medium, Profile::Hertz, tolerance)?;
-            let setting = format!("tolerance {tolerance:.0e}");
             let run = || Ok((scene.by_kernel(&kernel)?, None));
-            rows.add("single integral", setting, run)?.default_path = scene.place[1] > 0.0;
+            let row = rows.to_tolerance("single integral", tolerance, run)?;
+            row.default_path = scene.place[1] > 0.0;
         }
         progress.advance(1);
         for inversion in &inversions {
@@ -238,15 +232,9 @@ fn tables(
                 .trace(r, z, count as f64 * width)?
                 .for_each_cell(width, count, |j, [average, ..]| exact[j] = average)?;
             let cells = RefCell::new(vec![[0.0; 6]; count]);
+            let (nu, linear) = (medium.poisson_ratio(), Smoothness::Linear);
             let run = || {
-                table.trace(
-                    lookup::Smoothness::Linear,
-                    medium.poisson_ratio(),
-                    r,
-                    z,
-                    0,
-                    &mut cells.borrow_mut(),
-                )?;
+                table.trace(linear, nu, r, z, 0, &mut cells.borrow_mut())?;
                 Ok(((), Some(0)))
             };
             let mut rows = Scene {
@@ -254,12 +242,7 @@ fn tables(
                 question: Question::Kernels,
                 name: scene.name,
                 values: count as f64,
-                errors: &|(): &()| {
-                    let cells = cells.borrow();
-                    let pairs = cells.iter().zip(&exact);
-                    let errors = |(a, b): (&Six, &Six)| ALL.map(|f| (a[f] - b[f]) / scene.scale[f]);
-                    Ok(pairs.flat_map(errors).collect())
-                },
+                errors: &|(): &()| Ok(off(&cells.borrow(), &exact, &scene.scale, &ALL)),
                 records: &mut *records,
             };
             let setting = format!("{}, {points} points", density.label());

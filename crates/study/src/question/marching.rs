@@ -8,7 +8,7 @@
 //!
 //! Product integration after Linz (1985); collision units as in [`contact::CollisionUnits`].
 
-use contact::FixedDisc;
+use contact::{FixedDisc, Summary};
 
 /// Shape of the force within a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -17,30 +17,23 @@ pub(crate) enum Order {
     Second,
 }
 
-/// Peak force, contact time, restitution and peak displacement of an impact in collision units.
-pub(crate) type Results = [f64; 4];
-
-/// Those of the program.
-pub(crate) fn results(summary: &contact::Summary) -> Results {
+/// Differences from a reference of peak force, contact time, restitution and peak displacement: relative, the
+/// restitution's absolute.
+pub(crate) fn errors(found: &Summary, exact: &Summary) -> [f64; 4] {
+    let relative = |found: f64, exact: f64| match found - exact {
+        0.0 => 0.0,
+        difference => difference / exact,
+    };
     [
-        summary.peak_force,
-        summary.contact_time,
-        summary.restitution,
-        summary.peak_displacement,
+        relative(found.peak_force, exact.peak_force),
+        relative(found.contact_time, exact.contact_time),
+        found.restitution - exact.restitution,
+        relative(found.peak_displacement, exact.peak_displacement),
     ]
 }
 
-/// Differences from a reference: relative, the restitution's absolute.
-pub(crate) fn errors(found: &Results, exact: &Results) -> Results {
-    std::array::from_fn(|i| match (i, found[i] - exact[i]) {
-        (2, difference) => difference,
-        (_, 0.0) => 0.0,
-        (_, difference) => difference / exact[i],
-    })
-}
-
-/// Marches until the first separation; the results and the work, steps times cells of memory.
-pub(crate) fn march(impact: &FixedDisc<'_>, step: f64, order: Order) -> (Results, Option<u64>) {
+/// Marches until the first separation: the results that [`errors`] looks at, and the work, steps times cells of memory.
+pub(crate) fn march(impact: &FixedDisc<'_>, step: f64, order: Order) -> (Summary, Option<u64>) {
     const MOST_STEPS: usize = 1_000_000;
     let cell = step / impact.wave_time;
     let cells = (impact.response.memory() / cell).ceil() as usize + 1;
@@ -82,9 +75,14 @@ pub(crate) fn march(impact: &FixedDisc<'_>, step: f64, order: Order) -> (Results
             let (inside, outside) = (before.cbrt().powi(2), known - free);
             let share = inside / (inside + outside.max(f64::MIN_POSITIVE));
             let velocity = v - 1.25 * step * share * swing[0] * before;
-            let contact_time = (n as f64 - 1.0 + share) * step;
-            let results = [peak(&force), contact_time, -velocity, peak(&displacement)];
-            return (results, Some(work));
+            let found = Summary {
+                peak_force: peak(&force),
+                contact_time: (n as f64 - 1.0 + share) * step,
+                restitution: -velocity,
+                peak_displacement: peak(&displacement),
+                ..Summary::default()
+            };
+            return (found, Some(work));
         }
         d = free - inertia * push[1] * p;
         v -= 1.25 * step * (swing[0] * before + swing[1] * p);
@@ -129,7 +127,7 @@ fn peak(samples: &[f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use contact::{StaticShare, Summary, march_implicit, refine};
+    use contact::{StaticShare, march_implicit, refine};
     use halfspace::{Deflection, Medium, SurfaceResponse};
 
     #[test]
@@ -142,13 +140,12 @@ mod tests {
             share: StaticShare::Full,
         };
         let exact = refine(|step| march_implicit(&impact, step), 0.02, 1e-9).unwrap();
-        let exact = results(&exact.summary);
+        let exact = exact.summary;
         let own = Summary::new(&march_implicit(&impact, 0.01).unwrap()).unwrap();
-        assert!((own.peak_force / exact[0] - 1.0).abs() < 1e-5);
+        assert!((own.peak_force / exact.peak_force - 1.0).abs() < 1e-5);
         for (order, least) in [(Order::First, 0.9), (Order::Second, 1.7)] {
             let error = |step: f64| {
-                let (found, _) = march(&impact, step, order);
-                let errors = errors(&found, &exact);
+                let errors = errors(&march(&impact, step, order).0, &exact);
                 errors.iter().fold(0.0_f64, |a, e| a.max(e.abs()))
             };
             for step in [0.02, 0.01, 0.005] {
