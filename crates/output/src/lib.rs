@@ -28,7 +28,7 @@ mod temporary;
 
 pub use claim::{Existing, Output, Staged, write_whole};
 pub use error::{Fault, OutputError};
-pub use folder::{Folder, NewFile};
+pub use folder::Folder;
 pub use place::{CSV, Ending, HDF5, PARQUET, ROWS, Role, SHARD, TABLE, apart, behind, is_standard};
 pub use room::{free_disk, free_memory, processor_s};
 pub use temporary::abandon;

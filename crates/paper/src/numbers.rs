@@ -92,13 +92,6 @@ impl Numbers {
         })
     }
 
-    /// The row of a name.
-    #[must_use]
-    pub fn find(&self, what: &str) -> Option<&Row> {
-        let mut rows = self.sections.iter().flat_map(|section| &section.rows);
-        rows.find(|row| row.what == what)
-    }
-
     /// The numbers that matter most, those of the contact, few enough for a screen.
     #[must_use]
     pub fn short(&self) -> String {

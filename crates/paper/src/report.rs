@@ -6,7 +6,7 @@ use crate::files::{csv_file, drawn};
 use crate::numbers::{Numbers, Row};
 use fault::AnyError;
 use figure::{Figure, Layer};
-use output::{Folder, NewFile};
+use output::Folder;
 
 /// Columns of numbers.csv.
 const NUMBERS: &str = "section place what unit paper here relative_difference why";
@@ -47,7 +47,7 @@ impl Redone {
             figure.claims.iter().map(cells)
         });
         let mut files = vec![
-            NewFile::of("report.md", self.report()),
+            ("report.md".to_owned(), self.report().into_bytes()),
             csv_file("numbers.csv", NUMBERS, rows)?,
             csv_file("claims.csv", "figure says holds found", claims)?,
         ];

@@ -1,7 +1,7 @@
 //! A picture of the chart: one panel with a name, a caption, and the numbers behind it; and the work-precision diagrams:
 //! error against cost, one curve a method, the Pareto front drawn.
 
-use crate::record::{Question, Record, distinct, pareto_front};
+use crate::record::{Question, Record, by_scene, distinct, pareto_front};
 use figure::{Axis, Layer, Legend, Panel, Style};
 
 /// A picture of the chart.
@@ -66,17 +66,12 @@ impl Picture {
 
 /// One diagram a scene.
 pub(crate) fn diagrams(records: &[Record]) -> Vec<Picture> {
-    let mut diagrams = Vec::new();
-    for question in Question::ALL {
-        let mine: Vec<&Record> = records.iter().filter(|r| r.question == question).collect();
-        let scenes = distinct(mine.iter().map(|r| r.scene));
+    let scenes = by_scene(records).into_iter();
+    let drawn = scenes.filter_map(|(question, place, rows)| {
         let [.., names] = question.words();
-        for (scene, name) in scenes.into_iter().zip(names.split(' ')) {
-            let rows: Vec<&Record> = mine.iter().filter(|r| r.scene == scene).copied().collect();
-            diagrams.push(diagram(question, scene, name, &rows));
-        }
-    }
-    diagrams
+        Some(diagram(question, names.split(' ').nth(place)?, &rows))
+    });
+    drawn.collect()
 }
 
 /// Cost and error of a record as they are drawn: errors below 1e-16 there.
@@ -90,7 +85,8 @@ fn places(rows: &[&Record]) -> Vec<(f64, f64)> {
     shown.map(|r| place(r)).collect()
 }
 
-fn diagram(question: Question, scene: &str, name: &'static str, rows: &[&Record]) -> Picture {
+fn diagram(question: Question, name: &'static str, rows: &[&Record]) -> Picture {
+    let scene = rows[0].scene;
     let shown = places(rows);
     // half a marker of room around the outermost points
     let low = shown.iter().fold(f64::INFINITY, |low, p| low.min(p.0));
@@ -110,22 +106,16 @@ fn diagram(question: Question, scene: &str, name: &'static str, rows: &[&Record]
     for method in distinct(rows.iter().map(|r| r.method)) {
         let own = rows.iter().filter(|r| r.method == method);
         let own: Vec<&Record> = own.copied().collect();
-        let default = if own.iter().any(|r| r.default_path) {
-            " [default]"
-        } else {
-            ""
-        };
+        let is_default = own.iter().any(|r| r.default_path);
+        let default = if is_default { " [default]" } else { "" };
         let failures = match own.iter().filter(|r| r.failed()).count() {
             0 => String::new(),
             n if n == own.len() => " (fails)".to_owned(),
             n => format!(" ({n} of {} fail)", own.len()),
         };
         // settings of fields and tables vary in several ways at once: no line orders them
-        let style = if question == Question::Fields || method == "table" {
-            Style::Points
-        } else {
-            Style::Marked
-        };
+        let cloud = question == Question::Fields || method == "table";
+        let style = if cloud { Style::Points } else { Style::Marked };
         let name = format!("{method}{default}{failures}");
         figure.line(&name, style, places(&own));
     }

@@ -56,6 +56,11 @@ impl Question {
     }
 }
 
+/// The largest size of each field.
+pub(crate) fn peaks(values: &[Six]) -> Six {
+    std::array::from_fn(|f| values.iter().fold(0.0_f64, |most, v| most.max(v[f].abs())))
+}
+
 /// Errors of some of the six fields at many places, each over the scale of its field.
 pub(crate) fn off(found: &[Six], exact: &[Six], scale: &Six, fields: &[usize]) -> Vec<f64> {
     let pairs = found.iter().zip(exact);
@@ -147,6 +152,20 @@ pub(crate) fn pareto_front<'a>(records: &[&'a Record]) -> Vec<&'a Record> {
         better
     });
     front
+}
+
+/// The rows of each scene, with its question and its place among that question's scenes.
+pub(crate) fn by_scene(records: &[Record]) -> Vec<(Question, usize, Vec<&Record>)> {
+    let mut scenes = Vec::new();
+    for question in Question::ALL {
+        let mine = || records.iter().filter(move |r| r.question == question);
+        let names = distinct(mine().map(|r| r.scene)).into_iter();
+        scenes.extend(names.enumerate().map(|(place, name)| {
+            let rows = mine().filter(|r| r.scene == name).collect();
+            (question, place, rows)
+        }));
+    }
+    scenes
 }
 
 /// The different items in the order of their first appearance.

@@ -7,7 +7,7 @@ use crate::ranking::{Ranking, rankings, why_not};
 use crate::record::{Question, Record, distinct};
 use fault::AnyError;
 use figure::Figure;
-use output::{Folder, NewFile};
+use output::Folder;
 use paper::{csv_file, drawn};
 
 /// Columns of pictures.csv.
@@ -28,12 +28,8 @@ impl Chart {
         for picture in self.diagrams.iter().chain(&self.maps) {
             let name = picture.name;
             points.extend(picture.points().into_iter().map(|(curve, x, y)| {
-                [
-                    name.to_owned(),
-                    curve.to_owned(),
-                    x.to_string(),
-                    y.to_string(),
-                ]
+                let [x, y] = [x, y].map(|value| value.to_string());
+                [name.to_owned(), curve.to_owned(), x, y]
             }));
             let failed = |source| format!("the picture {name} cannot be drawn: {source}");
             let figure = Figure::new(&picture.title).width(WIDTH);
@@ -41,7 +37,7 @@ impl Chart {
             files.extend(drawn(name, &figure).map_err(failed)?);
         }
         files.push(csv_file("pictures.csv", PICTURE_COLUMNS, points)?);
-        files.push(NewFile::of("report.md", markdown(self)));
+        files.push(("report.md".to_owned(), markdown(self).into_bytes()));
         Ok(folder.write(files)?)
     }
 }
@@ -149,10 +145,8 @@ fn answer(chart: &Chart, question: Question, rankings: &[&Ranking<'_>]) -> [Stri
 }
 
 fn table(rankings: &[&Ranking<'_>]) -> Vec<String> {
-    let mut lines = vec![
-        "| scene | error | cheapest of all | cost | default path | cost |".to_owned(),
-        "|---|---|---|---|---|---|".to_owned(),
-    ];
+    let head = "| scene | error | cheapest of all | cost | default path | cost |";
+    let mut lines = vec![format!("{head}\n|---|---|---|---|---|---|")];
     let cell = |found: Option<&Record>| match found {
         Some(r) => format!("{}, {} | {}", r.method, r.setting, time(r.cost_ns)),
         None => "not reached | ".to_owned(),
@@ -167,11 +161,9 @@ fn table(rankings: &[&Ranking<'_>]) -> Vec<String> {
 
 /// Methods that failed, with their largest errors.
 fn failures(records: &[Record]) -> Vec<String> {
-    let mut lines = vec![
-        "## Failures in the rows\n".to_owned(),
-        "| question | scene | method | setting | largest error | says |".to_owned(),
-        "|---|---|---|---|---|---|".to_owned(),
-    ];
+    let head = "| question | scene | method | setting | largest error | says |";
+    let head = format!("## Failures in the rows\n\n{head}\n|---|---|---|---|---|---|");
+    let mut lines = vec![head];
     lines.extend(records.iter().filter(|r| r.failed()).map(|r| {
         let (question, says) = (r.question.name(), r.refusal.as_deref().unwrap_or(""));
         let (scene, method, setting, error) = (r.scene, r.method, &r.setting, r.error_max);

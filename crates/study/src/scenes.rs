@@ -37,7 +37,6 @@ pub(crate) fn ball(target: &str, velocity_m_s: f64) -> Result<Impact, AnyError> 
 const EXTENT: f64 = 2.0;
 
 /// A table of one density.
-#[derive(Debug)]
 pub(crate) struct Density {
     /// Distance of its nodes in r0; none: as in the demo table, which is graded toward the disc's edge and the surface.
     spacing: Option<f64>,

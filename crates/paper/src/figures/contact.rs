@@ -14,20 +14,17 @@ const STARS: &str = "stars: values printed in the paper";
 /// Points of a curve.
 const POINTS: u32 = 620;
 
-fn times() -> impl Iterator<Item = f64> {
-    (0..=POINTS).map(|i| UNTIL_S * f64::from(i) / f64::from(POINTS))
+fn over_time(of: impl Fn(f64) -> Option<f64>) -> Vec<(f64, f64)> {
+    let times = (0..=POINTS).map(|i| UNTIL_S * f64::from(i) / f64::from(POINTS));
+    times.filter_map(|t| Some((t, of(t)?))).collect()
 }
 
 fn motion(run: &Run, of: impl Fn(Motion) -> f64) -> Vec<(f64, f64)> {
-    let at = |t| run.excitation().motion(t).map(|motion| (t, of(motion)));
-    times().filter_map(at).collect()
+    over_time(|t| run.excitation().motion(t).map(&of))
 }
 
 fn force(run: &Run, scale: f64) -> Vec<(f64, f64)> {
-    let excitation = run.excitation();
-    times()
-        .map(|t| (t, excitation.force_n(t) / scale))
-        .collect()
+    over_time(|t| Some(run.excitation().force_n(t) / scale))
 }
 
 /// Fig. 4.
@@ -57,17 +54,16 @@ pub(super) fn history(runs: &Runs) -> Redrawn {
         }
     }
     speeds = speeds.layer(Layer::star((27.0e-6, -99.1), "-99.1 m/s"));
-    let figure = Figure::new("Fig. 4: force, displacements and velocity")
-        .subtitle(STARS)
-        .sharing(Sharing::X)
-        .width(WIDTH)
-        .panel(forces)
-        .panel(lengths)
-        .panel(speeds);
     Redrawn {
         name: "fig-04",
         title: "Fig. 4: force P, displacement h, deflection w and speed v",
-        figure,
+        figure: Figure::new("Fig. 4: force, displacements and velocity")
+            .subtitle(STARS)
+            .sharing(Sharing::X)
+            .width(WIDTH)
+            .panel(forces)
+            .panel(lengths)
+            .panel(speeds),
         caption: "h is the rod's displacement, w the half-space's; the velocity is positive into the block, so that the printed 99.1 m/s of departure are negative. A contact whose radius follows the load counts the static deflection of the block once, the paper's model twice: hence its smaller force and longer contact.",
         claims: symmetry(runs),
     }
@@ -76,9 +72,16 @@ pub(super) fn history(runs: &Runs) -> Redrawn {
 fn symmetry(runs: &Runs) -> Vec<Claim> {
     let share = |run: &Run| run.peak_force_time_s / run.contact_time_s;
     let (hertz, coupled) = (share(&runs.hertz_printed), share(&runs.table_1));
-    let turn = motion(&runs.table_1, |m| m.velocity_m_s);
-    let turn = turn.iter().find(|(_, v)| *v <= 0.0);
-    let turn_s = turn.map_or(f64::NAN, |(t, _)| *t);
+    let mut speeds = motion(&runs.table_1, |m| m.velocity_m_s).into_iter();
+    let turn_s = speeds.find(|(_, v)| *v <= 0.0).map_or(f64::NAN, |(t, _)| t);
+    // h - w at the end of contact over the largest h
+    let end = runs
+        .table_1
+        .excitation()
+        .motion(runs.table_1.contact_time_s);
+    let closes = end.map_or(f64::NAN, |m| {
+        (m.displacement_m - m.deflection_m).abs() / runs.table_1.peak_displacement_m
+    });
     vec![
         Claim::new(
             "P(t) is symmetrical about t's, with ts = 2 t's",
@@ -98,8 +101,8 @@ fn symmetry(runs: &Runs) -> Vec<Claim> {
         ),
         Claim::new(
             "h - w = 0 when the force has fallen to zero",
-            closes(&runs.table_1) < 1e-3,
-            format!("{:.0e} of the largest h", closes(&runs.table_1)),
+            closes < 1e-3,
+            format!("{closes:.0e} of the largest h"),
         ),
         Claim::new(
             "the restitution hardly depends on speed and size",
@@ -110,14 +113,6 @@ fn symmetry(runs: &Runs) -> Vec<Claim> {
             ),
         ),
     ]
-}
-
-/// h - w at the end of contact over the largest h.
-fn closes(run: &Run) -> f64 {
-    let end = run.excitation().motion(run.contact_time_s);
-    end.map_or(f64::NAN, |m| {
-        (m.displacement_m - m.deflection_m).abs() / run.peak_displacement_m
-    })
 }
 
 /// Fig. 6.

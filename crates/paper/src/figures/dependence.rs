@@ -31,10 +31,8 @@ fn over_radius(
 
 /// Slope between the ends, on logarithmic axes.
 fn slope(points: &[(f64, f64)]) -> f64 {
-    match (points.first(), points.last()) {
-        (Some(a), Some(b)) => (b.1 / a.1).ln() / (b.0 / a.0).ln(),
-        _ => f64::NAN,
-    }
+    let [a, b] = [points[0], points[points.len() - 1]];
+    (b.1 / a.1).ln() / (b.0 / a.0).ln()
 }
 
 /// Fig. 5.
@@ -152,36 +150,32 @@ pub(super) fn on_step() -> Result<Redrawn, AnyError> {
 }
 
 fn of_steps(table_1: &[Found], printed: &[Found]) -> Vec<Claim> {
-    let fitting = |found: &[Found]| -> Vec<String> {
+    let fitting = |found: &[Found]| {
         let steps = found.iter().filter(gives_all);
-        steps
-            .map(|(step_s, _)| format!("{:.3}", 1e6 * step_s))
-            .collect()
+        let steps: Vec<_> = steps.map(|(s, _)| format!("{:.3}", 1e6 * s)).collect();
+        if steps.is_empty() {
+            "no step".to_owned()
+        } else {
+            format!("{} us", steps.join(", "))
+        }
     };
-    let (of_table_1, of_printed) = (fitting(table_1), fitting(printed));
-    let told = |steps: &[String]| match steps {
-        [] => "no step".to_owned(),
-        steps => format!("{} us", steps.join(", ")),
-    };
-    let ends =
-        [printed.first(), printed.last()].map(|f| f.map_or(f64::NAN, |(_, values)| values[2]));
+    let [first, last] = [0, printed.len() - 1].map(|i| printed[i].1[2]);
     vec![
         Claim::new(
             "Kmax = 14.11, ts = 27.0 us and Rf = 0.991 together",
-            !of_printed.is_empty(),
+            printed.iter().any(|found| gives_all(&found)),
             format!(
                 "all three to their digits with {} and copper of 129 GPa, {} and 123 GPa, of {} steps each",
-                told(&of_printed),
-                told(&of_table_1),
+                fitting(printed),
+                fitting(table_1),
                 printed.len()
             ),
         ),
         Claim::new(
             "the restitution is 0.991",
-            (ends[0] - 0.991).abs() < 5e-4 && (ends[1] - 0.991).abs() < 5e-4,
+            [first, last].iter().all(|e| (e - 0.991).abs() < 5e-4),
             format!(
-                "{:.4} with the smallest step, {:.4} with the largest: it follows the step",
-                ends[0], ends[1]
+                "{first:.4} with the smallest step, {last:.4} with the largest: it follows the step"
             ),
         ),
     ]

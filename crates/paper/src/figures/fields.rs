@@ -158,10 +158,11 @@ fn fields(run: &Run) -> Result<Vec<([f64; 2], FieldHistory)>, AnyError> {
             places.push(place);
         }
     }
-    let fields = run.excitation().fields(1e-2 * TOLERANCE)?;
-    let fields = fields
-        .until(UNTIL * run.contact_time_s)
+    let fields = run
+        .excitation()
+        .fields(1e-2 * TOLERANCE)?
         .to_tolerance(TOLERANCE);
+    let fields = fields.until(UNTIL * run.contact_time_s);
     let at = places.into_par_iter().map(|[r, z]| {
         let history = fields.at(r * RADIUS_M, z * RADIUS_M)?;
         Ok(([r, z], history))
@@ -171,11 +172,8 @@ fn fields(run: &Run) -> Result<Vec<([f64; 2], FieldHistory)>, AnyError> {
 
 /// Values in words, from the nearest point to the farthest.
 fn list(curves: &[Curve], of: impl Fn(&Curve) -> f64, digits: usize) -> String {
-    let values: Vec<String> = curves
-        .iter()
-        .map(|c| format!("{:.digits$}", of(c)))
-        .collect();
-    values.join(", ")
+    let values = curves.iter().map(|c| format!("{:.digits$}", of(c)));
+    values.collect::<Vec<_>>().join(", ")
 }
 
 /// Whether values fall or rise from point to point.
@@ -187,9 +185,7 @@ fn amplitude(curves: &[Curve], scale: f64, unit: &str) -> Claim {
     Claim::new(
         "away from the source the amplitude decreases",
         falls(curves, |c| peak(c).abs()),
-        format!("{} {unit}", list(curves, |c| scale * peak(c), 2))
-            .trim_end()
-            .to_owned(),
+        list(curves, |c| scale * peak(c), 2) + unit,
     )
 }
 
@@ -219,7 +215,7 @@ fn of_surface(curves: &[Curve], speeds: &WaveSpeeds) -> Vec<Claim> {
     let after = curves[3].iter().find(|(t, _)| *t >= rayleigh_s);
     let at_rayleigh = after.map_or(0.0, |(_, x)| x / peak(&curves[3]));
     vec![
-        amplitude(curves, 1e6, "um"),
+        amplitude(curves, 1e6, " um"),
         width(curves),
         negative(&curves[2..], 0.0, "3 and 5 r0"),
         Claim::new(
@@ -235,7 +231,7 @@ fn of_surface(curves: &[Curve], speeds: &WaveSpeeds) -> Vec<Claim> {
 
 fn of_depths(curves: &[Curve], _: &WaveSpeeds) -> Vec<Claim> {
     vec![
-        amplitude(curves, 1e6, "um"),
+        amplitude(curves, 1e6, " um"),
         width(curves),
         negative(&curves[1..], 1e-3, "r0, 3 r0 and 5 r0"),
     ]

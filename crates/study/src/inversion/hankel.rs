@@ -38,6 +38,8 @@ pub(crate) struct Hankel {
     digits: f64,
     /// Slowness of the Rayleigh wave, the slowest.
     slowest: f64,
+    /// 1/kappa^2.
+    shear: f64,
     /// Of a panel.
     rule: Rule,
     /// Integrand evaluations so far.
@@ -58,6 +60,7 @@ impl Hankel {
             z,
             digits,
             slowest: 1.0 / medium.rayleigh_speed(),
+            shear: 1.0 / (medium.kappa() * medium.kappa()),
             rule: Rule::new((least + slope * digits).ceil() as usize),
             evaluations: Cell::new(0),
         }
@@ -127,12 +130,9 @@ impl Hankel {
         let mut sum = [Complex64::default(); 6];
         self.along(&legs, widths, |k, weight| {
             let scale = weight * load(k);
-            let [j0, j1] = bessel(k * self.r);
-            let ratio = if k.norm() * self.r < 1e-6 {
-                0.5.into()
-            } else {
-                j1 / (k * self.r)
-            };
+            let (x, is_small) = (k * self.r, k.norm() * self.r < 1e-6);
+            let [j0, j1] = bessel(x);
+            let ratio = if is_small { 0.5.into() } else { j1 / x };
             self.add(&mut sum, k, s, [j0, j1, ratio].map(|j| scale * j));
         });
         sum.map(|v| v / s)
@@ -164,9 +164,8 @@ impl Hankel {
     /// imaginary axis.
     pub(crate) fn surface(&self, s: Complex64) -> Complex64 {
         let rest = 1.0 - self.medium.poisson_ratio();
-        let without_rest = |k: Complex64, roots: Roots| {
-            let [alpha, _, _, inverse] = roots;
-            alpha * s * s * self.shear() * inverse - rest / k
+        let without_rest = |k: Complex64, [alpha, _, _, inverse]: Roots| {
+            alpha * s * s * self.shear * inverse - rest / k
         };
         let (legs, widest) = path(s, self.slowest, 1.0, s.norm() * self.slowest + 4.0);
         let widths = [(0.7 * s.norm()).min(1.0), widest.min(2.0)];
@@ -187,11 +186,6 @@ impl Hankel {
         (1.0 + sum / (0.375 * rest)) / s
     }
 
-    /// 1/kappa^2.
-    fn shear(&self) -> f64 {
-        1.0 / (self.medium.kappa() * self.medium.kappa())
-    }
-
     /// The integrand at one (k, s), by a branch of the roots.
     fn roots(
         &self,
@@ -200,10 +194,9 @@ impl Hankel {
         root: impl Fn(Complex64, Complex64) -> Complex64,
     ) -> Roots {
         self.evaluations.update(|count| count + 1);
-        let shear = self.shear();
-        let (alpha, beta) = (root(k, s), root(k, s * shear.sqrt()));
+        let (alpha, beta) = (root(k, s), root(k, s * self.shear.sqrt()));
         let (k2, s2) = (k * k, s * s);
-        let slow = s2 * shear;
+        let slow = s2 * self.shear;
         let gamma = 2.0 * k2 + slow;
         // gamma^2 - 4 k^4 and alpha beta - k^2 apart: no difference of large numbers for k >> s
         let product = alpha * beta;

@@ -51,7 +51,6 @@ const OUTCOMES: [&str; 5] = [
 ];
 
 /// A disc with its converged impact and what first-order theory needs of it.
-#[derive(Debug, Clone)]
 pub(super) struct Converged<'a> {
     disc: FixedDisc<'a>,
     /// Its results.
@@ -160,8 +159,14 @@ fn maxima(force: &[f64]) -> usize {
     count
 }
 
-/// Steps over the paper's contact at which its scheme is looked at: the second gives its restitution.
-const PAPER_STEPS: [f64; 2] = [54.0, 200.0];
+/// The paper's case at steps over its contact, of which the second gives its restitution: label, place on a map, step.
+fn paper_steps(paper: &Converged<'_>) -> [(String, (f64, f64), f64); 2] {
+    [54, 200].map(|n| {
+        let step = paper.summary.contact_time / f64::from(n);
+        let place = (1.5 * admittance(&paper.disc), step / CONTACT_TIME);
+        (format!("paper's case, ts/{n}"), place, step)
+    })
+}
 
 /// A map of discs, from side to side, against the step over Hertz's contact time.
 fn map<'a>(x: [f64; 2], quantity: &'a str, classes: &'a [&'a str], effort: Effort) -> Map<'a> {
@@ -180,16 +185,6 @@ fn line<'a>(
 ) -> Vec<(f64, f64)> {
     let point = |(x, exact): &(f64, Converged<'a>)| (*x, step(exact) / CONTACT_TIME);
     columns.iter().map(point).collect()
-}
-
-/// Marks the paper's case at so many steps over its contact, with something to say of it.
-fn mark(figure: &mut Picture, paper: &Converged<'_>, steps: f64, says: &str) {
-    let step = paper.summary.contact_time / steps;
-    let place = (1.5 * admittance(&paper.disc), step / CONTACT_TIME);
-    figure.add(Layer::star(
-        place,
-        &format!("paper's case, ts/{steps}{says}"),
-    ));
 }
 
 /// Draws the three maps.
@@ -226,25 +221,17 @@ fn explicit(
     });
     let stable = line(columns, Converged::stable_step);
     figure.line("theory: h k/Z = 2", Style::Heavy, stable);
+    let complex = "theory: roots turn complex, h k/Z = 0.34";
     let smooth = line(columns, Converged::smooth_step);
-    figure.line(
-        "theory: roots turn complex, h k/Z = 0.34",
-        Style::Dotted,
-        smooth,
-    );
+    figure.line(complex, Style::Dotted, smooth);
     let gain = line(columns, |exact| exact.summary.loss / exact.gain);
     figure.line("theory: gain = radiated loss", Style::HeavyDashed, gain);
     let mut told = Vec::new();
-    for n in PAPER_STEPS {
-        let step = paper.summary.contact_time / n;
+    for (label, place, step) in paper_steps(paper) {
         let (_, found) = march_explicit(&paper.disc, step)?;
-        mark(
-            &mut figure,
-            paper,
-            n,
-            &format!(": e = {:.4}", found.restitution),
-        );
-        told.push([found.restitution, paper.explicit_restitution(step)].map(|e| format!("{e:.4}")));
+        let [found, theory] = [found.restitution, paper.explicit_restitution(step)];
+        figure.add(Layer::star(place, &format!("{label}: e = {found:.4}")));
+        told.push([found, theory].map(|e| format!("{e:.4}")));
     }
     figure.caption = format!(
         "The paper's case (E = 129 GPa) has a restitution of {:.5} when it is converged. \
@@ -267,18 +254,15 @@ fn implicit(map: &Map<'_>, columns: &[(f64, Converged<'_>)], paper: &Converged<'
         let grows = steps.iter().filter(|y| growth(**y) > 1.0);
         growing.extend(grows.map(|&y| (*x, y)));
     }
-    figure.line(
-        "theory: a root of the weights beyond 1",
-        Style::Dots,
-        growing,
-    );
+    let root = "theory: a root of the weights beyond 1";
+    figure.line(root, Style::Dots, growing);
     let fewest = "eight samples in contact, the fewest that are interpolated";
     let step = line(columns, |exact| exact.summary.contact_time / 8.0);
     figure.line(fewest, Style::Dotted, step);
     let cells = figure.points().into_iter();
     let gains = cells.filter(|(class, ..)| *class == OUTCOMES[2]).count();
-    for n in PAPER_STEPS {
-        mark(&mut figure, paper, n, "");
+    for (label, place, _) in paper_steps(paper) {
+        figure.add(Layer::star(place, &label));
     }
     figure.caption = format!(
         "The implicit march gains energy in {gains} cells of this plane, and with fewer than eight samples in \
@@ -304,11 +288,9 @@ pub(super) fn linear_growth(disc: &FixedDisc<'_>, stiffness: f64, step: f64) -> 
     let mut growth = 0.0;
     for n in 0..STEPS {
         let m = p.len();
-        let past: f64 = lag[1..]
-            .iter()
-            .enumerate()
-            .map(|(j, g)| g * (p[m - 1 - j] - p[m - 2 - j]))
-            .sum();
+        let terms = lag[1..].iter().enumerate();
+        let past = terms.map(|(j, g)| g * (p[m - 1 - j] - p[m - 2 - j]));
+        let past: f64 = past.sum();
         p.push(disc.coupling * (past - lag[0] * p[m - 1]) / own);
         p.remove(0);
         let size = p.iter().fold(0.0_f64, |a, v| a.max(v.abs()));
@@ -341,8 +323,7 @@ pub(super) fn dynamic_is_solved(disc: &FixedDisc<'_>, step: f64) -> bool {
 }
 
 /// The largest argument that a condition allows, which it does below and not above; relative to 1e-9.
-pub(super) fn bisected(low: f64, high: f64, allows: impl Fn(f64) -> bool) -> f64 {
-    let (mut low, mut high) = (low, high);
+pub(super) fn bisected(mut low: f64, mut high: f64, allows: impl Fn(f64) -> bool) -> f64 {
     for _ in 0..60 {
         let middle = 0.5 * (low + high);
         if allows(middle) {

@@ -63,30 +63,29 @@ impl ModelErrors {
 
 /// The largest error of a model's results, or infinite where it is beyond its bounds.
 fn error(is_allowed: bool, found: &Summary, exact: &Summary) -> f64 {
-    if is_allowed {
-        sizes(&errors(found, exact))[0]
-    } else {
-        f64::INFINITY
-    }
+    let error = sizes(&errors(found, exact))[0];
+    if is_allowed { error } else { f64::INFINITY }
 }
 
-/// The planes at one Poisson ratio: of contacts that follow the load ([`Family::Growing`]), and of the paper's disc with
-/// other groups ([`Family::Full`]).
+/// The plane of a family at one Poisson ratio: of contacts that follow the load ([`Family::Growing`]), or of the paper's
+/// disc with other groups ([`Family::Full`]).
 pub(super) struct Plane {
+    family: Family,
     centre: SurfaceResponse,
     waves: PunchWaves,
 }
 
 impl Plane {
-    pub(super) fn new(poisson_ratio: f64) -> Result<Self, AnyError> {
+    pub(super) fn new(family: Family, poisson_ratio: f64) -> Result<Self, AnyError> {
         let medium = Medium::new(poisson_ratio)?;
         Ok(Self {
+            family,
             waves: PunchWaves::new(&medium),
             centre: SurfaceResponse::new(&medium, Deflection::Centre),
         })
     }
 
-    /// The contact that follows the load at a place of its plane.
+    /// A contact that follows the load.
     pub(super) fn growing(&self, share: f64, memory: f64) -> GrowingContact<'_> {
         GrowingContact {
             waves: &self.waves,
@@ -95,7 +94,7 @@ impl Plane {
         }
     }
 
-    /// The disc at a place of its plane.
+    /// A disc.
     fn disc(&self, coupling: f64, memory: f64) -> FixedDisc<'_> {
         FixedDisc {
             response: &self.centre,
@@ -106,8 +105,8 @@ impl Plane {
     }
 
     /// What `auto` chooses by, as it forms them.
-    fn groups(&self, family: Family, deflection: f64, memory: f64) -> Groups {
-        let (wave_time, memory) = if family == Family::Full {
+    fn groups(&self, deflection: f64, memory: f64) -> Groups {
+        let (wave_time, memory) = if self.family == Family::Full {
             let disc = self.disc(deflection, memory);
             (disc.wave_time, disc.memory())
         } else {
@@ -115,7 +114,7 @@ impl Plane {
             (wave_time, memory * CONTACT_TIME)
         };
         Groups {
-            family,
+            family: self.family,
             coupling: deflection,
             lag: deflection * wave_time * self.centre.relaxation_time(),
             memory,
@@ -123,22 +122,19 @@ impl Plane {
     }
 
     /// What `auto` chooses at a place.
-    pub(super) fn chosen(&self, family: Family, place: [f64; 2], tolerance: f64) -> Rung {
+    pub(super) fn chosen(&self, deflection: f64, memory: f64, tolerance: f64) -> Rung {
         let asked = Accuracy::of_contact(tolerance, None);
-        let [deflection, memory] = place;
-        self.groups(family, deflection, memory).choose(&asked).0
+        self.groups(deflection, memory).choose(&asked).0
     }
 
     /// Largest memory, up to 1e3, at which `auto` has not yet left a rung for the next.
-    pub(super) fn boundary(
-        &self,
-        family: Family,
-        deflection: f64,
-        tolerance: f64,
-        leaves: Rung,
-    ) -> f64 {
-        let low: f64 = if family == Family::Full { 1e-12 } else { 1e-9 };
-        let stays = |memory: f64| match self.chosen(family, [deflection, memory.exp()], tolerance) {
+    pub(super) fn boundary(&self, deflection: f64, tolerance: f64, leaves: Rung) -> f64 {
+        let low: f64 = if self.family == Family::Full {
+            1e-12
+        } else {
+            1e-9
+        };
+        let stays = |memory: f64| match self.chosen(deflection, memory.exp(), tolerance) {
             Rung::QuasiStatic => true,
             Rung::Radiation | Rung::AreaDashpot => leaves != Rung::QuasiStatic,
             Rung::FullMemory => false,
@@ -146,19 +142,37 @@ impl Plane {
         bisected(low.ln(), 1e3_f64.ln(), stays).exp()
     }
 
-    /// Errors of the cheaper models against the growing contact with `steps` steps over Hertz's contact time.
-    ///
-    /// Where that is too coarse to hold the start of a very fast contact the step is halved, as step control does.
+    /// Errors of the cheaper models: against the growing contact with `steps` steps over Hertz's contact time, or against
+    /// the implicit march of a disc, which finds its own.
     pub(super) fn errors(
         &self,
-        share: f64,
+        deflection: f64,
         memory: f64,
         steps: usize,
     ) -> Result<ModelErrors, MarchError> {
-        let growing = self.growing(share, memory);
+        let is_disc = self.family == Family::Full;
+        // a growing contact has all of its compliance from the half-space at most
+        let deflection = deflection.min(if is_disc { f64::INFINITY } else { 1.0 });
+        let groups = self.groups(deflection, memory);
+        let lag_is_allowed = groups.first_order_loss() <= LOSS * LARGEST_LAG;
+        if is_disc {
+            let disc = self.disc(deflection, memory);
+            let accuracy = Accuracy::of_contact(ACCURACY, None);
+            let first = quasi_static(deflection).0.contact_time / accuracy.first_steps();
+            let exact = refine(|step| march_implicit(&disc, step), first, accuracy)?.summary;
+            let with_loss = |lag| quasi_static_radiation(deflection, lag);
+            return Ok(ModelErrors {
+                quasi_static: error(true, &with_loss(0.0), &exact),
+                radiation: error(lag_is_allowed, &with_loss(groups.lag), &exact),
+                dashpot: f64::INFINITY,
+                march: ACCURACY,
+            });
+        }
+        let growing = self.growing(deflection, memory);
         let summary = |step| Summary::new(&march_growing(&growing, step)?);
         let mut step = CONTACT_TIME / steps as f64;
         let mut found = summary(step);
+        // too coarse to hold the start of a very fast contact: halved, as step control does
         for _ in 0..MOST_HALVINGS {
             if matches!(found, Err(MarchError::StepTooLong { .. })) {
                 step *= 0.5;
@@ -167,64 +181,56 @@ impl Plane {
         }
         let exact = found?;
         let coarse = summary(2.0 * step);
-        let dashpot = AreaDashpot::new(share, growing.wave_time, &self.waves);
-        let groups = self.groups(Family::Growing, share, memory);
+        let dashpot = AreaDashpot::new(deflection, growing.wave_time, &self.waves);
         let is_allowed = left_out(dashpot.lag, groups.memory).contact() < 1.0;
         Ok(ModelErrors {
             quasi_static: error(true, &radiation(0.0), &exact),
-            radiation: error(groups.lag <= LARGEST_LAG, &radiation(groups.lag), &exact),
+            radiation: error(lag_is_allowed, &radiation(groups.lag), &exact),
             dashpot: error(is_allowed, &dashpot.summary(), &exact),
             march: coarse.map_or(f64::INFINITY, |coarse| error(true, &coarse, &exact)),
         })
     }
 
-    /// Errors of the cheaper models of a fixed disc against the implicit march.
-    pub(super) fn disc_errors(
+    /// A picture a tolerance: the cheapest model that meets it in each cell, the memory at which `auto` leaves some, and
+    /// what is added at a tolerance.
+    fn pictures(
         &self,
-        coupling: f64,
-        memory: f64,
-    ) -> Result<ModelErrors, MarchError> {
-        let disc = self.disc(coupling, memory);
-        let accuracy = Accuracy::of_contact(ACCURACY, None);
-        let first = quasi_static(coupling).0.contact_time / accuracy.first_steps();
-        let exact = refine(|step| march_implicit(&disc, step), first, accuracy)?.summary;
-        let groups = self.groups(Family::Full, coupling, memory);
-        let is_allowed = groups.first_order_loss() <= LOSS * LARGEST_LAG;
-        let with_loss = |lag| quasi_static_radiation(coupling, lag);
-        Ok(ModelErrors {
-            quasi_static: error(true, &with_loss(0.0), &exact),
-            radiation: error(is_allowed, &with_loss(groups.lag), &exact),
-            dashpot: f64::INFINITY,
-            march: ACCURACY,
-        })
-    }
-
-    /// The cheapest model that meets a tolerance in each cell, and the memory at which `auto` leaves some.
-    fn picture(
-        &self,
-        family: Family,
         map: &Map<'_>,
-        [name, what]: [&'static str; 2],
-        tolerance: f64,
-        errors: &[ModelErrors],
-    ) -> Picture {
-        let title = format!("{what} that meets {tolerance:.0e}");
-        let last = map.classes.len() - 1;
-        let class = |cell: usize, _| errors[cell].cheapest(tolerance).min(last);
-        let mut figure = map.picture(name, &title, class);
-        let (points, leaves) = if family == Family::Full {
+        names: [&'static str; 3],
+        steps: usize,
+        advance: &dyn Fn(),
+        add: impl Fn(&mut Picture, f64) -> Result<(), AnyError>,
+    ) -> Result<Vec<Picture>, AnyError> {
+        let (what, points, leaves) = if self.family == Family::Full {
             let loss = ("auto leaves the first-order loss", Rung::Radiation);
-            (60, [("auto leaves two springs", Rung::QuasiStatic), loss])
+            let leaves = [("auto leaves two springs", Rung::QuasiStatic), loss];
+            ("Cheapest model of the paper's fixed disc", 60, leaves)
         } else {
             let dashpot = ("auto leaves the area dashpot", Rung::AreaDashpot);
-            (40, [("auto leaves hertz", Rung::QuasiStatic), dashpot])
+            let leaves = [("auto leaves hertz", Rung::QuasiStatic), dashpot];
+            ("Cheapest model", 40, leaves)
         };
-        let styles = [Style::Heavy, Style::HeavyDashed];
-        for ((label, rung), style) in leaves.into_iter().zip(styles) {
-            let memory = |x| self.boundary(family, x, tolerance, rung);
-            figure.line(label, style, map.line(points, memory));
+        let mut errors = Vec::new();
+        for memory in map.plane[1].cells(map.shape[1]) {
+            for deflection in map.columns() {
+                errors.push(self.errors(deflection, memory, steps)?);
+            }
+            advance();
         }
-        figure
+        let last = map.classes.len() - 1;
+        let pictures = names.into_iter().zip(TOLERANCES).map(|(name, tolerance)| {
+            let title = format!("{what} that meets {tolerance:.0e}");
+            let class = |cell: usize, _| errors[cell].cheapest(tolerance).min(last);
+            let mut figure = map.picture(name, &title, class);
+            let styles = [Style::Heavy, Style::HeavyDashed];
+            for ((label, rung), style) in leaves.into_iter().zip(styles) {
+                let memory = |x| self.boundary(x, tolerance, rung);
+                figure.line(label, style, map.line(points, memory));
+            }
+            add(&mut figure, tolerance)?;
+            Ok(figure)
+        });
+        pictures.collect()
     }
 }
 
@@ -249,72 +255,39 @@ pub(super) fn targets() -> impl Iterator<Item = &'static str> {
 /// The ordinate of both planes.
 const MEMORY: &str = "memory over contact time";
 
-/// The errors of the models in each cell of a map.
-fn computed(
-    map: &Map<'_>,
-    at: impl Fn(f64, f64) -> Result<ModelErrors, MarchError>,
-    advance: &dyn Fn(),
-) -> Result<Vec<ModelErrors>, AnyError> {
-    let (columns, mut errors) = (map.columns(), Vec::new());
-    for memory in map.plane[1].cells(map.shape[1]) {
-        for &deflection in &columns {
-            errors.push(at(deflection, memory)?);
-        }
-        advance();
-    }
-    Ok(errors)
-}
-
 /// A picture a tolerance for contacts that follow the load, then for the paper's disc.
 pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Picture>, AnyError> {
-    let plane = Plane::new(0.3)?;
-    let mut figures = growing_figures(&plane, effort, advance)?;
-    figures.extend(disc_figures(&plane, effort)?);
+    let mut figures = growing_figures(effort, advance)?;
+    figures.extend(disc_figures(effort)?);
     advance();
     Ok(figures)
 }
 
-fn growing_figures(
-    plane: &Plane,
-    effort: Effort,
-    advance: &dyn Fn(),
-) -> Result<Vec<Picture>, AnyError> {
+fn growing_figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Picture>, AnyError> {
+    let plane = Plane::new(Family::Growing, 0.3)?;
     let shape = effort.pick([12, 14], [32, 40]);
-    let [x, y] = [[0.01, 1.15], [1e-4, 3.0]].map(|[low, high]| Interval::logarithmic(low, high));
+    let [x, y] = [(0.01, 1.15), (1e-4, 3.0)].map(|(low, high)| Interval::logarithmic(low, high));
+    let share = "static deflection of the half-space over indentation";
+    let unsettled = "growing, not yet converged to 1e-2";
     let map = Map {
         plane: [x, y],
-        quantities: [
-            "static deflection of the half-space over indentation",
-            MEMORY,
-        ],
+        quantities: [share, MEMORY],
         shape,
-        classes: &[
-            "hertz",
-            "radiation",
-            "area dashpot",
-            "growing",
-            "growing, not yet converged to 1e-2",
-        ],
+        classes: &["hertz", "radiation", "area dashpot", "growing", unsettled],
     };
     let steps = effort.pick(128, 192);
-    // the half-space has all of the compliance at most
-    let at = |share: f64, memory| plane.errors(share.min(1.0), memory, steps);
-    let errors = computed(&map, at, advance)?;
     // `auto`'s estimate of what hertz leaves out over the error found, in the middle of the plane
     let [i, k] = shape.map(|cells| cells / 2);
-    let groups = plane.groups(Family::Growing, x.cells(shape[0])[i], y.cells(shape[1])[k]);
-    let (_, estimate) = groups.choose(&Accuracy::of_contact(f64::INFINITY, None));
-    let ratio = estimate / errors[k * shape[0] + i].quasi_static;
-    let mut figures = Vec::new();
+    let (share, memory) = (x.cells(shape[0])[i], y.cells(shape[1])[k]);
+    let any = Accuracy::of_contact(f64::INFINITY, None);
+    let (_, estimate) = plane.groups(share, memory).choose(&any);
+    let ratio = estimate / plane.errors(share, memory, steps)?.quasi_static;
     let names = ["models-1e-2", "models-1e-3", "models-1e-4"];
-    for (name, tolerance) in names.into_iter().zip(TOLERANCES) {
-        let words = [name, "Cheapest model"];
-        let mut figure = plane.picture(Family::Growing, &map, words, tolerance, &errors);
+    plane.pictures(&map, names, steps, advance, |figure, tolerance| {
         for speed in SPEEDS_M_S {
             let places = targets().map(|target| place_of(target, speed));
-            let places = places.collect::<Result<_, _>>()?;
             let label = format!("steel ball on each material, {speed} m/s");
-            figure.line(&label, Style::Points, places);
+            figure.line(&label, Style::Points, places.collect::<Result<_, _>>()?);
         }
         figure.caption = format!(
             "Regions are computed: each model against the converged growing contact, largest error of peak force, \
@@ -324,29 +297,22 @@ fn growing_figures(
              and step control refuses it. `auto` never takes a model that misses, and its estimate for hertz is {ratio:.1} times the error \
              found in the middle of the plane."
         );
-        figures.push(figure);
-    }
-    Ok(figures)
+        Ok(())
+    })
 }
 
-fn disc_figures(plane: &Plane, effort: Effort) -> Result<Vec<Picture>, AnyError> {
+fn disc_figures(effort: Effort) -> Result<Vec<Picture>, AnyError> {
+    let plane = Plane::new(Family::Full, 0.3)?;
     let response = &plane.centre;
     let paper = paper_disc(TABLE_1_PA, response)?;
     let map = Map {
-        plane: [
-            Interval::logarithmic(1e-3, 10.0),
-            Interval::logarithmic(1e-4, 1.0),
-        ],
+        plane: [[1e-3, 10.0], [1e-4, 1.0]].map(|[low, high]| Interval::logarithmic(low, high)),
         quantities: ["static deflection over indentation (coupling)", MEMORY],
         shape: effort.pick([14, 12], [40, 40]),
         classes: &["two springs", "two springs and first-order loss", "wave"],
     };
-    let at = |coupling, memory| plane.disc_errors(coupling, memory);
-    let errors = computed(&map, at, &|| ())?;
     let names = ["models-disc-1e-2", "models-disc-1e-3", "models-disc-1e-4"];
-    let figures = names.into_iter().zip(TOLERANCES).map(|(name, tolerance)| {
-        let words = [name, "Cheapest model of the paper's fixed disc"];
-        let mut figure = plane.picture(Family::Full, &map, words, tolerance, &errors);
+    plane.pictures(&map, names, 0, &|| (), |figure, tolerance| {
         // half of the first-order loss is the error of the restitution of two springs
         let loss = 2.0 * tolerance;
         let theory = map.line(60, |coupling| {
@@ -363,7 +329,6 @@ fn disc_figures(plane: &Plane, effort: Effort) -> Result<Vec<Picture>, AnyError>
              order in the memory, and then by their shape. Regions are computed against the implicit march; the lines \
              are where `auto` changes model at a tolerance of {tolerance:.0e}."
         );
-        figure
-    });
-    Ok(figures.collect())
+        Ok(())
+    })
 }

@@ -243,7 +243,7 @@ fn nearly_incompressible_solids_keep_their_digits() {
 
 #[test]
 fn auto_never_takes_a_model_that_misses_the_map() {
-    let plane = Plane::new(0.3).unwrap();
+    let plane = Plane::new(Family::Growing, 0.3).unwrap();
     let mut cheap = 0;
     for share in [0.02, 0.1, 0.3, 0.6, 1.0] {
         for memory in [3e-4, 1e-3, 3e-3, 1e-2, 3e-2, 0.1, 0.3] {
@@ -251,7 +251,7 @@ fn auto_never_takes_a_model_that_misses_the_map() {
             for tolerance in TOLERANCES {
                 // the march itself is known to 2e-5
                 let allowed = 1.05 * tolerance + 2e-5;
-                match plane.chosen(Family::Growing, [share, memory], tolerance) {
+                match plane.chosen(share, memory, tolerance) {
                     Rung::QuasiStatic => assert!(
                         errors.quasi_static <= allowed,
                         "{share} {memory} {tolerance}: {errors:?}"
@@ -278,7 +278,7 @@ fn auto_never_takes_a_model_that_misses_the_map() {
 
 #[test]
 fn contacts_that_grow_faster_than_the_waves_are_refused_or_known_not_to_converge() {
-    let plane = Plane::new(0.3).unwrap();
+    let plane = Plane::new(Family::Growing, 0.3).unwrap();
     // at once separated: the step is too long
     let fast = plane.growing(1.0, 2.637);
     let history = march_growing(&fast, CONTACT_TIME / 192.0).unwrap();
@@ -297,12 +297,12 @@ fn contacts_that_grow_faster_than_the_waves_are_refused_or_known_not_to_converge
 #[test]
 fn auto_leaves_a_model_not_long_before_the_map_does() {
     // the last memory at which a model is taken, and twice and a half of it
-    let plane = Plane::new(0.3).unwrap();
+    let plane = Plane::new(Family::Growing, 0.3).unwrap();
     let mut seen = 0;
     for share in [0.03, 0.1, 0.3, 1.0] {
         for tolerance in TOLERANCES {
             for rung in [Rung::QuasiStatic, Rung::AreaDashpot] {
-                let memory = plane.boundary(Family::Growing, share, tolerance, rung);
+                let memory = plane.boundary(share, tolerance, rung);
                 if memory * CONTACT_TIME > 0.19 {
                     // as far as the expansion is trusted at all
                     continue;
@@ -322,15 +322,15 @@ fn auto_leaves_a_model_not_long_before_the_map_does() {
 
 #[test]
 fn auto_agrees_with_the_map_of_the_papers_disc() {
-    let plane = Plane::new(0.3).unwrap();
+    let plane = Plane::new(Family::Full, 0.3).unwrap();
     let mut cheap = [0, 0];
     for coupling in [3e-3, 0.03, 0.18, 0.8, 3.0] {
         for memory in [3e-4, 1e-3, 3e-3, 1e-2, 3e-2, 0.1] {
-            let errors = plane.disc_errors(coupling, memory).unwrap();
+            let errors = plane.errors(coupling, memory, 0).unwrap();
             for tolerance in TOLERANCES {
                 let allowed = 1.05 * tolerance + 2e-5;
                 let found = format!("{coupling} {memory} {tolerance}: {errors:?}");
-                match plane.chosen(Family::Full, [coupling, memory], tolerance) {
+                match plane.chosen(coupling, memory, tolerance) {
                     Rung::QuasiStatic => {
                         cheap[0] += 1;
                         assert!(errors.quasi_static <= allowed, "{found}");
@@ -350,7 +350,7 @@ fn auto_agrees_with_the_map_of_the_papers_disc() {
 #[test]
 fn built_in_materials_lie_where_auto_finds_them() {
     // a scene run through `auto` takes the model that the map shows at its place
-    let plane = Plane::new(0.29).unwrap();
+    let plane = Plane::new(Family::Growing, 0.29).unwrap();
     let steel = || Material::named("steel").unwrap();
     let block = HalfSpace::new(steel()).unwrap();
     let ball = Striker::ball(steel(), 0.005).unwrap();
@@ -365,7 +365,7 @@ fn built_in_materials_lie_where_auto_finds_them() {
         for tolerance in TOLERANCES {
             let impact = Impact::new(block.clone(), ball.clone(), speed).to_tolerance(tolerance);
             let model = impact.solve().unwrap().solved.plan.model;
-            let expected = match plane.chosen(Family::Growing, [share, memory], tolerance) {
+            let expected = match plane.chosen(share, memory, tolerance) {
                 Rung::QuasiStatic => Model::Hertz,
                 Rung::Radiation | Rung::AreaDashpot => Model::AreaDashpot,
                 Rung::FullMemory => Model::Growing,

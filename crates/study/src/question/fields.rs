@@ -12,7 +12,7 @@
 
 use super::kernels::{ALL, POISSON_RATIO};
 use crate::measure::{Effort, Run, Scene};
-use crate::record::{Question, Record, off};
+use crate::record::{Question, Record, off, peaks};
 use crate::scenes::Density;
 use fault::AnyError;
 use halfspace::gauss::Rule;
@@ -206,7 +206,6 @@ fn looked_up(
 }
 
 /// A pulse at a point and its exact response at a few times.
-#[derive(Debug)]
 struct PulseReference {
     place: [f64; 2],
     length: f64,
@@ -230,7 +229,7 @@ impl PulseReference {
         let last = (0.5 * length).max(arrivals.last()) + 0.7 * length;
         let stride = (last / every / count as f64).ceil().max(1.0);
         let times: Vec<f64> = (1..=count).map(|i| i as f64 * stride * every).collect();
-        let end = times.last().copied().unwrap_or(0.0);
+        let end = times[count - 1];
         let mut cuts = arrivals.sorted();
         cuts.extend([0.0, end]);
         // panels no longer than a sixteenth of the pulse
@@ -257,19 +256,18 @@ impl PulseReference {
                 }
             }
         }
-        let peak = std::array::from_fn(|f| exact.iter().fold(0.0_f64, |a, u| a.max(u[f].abs())));
         Ok(Self {
             place: [r, z],
             length,
             times,
+            peak: peaks(&exact),
             exact,
-            peak,
         })
     }
 
     /// The last of the times.
     fn end(&self) -> f64 {
-        self.times.last().copied().unwrap_or(1.0)
+        self.times[self.times.len() - 1]
     }
 
     /// Samples of the pulse so far apart, as many as are needed.
@@ -345,14 +343,9 @@ fn interpolations(
             for (a, &i) in across.nodes().iter().enumerate() {
                 for (d, &k) in down.nodes().iter().enumerate() {
                     let cells = series(&plan.compute(nodes[i], nodes[k])?, width, count);
-                    let weight = FIELDS.map(|field| {
-                        let radial = if field.is_odd_in_r() {
-                            across.odd()[a]
-                        } else {
-                            across.even()[a]
-                        };
-                        radial * down.even()[d]
-                    });
+                    let radial = [across.even()[a], across.odd()[a]];
+                    let parity = FIELDS.map(|field| usize::from(field.is_odd_in_r()));
+                    let weight = parity.map(|parity| radial[parity] * down.even()[d]);
                     corners.push((weight, cells, kernel.static_field(nodes[i], nodes[k])?));
                 }
             }

@@ -102,32 +102,26 @@ fn on_disc(scene: &mut Scene<'_, Summary>, disc: &FixedDisc<'_>) -> Result<(), A
         &[16, 64, 256],
         &[12, 16, 24, 32, 64, 128, 256, 512, 1024, 2048],
     ];
-    stepped(scene, "wave implicit", duration, steps, |step| {
-        measured(&march_implicit(disc, step)?, memory)
-    })?;
+    let implicit = |step| measured(&march_implicit(disc, step)?, memory);
+    stepped(scene, "wave implicit", duration, steps, implicit)?;
     for (method, order) in [
         ("implicit of order 1", Order::First),
         ("implicit of order 2", Order::Second),
     ] {
         let steps: [&[usize]; 2] = [&[32, 256], &[16, 64, 256, 1024, 4096]];
-        stepped(scene, method, duration, steps, |step| {
-            Ok(march(disc, step, order))
-        })?;
+        let march = |step| Ok(march(disc, step, order));
+        stepped(scene, method, duration, steps, march)?;
     }
     let steps: [&[usize]; 2] = [
         &[54, 200, 800],
         &[20, 54, 100, 200, 400, 800, 1600, 3200, 6400],
     ];
-    stepped(
-        scene,
-        "wave explicit (the paper's)",
-        duration,
-        steps,
-        |step| {
-            let (history, summary) = march_explicit(disc, step)?;
-            Ok((summary, Some(work(&history, memory))))
-        },
-    )?;
+    let explicit = |step| {
+        let (history, summary) = march_explicit(disc, step)?;
+        Ok((summary, Some(work(&history, memory))))
+    };
+    let method = "wave explicit (the paper's)";
+    stepped(scene, method, duration, steps, explicit)?;
     closed(scene, "hertz", "closed form", || radiation(black_box(0.0)))?;
     let lag = disc.coupling * disc.wave_time * disc.response.relaxation_time();
     for (method, lag) in [
@@ -202,9 +196,8 @@ fn to_tolerance(scene: &mut Scene<'_, Summary>, disc: &FixedDisc<'_>) -> Result<
             Ok((found.summary, Some(work)))
         };
         let method = "wave implicit, as in sweeps";
-        scene
-            .to_tolerance(method, tolerance, in_sweep)?
-            .default_path = true;
+        let row = scene.to_tolerance(method, tolerance, in_sweep)?;
+        row.default_path = true;
     }
     Ok(())
 }
@@ -245,9 +238,8 @@ fn following(
     closed(scene, "area dashpot", third, dashpot)?.default_path = true;
     let memory = growing.waves.memory() * growing.wave_time;
     let steps: [&[usize]; 2] = [&[16, 64], &[12, 16, 24, 32, 64, 128, 256, 512]];
-    stepped(scene, "growing", CONTACT_TIME, steps, |step| {
-        measured(&march_growing(growing, step)?, memory)
-    })?;
+    let march = |step| measured(&march_growing(growing, step)?, memory);
+    stepped(scene, "growing", CONTACT_TIME, steps, march)?;
     for tolerance in tolerances(3..=scene.effort.pick(4, 5)) {
         // what is left where the pieces do not serve
         let method = "growing, step halved to tolerance";

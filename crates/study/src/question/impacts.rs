@@ -6,7 +6,7 @@
 use super::fields;
 use super::kernels::POISSON_RATIO;
 use crate::measure::{Effort, Scene};
-use crate::record::{Question, Record};
+use crate::record::{Question, Record, peaks};
 use crate::scenes::Density;
 use contact::Model;
 use fault::AnyError;
@@ -67,9 +67,8 @@ pub(crate) fn measure(
             for &tolerance in tolerances.iter().filter(|_| probed.is_within(&table)) {
                 let source = KernelSource::Table(table.clone());
                 let run = || Ok((probed.fields(tolerance, source.clone())?, None));
-                scene
-                    .to_tolerance("looked up", tolerance, run)?
-                    .default_path = true;
+                let row = scene.to_tolerance("looked up", tolerance, run)?;
+                row.default_path = true;
             }
         }
         advance();
@@ -87,33 +86,23 @@ fn scenes() -> Result<Vec<Probed>, AnyError> {
         ("growing contact, far", 10.0, &growing, [0.08, 0.06]),
     ];
     let probed = scenes.map(|(name, velocity_m_s, impact, place_m)| {
-        let impact = Impact {
-            velocity_m_s,
-            ..impact.clone()
+        let mut impact = impact.clone().to_tolerance(CONVERGED);
+        impact.velocity_m_s = velocity_m_s;
+        let mut probed = Probed {
+            name,
+            reference: impact.solve()?.excitation().clone(),
+            impact,
+            place_m,
+            peaks: [0.0; 6],
         };
-        Probed::new(name, impact, place_m)
+        let fields = probed.computed(1e-5)?.into_iter().map(|(_, fields)| fields);
+        probed.peaks = peaks(&fields.collect::<Vec<_>>());
+        Ok(probed)
     });
     probed.into_iter().collect()
 }
 
 impl Probed {
-    fn new(name: &'static str, impact: Impact, place_m: [f64; 2]) -> Result<Self, AnyError> {
-        let run = impact.clone().to_tolerance(CONVERGED).solve()?;
-        let mut scene = Self {
-            name,
-            impact,
-            place_m,
-            reference: run.excitation().clone(),
-            peaks: [0.0; 6],
-        };
-        for (_, fields) in scene.computed(1e-5)? {
-            for (peak, value) in scene.peaks.iter_mut().zip(fields) {
-                *peak = peak.max(value.abs());
-            }
-        }
-        Ok(scene)
-    }
-
     fn is_within(&self, table: &Table) -> bool {
         let radius_m = self.reference.units().disc_radius_m;
         let [r, z] = self.place_m.map(|x| x / radius_m);

@@ -5,16 +5,14 @@
 
 use crate::inversion::Inversion;
 use crate::measure::{Effort, Scene};
-use crate::record::{Question, Record, off, sizes};
+use crate::record::{Question, Record, off, peaks, sizes};
 use crate::scenes::Density;
 use fault::AnyError;
 use halfspace::{Arrivals, Deflection, Kernel, Medium, Profile, Six, SurfaceResponse, kausel};
 use lookup::Smoothness;
-use std::cell::RefCell;
 use tabulator::Progress;
 
 /// A point, its times and the exact step responses there.
-#[derive(Debug, Clone)]
 pub(crate) struct KernelScene {
     pub(crate) name: &'static str,
     pub(crate) place: [f64; 2],
@@ -112,26 +110,20 @@ impl KernelScene {
             static_part: kernel.static_field(r, z)?,
             per_unit: 1.0,
         };
-        for &t in &scene.times {
-            let whole = scene.whole(kernel.remainder(r, z, t)?.value);
-            for (scale, value) in scene.scale.iter_mut().zip(whole) {
-                *scale = scale.max(value.abs());
-            }
-            scene.exact.push(whole);
-        }
+        scene.exact = scene.by_kernel(&kernel)?;
+        scene.scale = peaks(&scene.exact);
         Ok(scene)
-    }
-
-    /// The whole response of a remainder.
-    fn whole(&self, remainder: Six) -> Six {
-        std::array::from_fn(|f| (remainder[f] + self.static_part[f]) * self.per_unit)
     }
 
     /// The values by the program's kernel.
     pub(crate) fn by_kernel(&self, kernel: &Kernel) -> Result<Vec<Six>, AnyError> {
         let [r, z] = self.place;
-        let value = |&t: &f64| Ok(self.whole(kernel.remainder(r, z, t)?.value));
-        self.times.iter().map(value).collect()
+        let whole = |&t: &f64| {
+            let remainder = kernel.remainder(r, z, t)?.value;
+            let whole = |f: usize| (remainder[f] + self.static_part[f]) * self.per_unit;
+            Ok(std::array::from_fn(whole))
+        };
+        self.times.iter().map(whole).collect()
     }
 
     /// The values of w alone.
@@ -231,18 +223,18 @@ fn tables(
             exact_kernel
                 .trace(r, z, count as f64 * width)?
                 .for_each_cell(width, count, |j, [average, ..]| exact[j] = average)?;
-            let cells = RefCell::new(vec![[0.0; 6]; count]);
             let (nu, linear) = (medium.poisson_ratio(), Smoothness::Linear);
             let run = || {
-                table.trace(linear, nu, r, z, 0, &mut cells.borrow_mut())?;
-                Ok(((), Some(0)))
+                let mut cells = vec![[0.0; 6]; count];
+                table.trace(linear, nu, r, z, 0, &mut cells)?;
+                Ok((cells, Some(0)))
             };
             let mut rows = Scene {
                 effort,
                 question: Question::Kernels,
                 name: scene.name,
                 values: count as f64,
-                errors: &|(): &()| Ok(off(&cells.borrow(), &exact, &scene.scale, &ALL)),
+                errors: &|cells: &Vec<Six>| Ok(off(cells, &exact, &scene.scale, &ALL)),
                 records: &mut *records,
             };
             let setting = format!("{}, {points} points", density.label());
