@@ -20,8 +20,11 @@ pub fn csv_file<const N: usize>(
     for row in rows {
         writer.write_record(row)?;
     }
-    let bytes = writer.into_inner().map_err(|error| error.into_error())?;
-    Ok((name.to_owned(), bytes))
+    let bytes = writer.into_inner();
+    Ok((
+        name.to_owned(),
+        bytes.map_err(csv::IntoInnerError::into_error)?,
+    ))
 }
 
 /// A figure as SVG and as PNG.

@@ -74,9 +74,11 @@ impl Redone {
             "## Numbers\n".to_owned(),
         ];
         for section in &self.numbers.sections {
-            lines.push(format!("### {}\n", section.title));
-            lines.push("| where | what | paper | this program | difference | why |".to_owned());
-            lines.push("|---|---|---|---|---|---|".to_owned());
+            let head = "| where | what | paper | this program | difference | why |";
+            lines.push(format!(
+                "### {}\n\n{head}\n|---|---|---|---|---|---|",
+                section.title
+            ));
             lines.extend(section.rows.iter().map(|row| {
                 let [paper, here, difference] = row.told();
                 let unit = if row.unit.is_empty() { "" } else { " " }.to_owned() + row.unit;

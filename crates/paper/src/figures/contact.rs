@@ -71,47 +71,44 @@ pub(super) fn history(runs: &Runs) -> Redrawn {
 
 fn symmetry(runs: &Runs) -> Vec<Claim> {
     let share = |run: &Run| run.peak_force_time_s / run.contact_time_s;
-    let (hertz, coupled) = (share(&runs.hertz_printed), share(&runs.table_1));
-    let mut speeds = motion(&runs.table_1, |m| m.velocity_m_s).into_iter();
+    let table_1 = &runs.table_1;
+    let (hertz, coupled) = (share(&runs.hertz_printed), share(table_1));
+    let mut speeds = motion(table_1, |m| m.velocity_m_s).into_iter();
     let turn_s = speeds.find(|(_, v)| *v <= 0.0).map_or(f64::NAN, |(t, _)| t);
     // h - w at the end of contact over the largest h
-    let end = runs
-        .table_1
-        .excitation()
-        .motion(runs.table_1.contact_time_s);
-    let closes = end.map_or(f64::NAN, |m| {
-        (m.displacement_m - m.deflection_m).abs() / runs.table_1.peak_displacement_m
-    });
+    let end = table_1.excitation().motion(table_1.contact_time_s);
+    let open_m = end.map_or(f64::NAN, |m| (m.displacement_m - m.deflection_m).abs());
+    let closes = open_m / table_1.peak_displacement_m;
     vec![
-        Claim::new(
-            "P(t) is symmetrical about t's, with ts = 2 t's",
-            (coupled - 0.5).abs() < 0.01,
-            format!(
+        Claim {
+            says: "P(t) is symmetrical about t's, with ts = 2 t's",
+            holds: (coupled - 0.5).abs() < 0.01,
+            found: format!(
                 "the peak comes at {coupled:.4} of the contact time, Hertz's at {hertz:.4}: what the waves take away makes the rise a little shorter than the fall"
             ),
-        ),
-        Claim::new(
-            "the speed drops to zero at t's",
-            (turn_s / runs.table_1.peak_force_time_s - 1.0).abs() < 0.02,
-            format!(
+        },
+        Claim {
+            says: "the speed drops to zero at t's",
+            holds: (turn_s / table_1.peak_force_time_s - 1.0).abs() < 0.02,
+            found: format!(
                 "the rod turns at {:.2} us, the force peaks at {:.2} us",
                 1e6 * turn_s,
-                1e6 * runs.table_1.peak_force_time_s
+                1e6 * table_1.peak_force_time_s
             ),
-        ),
-        Claim::new(
-            "h - w = 0 when the force has fallen to zero",
-            closes < 1e-3,
-            format!("{closes:.0e} of the largest h"),
-        ),
-        Claim::new(
-            "the restitution hardly depends on speed and size",
-            false,
-            format!(
+        },
+        Claim {
+            says: "h - w = 0 when the force has fallen to zero",
+            holds: closes < 1e-3,
+            found: format!("{closes:.0e} of the largest h"),
+        },
+        Claim {
+            says: "the restitution hardly depends on speed and size",
+            holds: false,
+            found: format!(
                 "the loss 1 - e^2 of {:.4} grows with the speed to the power 3/5 for a contact that follows the load; 0.991 is a time-step error",
-                runs.table_1.loss
+                table_1.loss
             ),
-        ),
+        },
     ]
 }
 
@@ -140,12 +137,12 @@ pub(super) fn stress(runs: &Runs) -> Redrawn {
             panel,
         ),
         caption: "S is the area of the rod, not of the contact.",
-        claims: vec![Claim::new(
-            "the stress is significantly higher than the tensile strength",
-            mean_ry > 1.0,
-            format!(
+        claims: vec![Claim {
+            says: "the stress is significantly higher than the tensile strength",
+            holds: mean_ry > 1.0,
+            found: format!(
                 "14 times the tensile strength and {mean_ry:.0} times the yield point of Table 1 on average over the rod's section: at {VELOCITY_M_S:.0} m/s the linear elastic model is used far outside its range, as the paper says itself"
             ),
-        )],
+        }],
     }
 }

@@ -62,13 +62,13 @@ pub(super) fn on_radius() -> Result<Redrawn, AnyError> {
             panel,
         ),
         caption: "The radius is that of the rod, its tip and the disc; the mass stays.",
-        claims: vec![Claim::new(
-            "Kmax goes as r0 to the power -9/5",
-            (of_hertz + 1.8).abs() < 1e-6,
-            format!(
+        claims: vec![Claim {
+            says: "Kmax goes as r0 to the power -9/5",
+            holds: (of_hertz + 1.8).abs() < 1e-6,
+            found: format!(
                 "{of_hertz:.4} for Hertz; coupled with the half-space {of_block:.3} between 2 and 12 mm, because the disc's static deflection stiffens with its radius"
             ),
-        )],
+        }],
     })
 }
 
@@ -128,10 +128,8 @@ pub(super) fn on_step() -> Result<Redrawn, AnyError> {
         let mut panel = Panel::new(step, axis).height(210.0).legend(Legend::Outside);
         for (copper, found) in [("123", &table_1), ("129", &printed)] {
             let name = &format!("copper of {copper} GPa");
-            let points = found
-                .iter()
-                .map(|(step_s, values)| (1e6 * step_s, values[k]));
-            panel = panel.line(name, Style::Plain, points.collect());
+            let point = |(step_s, values): &Found| (1e6 * step_s, values[k]);
+            panel = panel.line(name, Style::Plain, found.iter().map(point).collect());
         }
         let level = ends.map(|step_us| (step_us, PRINTED[k].0));
         panel = panel.line("printed", Style::HeavyDashed, level.to_vec());
@@ -161,22 +159,22 @@ fn of_steps(table_1: &[Found], printed: &[Found]) -> Vec<Claim> {
     };
     let [first, last] = [0, printed.len() - 1].map(|i| printed[i].1[2]);
     vec![
-        Claim::new(
-            "Kmax = 14.11, ts = 27.0 us and Rf = 0.991 together",
-            printed.iter().any(|found| gives_all(&found)),
-            format!(
+        Claim {
+            says: "Kmax = 14.11, ts = 27.0 us and Rf = 0.991 together",
+            holds: printed.iter().any(|found| gives_all(&found)),
+            found: format!(
                 "all three to their digits with {} and copper of 129 GPa, {} and 123 GPa, of {} steps each",
                 fitting(printed),
                 fitting(table_1),
                 printed.len()
             ),
-        ),
-        Claim::new(
-            "the restitution is 0.991",
-            [first, last].iter().all(|e| (e - 0.991).abs() < 5e-4),
-            format!(
+        },
+        Claim {
+            says: "the restitution is 0.991",
+            holds: [first, last].iter().all(|e| (e - 0.991).abs() < 5e-4),
+            found: format!(
                 "{first:.4} with the smallest step, {last:.4} with the largest: it follows the step"
             ),
-        ),
+        },
     ]
 }

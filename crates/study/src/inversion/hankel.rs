@@ -78,8 +78,17 @@ impl Hankel {
             return s.iter().map(|&s| self.continued(s)).collect();
         }
         let widest = s.iter().map(|s| s.im.abs()).fold(0.0, f64::max);
-        let shared = self.nodes(least, widest);
-        s.iter().map(|&s| self.step(&shared, s)).collect()
+        let nodes = self.nodes(least, widest);
+        let at = |&s: &Complex64| {
+            let end = s.im.abs() * self.slowest + self.reach() + 4.0 * s.re;
+            let needed = nodes.iter().take_while(|(k, _)| *k <= end);
+            let mut sum = [Complex64::default(); 6];
+            for &(k, bessel) in needed {
+                self.add(&mut sum, k.into(), s, bessel.map(Complex64::from));
+            }
+            sum.map(|v| v / s)
+        };
+        s.iter().map(at).collect()
     }
 
     /// k beyond which e^{-k z} has decayed.
@@ -108,17 +117,6 @@ impl Hankel {
             from = to;
         }
         nodes
-    }
-
-    /// Step response of the six fields at s, Re s > 0.
-    fn step(&self, nodes: &[Node], s: Complex64) -> [Complex64; 6] {
-        let end = s.im.abs() * self.slowest + self.reach() + 4.0 * s.re;
-        let count = nodes.partition_point(|&(k, _)| k <= end);
-        let mut sum = [Complex64::default(); 6];
-        for &(k, bessel) in &nodes[..count] {
-            self.add(&mut sum, k.into(), s, bessel.map(Complex64::from));
-        }
-        sum.map(|v| v / s)
     }
 
     /// Step response at any s with Im s >= 0, continued through the imaginary axis.

@@ -13,7 +13,7 @@ mod framework;
 mod hankel;
 mod series;
 
-use crate::measure::Effort;
+use crate::measure::{Effort, Run};
 use framework::{euler, invert, stehfest, talbot};
 use halfspace::{Medium, Six};
 use hankel::Hankel;
@@ -129,9 +129,10 @@ impl Inversion {
 
     /// Step responses at ascending times, and the integrand evaluations they took; at the centre of the surface only
     /// w over its static value.
-    pub(crate) fn run(&self, medium: &Medium, place: [f64; 2], times: &[f64]) -> (Vec<Six>, u64) {
+    pub(crate) fn run(&self, medium: &Medium, place: [f64; 2], times: &[f64]) -> Run<Vec<Six>> {
         let hankel = Hankel::new(medium, place, self.digits);
-        ((self.invert)(&hankel, times), hankel.evaluations.get())
+        let values = (self.invert)(&hankel, times);
+        Ok((values, Some(hankel.evaluations.get())))
     }
 }
 

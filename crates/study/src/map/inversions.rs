@@ -39,7 +39,7 @@ pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Picture>
             Axis::logarithmic("largest error over the largest value").range(1e-16, 10.0),
         );
         for method in Inversion::pictured(effort) {
-            let (values, _) = method.run(&medium, scene.place, &scene.times);
+            let (values, _) = method.run(&medium, scene.place, &scene.times)?;
             let label = format!("{}, {}", method.name, method.setting);
             figure.line(&label, Style::Plain, over_time(&scene, &values));
             advance();

@@ -141,19 +141,13 @@ pub(super) fn admittance(disc: &FixedDisc<'_>) -> f64 {
 /// Maxima of a force that stand out by 1e-4 of its largest value on both sides.
 fn maxima(force: &[f64]) -> usize {
     let least = 1e-4 * force.iter().fold(0.0_f64, |a, &p| a.max(p));
-    let (mut count, mut rising, mut turn) = (0, true, 0.0_f64);
+    // since the last turn the force rises or falls, by sign
+    let (mut count, mut sign, mut turn) = (0, 1.0_f64, 0.0_f64);
     for &p in force {
-        if rising {
-            turn = turn.max(p);
-            if p < turn - least {
-                count += 1;
-                (rising, turn) = (false, p);
-            }
-        } else {
-            turn = turn.min(p);
-            if p > turn + least {
-                (rising, turn) = (true, p);
-            }
+        turn = sign * (sign * turn).max(sign * p);
+        if sign * p < sign * turn - least {
+            count += usize::from(sign > 0.0);
+            (sign, turn) = (-sign, p);
         }
     }
     count

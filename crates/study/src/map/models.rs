@@ -246,10 +246,8 @@ pub(super) fn place_of(target: &str, velocity_m_s: f64) -> Result<(f64, f64), An
 /// Names of the built-in materials that can be a target: those with a density.
 pub(super) fn targets() -> impl Iterator<Item = &'static str> {
     let dense = |material: &&Material| material.density_kg_m3.is_some();
-    Library::built_in()
-        .iter()
-        .filter(dense)
-        .map(|material| &*material.name)
+    let known = Library::built_in().iter().filter(dense);
+    known.map(|material| &*material.name)
 }
 
 /// The ordinate of both planes.

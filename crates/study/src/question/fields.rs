@@ -20,7 +20,7 @@ use halfspace::{Arrivals, FIELDS, Kernel, Medium, Profile, Six};
 use impact::convolve::{Convolver, Method};
 use impact::kernels::{CellPlan, Cells, Pulse};
 use impact::{KernelSource, Place};
-use lookup::Smoothness::{self, Linear, Smooth};
+use lookup::Smoothness::{Linear, Smooth};
 use lookup::{PulseSum, Stencil};
 use std::f64::consts::PI;
 use tabulator::{Axis, PointPlan};
@@ -70,12 +70,12 @@ pub(crate) fn measure(
             errors: &|samples: &Vec<Six>| Ok(pulse.errors(samples)),
             records: &mut records,
         };
-        exact_cells(&medium, pulse, &mut rows)?;
+        exact_cells(pulse, &mut rows)?;
         advance();
         looked_up(densities, pulse, &mut rows)?;
         advance();
         rows.name = interpolation;
-        interpolations(&medium, pulse, &mut rows)?;
+        interpolations(pulse, &mut rows)?;
         advance();
     }
     Ok(records)
@@ -118,11 +118,8 @@ pub(crate) fn computed(
 }
 
 /// Cells computed for the point itself, for a force that is linear or smooth between samples.
-fn exact_cells(
-    medium: &Medium,
-    pulse: &PulseReference,
-    rows: &mut Scene<'_, Vec<Six>>,
-) -> Result<(), AnyError> {
+fn exact_cells(pulse: &PulseReference, rows: &mut Scene<'_, Vec<Six>>) -> Result<(), AnyError> {
+    let medium = Medium::new(POISSON_RATIO)?;
     let linear = "direct, linear cells";
     // method, smoothness, kernel tolerance and halvings of the step; the program's own tolerance goes with the scene's
     let settings: [(_, _, f64, [&[i32]; 2]); 4] = [
@@ -132,7 +129,7 @@ fn exact_cells(
         (linear, Linear, 1e-8, [&[3], &[0, 1, 2, 3, 4, 5]]),
     ];
     for (method, smoothness, tolerance, [quick, full]) in settings {
-        let source = KernelSource::direct(medium, tolerance)?;
+        let source = KernelSource::direct(&medium, tolerance)?;
         for &halvings in rows.effort.pick(quick, full) {
             let width = EVERY * 0.5_f64.powi(halvings);
             let force = pulse.force(width);
@@ -313,21 +310,17 @@ pub(crate) fn series(point: &tabulator::PointKernels, width: f64, count: usize) 
     };
     let whole = lookup::Series::new(width, point.averages.len(), numbers);
     let mut cells = vec![[0.0; 6]; count];
-    whole.fill(Smoothness::Smooth, 0, &mut cells);
+    whole.fill(Smooth, 0, &mut cells);
     cells
 }
 
 /// Interpolating the whole response against interpolating the remainder beside the exact static part: by the same stencils
 /// over the same exact kernels in double precision.
-fn interpolations(
-    medium: &Medium,
-    pulse: &PulseReference,
-    rows: &mut Scene<'_, Vec<Six>>,
-) -> Result<(), AnyError> {
+fn interpolations(pulse: &PulseReference, rows: &mut Scene<'_, Vec<Six>>) -> Result<(), AnyError> {
     let [r, z] = pulse.place;
     let width = 0.1;
     let count = pulse.force(width).len();
-    let plan = PointPlan::new(medium.poisson_ratio(), 1e-9, width, count + 4, 4)?;
+    let plan = PointPlan::new(POISSON_RATIO, 1e-9, width, count + 4, 4)?;
     let kernel = plan.kernel();
     let rest = kernel.static_field(r, z)?;
     let pulse = PulseSum::new(pulse.length, width);

@@ -136,9 +136,8 @@ impl Probed {
         let step_s = width * units.time_s();
         let end_s = self.end_s(excitation);
         let count = (end_s / step_s).ceil() as usize;
-        let force: Vec<f64> = (0..count)
-            .map(|n| excitation.force_n(n as f64 * step_s))
-            .collect();
+        let force = (0..count).map(|n| excitation.force_n(n as f64 * step_s));
+        let force: Vec<f64> = force.collect();
         let source = KernelSource::direct(excitation.medium(), 1e-8)?;
         let place = self.place_m.map(|x| x / units.disc_radius_m);
         let length = excitation.end_s() / units.time_s();
@@ -170,10 +169,9 @@ impl Probed {
             let Some((time, fields)) = found.get(after) else {
                 continue;
             };
-            let exact = self
-                .reference
-                .instant(self.place_m, *time, FIELDS_CONVERGED)?
-                .unwrap_or([f64::NAN; 6]);
+            let reference = &self.reference;
+            let exact = reference.instant(self.place_m, *time, FIELDS_CONVERGED)?;
+            let exact = exact.unwrap_or([f64::NAN; 6]);
             for f in 0..6 {
                 let error = (fields[f] - exact[f]).abs() / self.peaks[f].max(f64::MIN_POSITIVE);
                 errors[f] = errors[f].max(error);

@@ -90,9 +90,8 @@ impl KernelScene {
         let arrivals = Arrivals::new(medium, Profile::Hertz, r, z)?;
         // from before the first arrival to long after the last, even in the logarithm
         let (first, last) = (0.8 * arrivals.first().max(0.1), 8.0 * arrivals.last());
-        let mut times: Vec<f64> = (0..count)
-            .map(|i| first * (last / first).powf(i as f64 / (count - 1) as f64))
-            .collect();
+        let time = |i| first * (last / first).powf(i as f64 / (count - 1) as f64);
+        let mut times: Vec<f64> = (0..count).map(time).collect();
         for arrival in arrivals.sorted() {
             let both = |d: &f64| [arrival * (1.0 - d), arrival * (1.0 + d)];
             times.extend(near.iter().flat_map(both));
@@ -181,10 +180,8 @@ pub(crate) fn measure(
         }
         progress.advance(1);
         for inversion in &inversions {
-            rows.add(inversion.name, &inversion.setting, || {
-                let (values, work) = inversion.run(&medium, scene.place, &scene.times);
-                Ok((values, Some(work)))
-            })?;
+            let run = || inversion.run(&medium, scene.place, &scene.times);
+            rows.add(inversion.name, &inversion.setting, run)?;
             progress.advance(1);
         }
         if scene.place == [0.0, 0.0] {

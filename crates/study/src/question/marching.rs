@@ -37,18 +37,13 @@ pub(crate) fn march(impact: &FixedDisc<'_>, step: f64, order: Order) -> (Summary
     const MOST_STEPS: usize = 1_000_000;
     let cell = step / impact.wave_time;
     let cells = (impact.response.memory() / cell).ceil() as usize + 1;
-    let lag: Vec<f64> = (0..cells)
-        .map(|j| {
-            let (from, to) = (j as f64 * cell, (j + 1) as f64 * cell);
-            let response = impact.response;
-            match order {
-                Order::First => 1.0 - response.step(to),
-                Order::Second => {
-                    1.0 - (response.step_integral(to) - response.step_integral(from)) / cell
-                }
-            }
-        })
-        .collect();
+    let response = impact.response;
+    let followed = |from: f64, to: f64| match order {
+        Order::First => response.step(to),
+        Order::Second => (response.step_integral(to) - response.step_integral(from)) / cell,
+    };
+    let lag = |j: usize| 1.0 - followed(j as f64 * cell, (j + 1) as f64 * cell);
+    let lag: Vec<f64> = (0..cells).map(lag).collect();
     // what the newest force does to v h, and to d
     let (swing, push) = match order {
         Order::First => ([0.0, 1.0], [0.0, 0.5]),
@@ -63,9 +58,8 @@ pub(crate) fn march(impact: &FixedDisc<'_>, step: f64, order: Order) -> (Summary
     loop {
         let n = force.len();
         let before = force[n - 1];
-        let past: f64 = (1..cells.min(n))
-            .map(|j| lag[j] * (force[n - j] - force[n - j - 1]))
-            .sum();
+        let terms = (1..cells.min(n)).map(|j| lag[j] * (force[n - j] - force[n - j - 1]));
+        let past: f64 = terms.sum();
         work += cells.min(n) as u64;
         let free = d + step * v - inertia * push[0] * before;
         let known = impact.coupling * (lag[0] * before - past);
@@ -109,19 +103,15 @@ fn solve(a: f64, b: f64) -> f64 {
 
 /// Largest value of the parabola through the largest sample and its neighbours.
 fn peak(samples: &[f64]) -> f64 {
-    let top = (0..samples.len())
-        .max_by(|&a, &b| samples[a].total_cmp(&samples[b]))
-        .unwrap_or(0);
+    let larger = |&a: &usize, &b: &usize| samples[a].total_cmp(&samples[b]);
+    let top = (0..samples.len()).max_by(larger).unwrap_or(0);
     if top == 0 || top + 1 >= samples.len() {
-        return samples.get(top).copied().unwrap_or(0.0);
+        return samples[top];
     }
     let [a, b, c] = [samples[top - 1], samples[top], samples[top + 1]];
     let bend = a - 2.0 * b + c;
-    if bend < 0.0 {
-        b - (c - a).powi(2) / (8.0 * bend)
-    } else {
-        b
-    }
+    let rise = (c - a).powi(2) / (8.0 * bend);
+    if bend < 0.0 { b - rise } else { b }
 }
 
 #[cfg(test)]
