@@ -14,12 +14,10 @@
 
 mod case;
 mod figures;
-mod files;
 mod numbers;
 mod report;
 
 pub use case::{PRINTED_PA, RADIUS_M, TABLE_1_PA, coupled, growing};
 pub use figures::{Claim, Redrawn};
-pub use files::{csv_file, drawn};
 pub use numbers::{Numbers, Row, Section};
-pub use report::Redone;
+pub use report::{Redone, csv_file, drawn};

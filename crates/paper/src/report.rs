@@ -2,11 +2,13 @@
 
 use crate::case::Runs;
 use crate::figures::{self, Claim, Redrawn};
-use crate::files::{csv_file, drawn};
 use crate::numbers::{Numbers, Row};
 use fault::AnyError;
-use figure::{Figure, Layer};
+use figure::{Figure, FigureError, Layer, to_png, to_svg};
 use output::Folder;
+
+/// Pixels of a PNG for each of the SVG's.
+const SCALE: f32 = 1.5;
 
 /// Columns of numbers.csv.
 const NUMBERS: &str = "section place what unit paper here relative_difference why";
@@ -110,6 +112,37 @@ impl Redone {
         }
         lines.join("\n") + "\n"
     }
+}
+
+/// A table as CSV.
+///
+/// # Errors
+/// None for as many columns as a row has.
+pub fn csv_file<const N: usize>(
+    name: &str,
+    columns: &str,
+    rows: impl IntoIterator<Item = [String; N]>,
+) -> Result<(String, Vec<u8>), AnyError> {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    writer.write_record(columns.split(' '))?;
+    for row in rows {
+        writer.write_record(row)?;
+    }
+    let bytes = writer.into_inner();
+    let bytes = bytes.map_err(csv::IntoInnerError::into_error)?;
+    Ok((name.to_owned(), bytes))
+}
+
+/// A figure as SVG and as PNG.
+///
+/// # Errors
+/// [`FigureError`] for a figure that cannot be drawn.
+pub fn drawn(name: &str, figure: &Figure) -> Result<[(String, Vec<u8>); 2], FigureError> {
+    let (svg, png) = (to_svg(figure)?, to_png(figure, SCALE)?);
+    Ok([
+        (format!("{name}.svg"), svg.into_bytes()),
+        (format!("{name}.png"), png),
+    ])
 }
 
 /// The points of a figure's curves: times in s, lengths in m, forces in N, speeds in m/s.

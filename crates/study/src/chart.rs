@@ -56,7 +56,8 @@ impl Chart {
         progress.total("marches", 3);
         maps.extend(map::marches::figures(effort, &advance)?);
         progress.total("kernel maps", 1);
-        maps.extend(map::kernels::figures(effort, &advance)?);
+        maps.extend(map::kernels::figures(effort)?);
+        advance();
         progress.total("models", effort.pick(15, 41));
         maps.extend(map::models::figures(effort, &advance)?);
         Ok(Self {

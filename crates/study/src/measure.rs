@@ -111,7 +111,7 @@ impl<T> Scene<'_, T> {
     }
 
     /// The same with a tolerance as its setting.
-    pub(crate) fn to_tolerance(
+    pub(crate) fn at_tolerance(
         &mut self,
         method: &'static str,
         tolerance: f64,

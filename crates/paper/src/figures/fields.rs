@@ -90,13 +90,12 @@ impl Shown {
 
     /// Its curves among the fields at all points.
     fn curves(&self, fields: &[([f64; 2], FieldHistory)]) -> Vec<Curve> {
-        let find = |place| fields.iter().find(|(other, _)| *other == place);
-        let found = self.places().filter_map(find);
-        let curve = |(_, history): &([f64; 2], FieldHistory)| {
+        let curve = |place| {
+            let (_, history) = fields.iter().find(|(other, _)| *other == place)?;
             let samples = history[self.field].samples.iter().copied();
-            history.time_s.iter().copied().zip(samples).collect()
+            Some(history.time_s.iter().copied().zip(samples).collect())
         };
-        found.map(curve).collect()
+        self.places().filter_map(curve).collect()
     }
 
     fn draw(&self, ours: &[Curve], theirs: &[Curve], speeds: &WaveSpeeds) -> Figure {

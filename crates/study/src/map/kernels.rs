@@ -121,10 +121,9 @@ pub(super) fn incompressible_surface(distance: f64) -> Result<[f64; 2], AnyError
 }
 
 /// All three pictures.
-pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Picture>, AnyError> {
-    let done = [potentials, double_root, incompressible].map(|figure| figure(effort));
-    advance();
-    done.into_iter().collect()
+pub(crate) fn figures(effort: Effort) -> Result<Vec<Picture>, AnyError> {
+    let figures = [potentials, double_root, incompressible];
+    figures.into_iter().map(|figure| figure(effort)).collect()
 }
 
 /// Adds a curve of errors, those below 1e-17 drawn there.

@@ -103,19 +103,18 @@ impl<'a> Converged<'a> {
 
     /// What the explicit scheme makes of the impact at a step.
     pub(super) fn explicit(&self, step: f64) -> Outcome {
-        self.outcome(march_explicit(&self.disc, step))
+        let march = march_explicit(&self.disc, step);
+        self.outcome(march.map(|(history, summary)| (summary, history)))
     }
 
     /// What the implicit scheme makes of it.
     pub(super) fn implicit(&self, step: f64) -> Outcome {
-        self.outcome(march_implicit(&self.disc, step).and_then(|history| {
-            let summary = Summary::new(&history)?;
-            Ok((history, summary))
-        }))
+        let march = march_implicit(&self.disc, step);
+        self.outcome(march.and_then(|march| Ok((Summary::new(&march)?, march))))
     }
 
-    fn outcome(&self, march: Result<(History, Summary), MarchError>) -> Outcome {
-        let Ok((history, summary)) = march else {
+    fn outcome(&self, march: Result<(Summary, History), MarchError>) -> Outcome {
+        let Ok((summary, history)) = march else {
             return Outcome::BlownUp;
         };
         let early = summary.contact_time < 0.8 * self.summary.contact_time;

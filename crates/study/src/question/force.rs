@@ -152,7 +152,7 @@ fn halved<'a>(
     [duration, memory]: [f64; 2],
     march: impl Fn(f64) -> Result<History, MarchError>,
 ) -> Result<&'a mut Record, AnyError> {
-    scene.to_tolerance(method, tolerance, || {
+    scene.at_tolerance(method, tolerance, || {
         let accuracy = Accuracy::from(tolerance);
         let total = Cell::new(0);
         let counted = |step| {
@@ -196,7 +196,7 @@ fn to_tolerance(scene: &mut Scene<'_, Summary>, disc: &FixedDisc<'_>) -> Result<
             Ok((found.summary, Some(work)))
         };
         let method = "wave implicit, as in sweeps";
-        let row = scene.to_tolerance(method, tolerance, in_sweep)?;
+        let row = scene.at_tolerance(method, tolerance, in_sweep)?;
         row.default_path = true;
     }
     Ok(())
@@ -217,7 +217,7 @@ fn from_series(scene: &mut Scene<'_, Summary>, impact: &Impact) -> Result<(), An
         };
         solve()?;
         let method = "series, as in large sweeps";
-        scene.to_tolerance(method, tolerance, solve)?.default_path = true;
+        scene.at_tolerance(method, tolerance, solve)?.default_path = true;
     }
     Ok(())
 }
@@ -254,7 +254,7 @@ fn following(
             Ok((solved.summary, Some(solved.pieces() as u64)))
         };
         let method = "growing, polynomial pieces";
-        scene.to_tolerance(method, tolerance, solve)?.default_path = true;
+        scene.at_tolerance(method, tolerance, solve)?.default_path = true;
     }
     Ok(())
 }

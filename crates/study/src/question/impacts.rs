@@ -52,7 +52,7 @@ pub(crate) fn measure(
         let tolerances: &[f64] = effort.pick(&[1e-3, 1e-5], &[1e-2, 1e-3, 1e-4, 1e-5, 1e-6]);
         for &tolerance in tolerances {
             let run = || Ok((probed.computed(tolerance)?, None));
-            scene.to_tolerance("computed", tolerance, run)?.default_path = true;
+            scene.at_tolerance("computed", tolerance, run)?.default_path = true;
         }
         if probed.impact.settings.model == Model::Wave {
             for halvings in effort.pick(vec![3], vec![1, 3, 5, 7]) {
@@ -67,7 +67,7 @@ pub(crate) fn measure(
             for &tolerance in tolerances.iter().filter(|_| probed.is_within(&table)) {
                 let source = KernelSource::Table(table.clone());
                 let run = || Ok((probed.fields(tolerance, source.clone())?, None));
-                let row = scene.to_tolerance("looked up", tolerance, run)?;
+                let row = scene.at_tolerance("looked up", tolerance, run)?;
                 row.default_path = true;
             }
         }

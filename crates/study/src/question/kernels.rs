@@ -175,7 +175,7 @@ pub(crate) fn measure(
             let tolerance = 10.0_f64.powi(-digits);
             let kernel = Kernel::new(&medium, Profile::Hertz, tolerance)?;
             let run = || Ok((scene.by_kernel(&kernel)?, None));
-            let row = rows.to_tolerance("single integral", tolerance, run)?;
+            let row = rows.at_tolerance("single integral", tolerance, run)?;
             row.default_path = scene.place[1] > 0.0;
         }
         progress.advance(1);
