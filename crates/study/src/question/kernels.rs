@@ -188,8 +188,8 @@ pub(crate) fn measure(
             // what the impact equation uses, and what it is compared with
             let response = SurfaceResponse::new(&medium, Deflection::Centre);
             let fitted = || Ok((scene.at_centre(|t| response.step(t)), None));
-            rows.add("surface response", "fitted once", fitted)?
-                .default_path = true;
+            let row = rows.add("surface response", "fitted once", fitted)?;
+            row.default_path = true;
             let kausel = |t: f64| kausel::centre_step(&medium, medium.kappa() * t);
             let closed = || Ok((scene.at_centre(kausel), None));
             let reference = "closed form (Kausel): the reference";
