@@ -46,10 +46,9 @@ pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Picture>
         }
         let own = over_time(&scene, &scene.by_kernel(&kernel)?);
         figure.line("single integral, 1e-10", Style::Heavy, own);
-        let ends = [scene.arrivals.first(), scene.arrivals.last()];
-        for (arrival, label) in ends.into_iter().zip(["first front", "last front"]) {
-            let mark = arrival.map(|&t| Layer::mark(t, label));
-            figure.panel.layers.extend(mark);
+        let last = scene.arrivals.len() - 1;
+        for (arrival, label) in [(0, "first front"), (last, "last front")] {
+            figure.add(Layer::mark(scene.arrivals[arrival], label));
         }
         CAPTION.clone_into(&mut figure.caption);
         figures.push(figure);

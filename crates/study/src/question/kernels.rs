@@ -54,7 +54,7 @@ impl KernelScene {
     fn late(medium: &Medium, count: usize) -> Result<Self, AnyError> {
         let name = "interior point, after the last front";
         let mut scene = Self::new(name, medium, INTERIOR, 3 * count, &ALL, &[])?;
-        let last = scene.arrivals.last().copied().unwrap_or(0.0);
+        let last = scene.arrivals[scene.arrivals.len() - 1];
         let first = scene.times.partition_point(|&t| t < 1.05 * last);
         scene.times.drain(..first);
         scene.exact.drain(..first);
@@ -209,7 +209,7 @@ fn tables(
     records: &mut Vec<Record>,
 ) -> Result<(), AnyError> {
     let [r, z] = scene.place;
-    let last = scene.times.last().copied().unwrap_or(1.0);
+    let last = scene.times[scene.times.len() - 1];
     let exact_kernel = Kernel::new(medium, Profile::Hertz, 1e-12)?;
     for density in densities {
         for points in effort.pick(vec![4, Density::points()], vec![2, 4, 6, 8]) {
