@@ -114,10 +114,16 @@ impl Impact {
         self
     }
 
+    /// What its contact follows from.
+    #[must_use]
+    pub fn collision(&self) -> Collision {
+        Collision::new(&self.half_space, &self.striker, self.velocity_m_s)
+    }
+
     /// Solves the contact.
     pub fn solve(&self) -> Result<Run, ContactError> {
         let settings = &self.settings;
-        let collision = Collision::new(&self.half_space, &self.striker, self.velocity_m_s);
+        let collision = self.collision();
         let mut solver = Solver::new(&Exact);
         let mut run = solve(&mut solver, &self.half_space, &collision, settings)?;
         let Run {

@@ -1,7 +1,7 @@
 //! A folder of files that belong together: all of them or none.
 
 use crate::claim::{Existing, Output, Staged};
-use crate::error::{Fault, OutputError};
+use crate::error::OutputError;
 use std::path::{Path, PathBuf};
 
 /// A folder that one run at a time writes into.
@@ -37,52 +37,24 @@ impl Folder {
         }
     }
 
-    /// Writes files, each by its own closure: all of them, or none where one fails.
+    /// Writes files, each a name and its bytes: all of them, or none where one fails.
     ///
     /// # Errors
     /// [`OutputError`] with the file that failed.
-    pub fn write(&self, files: Vec<NewFile<'_>>) -> Result<(), OutputError> {
+    pub fn write(&self, files: Vec<(String, Vec<u8>)>) -> Result<(), OutputError> {
         let mut claimed = Vec::new();
-        for file in files {
-            let output = Output::claim(&self.path.join(file.name), Existing::Replace)?;
-            claimed.push((output, file.fill));
+        for (name, bytes) in files {
+            let output = Output::claim(&self.path.join(name), Existing::Replace)?;
+            claimed.push((output, bytes));
         }
         let mut staged: Vec<Staged<'_>> = Vec::new();
-        for (output, fill) in &claimed {
-            staged.push(output.stage(fill)?);
+        for (output, bytes) in &claimed {
+            staged.push(output.stage(|part| std::fs::write(part, bytes))?);
         }
         for file in staged {
             file.commit()?;
         }
         Ok(())
-    }
-}
-
-/// Writes a file under the name given.
-type Fill<'a> = Box<dyn Fn(&Path) -> Result<(), Fault> + 'a>;
-
-/// A file to be written into a folder.
-pub struct NewFile<'a> {
-    /// Its name in the folder.
-    name: String,
-    fill: Fill<'a>,
-}
-
-impl<'a> NewFile<'a> {
-    /// A file that a closure writes under the name given to it.
-    pub fn new<E: Into<Fault>>(
-        name: impl Into<String>,
-        fill: impl Fn(&Path) -> Result<(), E> + 'a,
-    ) -> Self {
-        Self {
-            name: name.into(),
-            fill: Box::new(move |part| fill(part).map_err(Into::into)),
-        }
-    }
-
-    /// A file of these bytes.
-    pub fn of(name: impl Into<String>, bytes: impl AsRef<[u8]> + 'a) -> Self {
-        Self::new(name, move |part| std::fs::write(part, bytes.as_ref()))
     }
 }
 
@@ -125,11 +97,11 @@ mod tests {
             Folder::claim(&inside, Existing::Keep),
             Err(OutputError::Busy { .. })
         ));
-        let failing = NewFile::new("b.txt", |_| Err(Fault::from("no".to_owned())));
-        let refused = folder.write(vec![NewFile::of("a.txt", "1"), failing]);
-        assert!(matches!(refused, Err(OutputError::Failed { .. })));
+        let file = |name: &str| (name.to_owned(), b"1".to_vec());
+        let refused = folder.write(vec![file("a.txt"), file("missing/b.txt")]);
+        assert!(matches!(refused, Err(OutputError::Unwritable { .. })));
         assert!(!inside.join("a.txt").exists());
-        folder.write(vec![NewFile::of("a.txt", "1")]).unwrap();
+        folder.write(vec![file("a.txt")]).unwrap();
         assert_eq!(std::fs::read_to_string(inside.join("a.txt")).unwrap(), "1");
     }
 }

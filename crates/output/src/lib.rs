@@ -28,7 +28,7 @@ mod temporary;
 
 pub use claim::{Existing, Output, Staged, write_whole};
 pub use error::{Fault, OutputError};
-pub use folder::{Folder, NewFile};
+pub use folder::Folder;
 pub use place::{
     CSV, Ending, HDF5, PARQUET, ROWS, Role, SHARD, TABLE, apart, behind, folder, is_standard,
 };

@@ -9,16 +9,16 @@ use std::f64::consts::PI;
 pub(crate) const MASS_KG: f64 = 0.0122;
 
 /// Radius r0 in m: of the rod, of its end, and of the loaded disc.
-pub(crate) const RADIUS_M: f64 = 0.004;
+pub const RADIUS_M: f64 = 0.004;
 
 /// Velocity of the rod in m/s.
 pub(crate) const VELOCITY_M_S: f64 = 100.0;
 
 /// Young's modulus of copper in Pa in Table 1.
-pub(crate) const TABLE_1_PA: f64 = 123e9;
+pub const TABLE_1_PA: f64 = 123e9;
 
 /// Young's modulus of copper in Pa that the paper's numbers belong to.
-pub(crate) const PRINTED_PA: f64 = 129e9;
+pub const PRINTED_PA: f64 = 129e9;
 
 /// Tensile strength Rm of copper in Pa, by which the paper divides.
 pub(crate) const STRENGTH_PA: f64 = 227e6;
@@ -51,7 +51,7 @@ pub(crate) fn anvil() -> Result<HalfSpace, AnyError> {
 }
 
 /// The paper's model of the impact, with copper of a Young's modulus and a radius r0 that is the tip's and the disc's.
-pub(crate) fn coupled(copper_pa: f64, radius_m: f64) -> Result<Impact, AnyError> {
+pub fn coupled(copper_pa: f64, radius_m: f64) -> Result<Impact, AnyError> {
     let copper = Material {
         youngs_modulus_pa: copper_pa,
         ..Material::named("copper")?
@@ -83,7 +83,7 @@ pub(crate) fn hertz(copper_pa: f64, radius_m: f64) -> Result<Impact, AnyError> {
 }
 
 /// A contact whose radius follows the load, on the half-space of Table 1: the static deflection counted once.
-pub(crate) fn growing() -> Result<Impact, AnyError> {
+pub fn growing() -> Result<Impact, AnyError> {
     let mut impact = hertz(TABLE_1_PA, RADIUS_M)?;
     impact.settings.model = Model::Growing;
     Ok(impact)

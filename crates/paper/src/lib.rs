@@ -17,6 +17,7 @@ mod figures;
 mod numbers;
 mod report;
 
+pub use case::{PRINTED_PA, RADIUS_M, TABLE_1_PA, coupled, growing};
 pub use figures::{Claim, Redrawn};
 pub use numbers::{Numbers, Row, Section};
-pub use report::Redone;
+pub use report::{Redone, csv_file, drawn};

@@ -2,9 +2,9 @@
 
 use crate::case::{NAMED_STRENGTH_PA, RADIUS_M, Runs, STRENGTH_PA, TABLE_1_PA, VELOCITY_M_S};
 use crate::case::{anvil, coupled, kmax, mean_pa};
+use contact::Material;
 use contact::law::hertz::CONTACT_TIME;
 use contact::super_seismic;
-use contact::{Collision, Material};
 use fault::AnyError;
 use halfspace::{Arrivals, Medium, Profile};
 use impact::Run;
@@ -90,13 +90,6 @@ impl Numbers {
             sections: sections(here(runs)?),
             remarks: remarks(runs)?,
         })
-    }
-
-    /// The row of a name.
-    #[must_use]
-    pub fn find(&self, what: &str) -> Option<&Row> {
-        let mut rows = self.sections.iter().flat_map(|section| &section.rows);
-        rows.find(|row| row.what == what)
     }
 
     /// The numbers that matter most, those of the contact, few enough for a screen.
@@ -262,8 +255,7 @@ fn here(runs: &Runs) -> Result<Vec<f64>, AnyError> {
     for (r, z) in [(0.0, 1.0), (0.0, 3.0), (0.0, 5.0), (5.0, 0.0)] {
         here.push(unit_us * Arrivals::new(&medium, Profile::Hertz, r, z)?.first());
     }
-    let collision = Collision::new(&block, &impact.striker, impact.velocity_m_s);
-    here.push(1e3 * super_seismic(&block, &collision, RADIUS_M));
+    here.push(1e3 * super_seismic(&block, &impact.collision(), RADIUS_M));
     Ok(here)
 }
 

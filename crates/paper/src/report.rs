@@ -4,9 +4,8 @@ use crate::case::Runs;
 use crate::figures::{self, Claim, Redrawn};
 use crate::numbers::{Numbers, Row};
 use fault::AnyError;
-use figure::{Figure, Layer, to_png, to_svg};
-use output::{Folder, NewFile, OutputError};
-use std::path::Path;
+use figure::{Figure, FigureError, Layer, to_png, to_svg};
+use output::Folder;
 
 /// Pixels of a PNG for each of the SVG's.
 const SCALE: f32 = 1.5;
@@ -50,17 +49,14 @@ impl Redone {
             figure.claims.iter().map(cells)
         });
         let mut files = vec![
-            NewFile::of("report.md", self.report()),
+            ("report.md".to_owned(), self.report().into_bytes()),
             csv_file("numbers.csv", NUMBERS, rows)?,
             csv_file("claims.csv", "figure says holds found", claims)?,
         ];
         for redrawn in &self.figures {
             let name = redrawn.name;
             let failed = |source| format!("{name} cannot be drawn: {source}");
-            let svg = to_svg(&redrawn.figure).map_err(failed)?;
-            let png = to_png(&redrawn.figure, SCALE).map_err(failed)?;
-            files.push(NewFile::of(format!("{name}.svg"), svg));
-            files.push(NewFile::of(format!("{name}.png"), png));
+            files.extend(drawn(name, &redrawn.figure).map_err(failed)?);
             let (csv, points) = (format!("{name}.csv"), points(&redrawn.figure));
             files.push(csv_file(&csv, "abscissa ordinate curve x y", points)?);
         }
@@ -80,9 +76,11 @@ impl Redone {
             "## Numbers\n".to_owned(),
         ];
         for section in &self.numbers.sections {
-            lines.push(format!("### {}\n", section.title));
-            lines.push("| where | what | paper | this program | difference | why |".to_owned());
-            lines.push("|---|---|---|---|---|---|".to_owned());
+            let head = "| where | what | paper | this program | difference | why |";
+            lines.push(format!(
+                "### {}\n\n{head}\n|---|---|---|---|---|---|",
+                section.title
+            ));
             lines.extend(section.rows.iter().map(|row| {
                 let [paper, here, difference] = row.told();
                 let unit = if row.unit.is_empty() { "" } else { " " }.to_owned() + row.unit;
@@ -117,23 +115,34 @@ impl Redone {
 }
 
 /// A table as CSV.
-fn csv_file<const N: usize>(
+///
+/// # Errors
+/// None for as many columns as a row has.
+pub fn csv_file<const N: usize>(
     name: &str,
     columns: &str,
     rows: impl IntoIterator<Item = [String; N]>,
-) -> Result<NewFile<'static>, OutputError> {
-    let write = || {
-        let mut writer = csv::Writer::from_writer(Vec::new());
-        writer.write_record(columns.split(' '))?;
-        for row in rows {
-            writer.write_record(row)?;
-        }
-        writer
-            .into_inner()
-            .map_err(|error| csv::Error::from(error.into_error()))
-    };
-    let failed = |error: csv::Error| OutputError::writing(Path::new(name), error.to_string());
-    Ok(NewFile::of(name, write().map_err(failed)?))
+) -> Result<(String, Vec<u8>), AnyError> {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    writer.write_record(columns.split(' '))?;
+    for row in rows {
+        writer.write_record(row)?;
+    }
+    let bytes = writer.into_inner();
+    let bytes = bytes.map_err(csv::IntoInnerError::into_error)?;
+    Ok((name.to_owned(), bytes))
+}
+
+/// A figure as SVG and as PNG.
+///
+/// # Errors
+/// [`FigureError`] for a figure that cannot be drawn.
+pub fn drawn(name: &str, figure: &Figure) -> Result<[(String, Vec<u8>); 2], FigureError> {
+    let (svg, png) = (to_svg(figure)?, to_png(figure, SCALE)?);
+    Ok([
+        (format!("{name}.svg"), svg.into_bytes()),
+        (format!("{name}.png"), png),
+    ])
 }
 
 /// The points of a figure's curves: times in s, lengths in m, forces in N, speeds in m/s.

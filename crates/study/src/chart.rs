@@ -56,8 +56,9 @@ impl Chart {
         progress.total("marches", 3);
         maps.extend(map::marches::figures(effort, &advance)?);
         progress.total("kernel maps", 1);
-        maps.extend(map::kernels::figures(effort, &advance)?);
-        progress.total("models", map::models::rows(effort) + 1);
+        maps.extend(map::kernels::figures(effort)?);
+        advance();
+        progress.total("models", effort.pick(15, 41));
         maps.extend(map::models::figures(effort, &advance)?);
         Ok(Self {
             effort,
@@ -82,12 +83,12 @@ impl Chart {
 fn machine() -> String {
     /// Threads that run, from which on times mean little.
     const BUSY: f64 = 0.5;
-    let text = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+    let read = |path: &str| std::fs::read_to_string(path).unwrap_or_default();
+    let text = read("/proc/cpuinfo");
     let mut lines = text.lines();
-    let processor = lines
-        .find(|line| line.starts_with("model name"))
-        .and_then(|line| line.split(':').nth(1))
-        .map_or("unknown processor", str::trim);
+    let model = lines.find(|line| line.starts_with("model name"));
+    let processor = model.and_then(|line| line.split(':').nth(1));
+    let processor = processor.map_or("unknown processor", str::trim);
     let threads = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
     let (system, architecture) = (std::env::consts::OS, std::env::consts::ARCH);
     let build = if cfg!(debug_assertions) {
@@ -95,12 +96,11 @@ fn machine() -> String {
     } else {
         "release"
     };
-    let load = std::fs::read_to_string("/proc/loadavg").unwrap_or_default();
-    let load: Option<f64> = load.split(' ').next().and_then(|load| load.parse().ok());
+    let load = read("/proc/loadavg");
+    let load = load.split(' ').next().and_then(|load| load.parse().ok());
     let busy = load
-        .filter(|load| *load > BUSY)
-        .map_or_else(String::new, |load| {
-            format!("; busy with {load} other threads before: the times may be too long")
-        });
+        .filter(|load: &f64| *load > BUSY)
+        .map(|load| format!("; busy with {load} other threads before: the times may be too long"));
+    let busy = busy.unwrap_or_default();
     format!("{processor}, {threads} threads, {system} {architecture}, {build} build{busy}")
 }

@@ -4,7 +4,7 @@
 //! Beside the ways that the program takes stand those that it does not: five numerical inversions of the
 //! Laplace transform with the Hankel quadrature that they need, marches of known order, whole-response
 //! interpolation. [`Chart::run`] measures them, [`Chart::write`] writes rows, pictures and a report; the
-//! [`map`]s show where each method works, with the boundary that theory gives.
+//! maps show where each method works, with the boundary that theory gives.
 //!
 //! Used by the command `hertzlamb chart` and by tests, by no other crate.
 //!
@@ -13,7 +13,7 @@
 
 mod chart;
 mod inversion;
-pub mod map;
+mod map;
 mod measure;
 mod picture;
 mod question;

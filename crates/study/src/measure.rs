@@ -27,14 +27,9 @@ impl Effort {
 /// The first result of `run`, and the ns of one of the `values` that a run makes: median and half the distance between
 /// the quartiles.
 ///
-/// From at least three of `runs` runs of at least `shortest_s` each, none begun after `longest_s` in all.
-fn time<T>(
-    runs: usize,
-    shortest_s: f64,
-    longest_s: f64,
-    values: f64,
-    run: impl Fn() -> T,
-) -> (T, [f64; 2]) {
+/// From at least three of some runs of a shortest time each, none begun after a longest time in all.
+fn time<T>(effort: Effort, values: f64, run: impl Fn() -> T) -> (T, [f64; 2]) {
+    let (runs, shortest_s, longest_s) = effort.pick((5, 5e-4, 0.06), (11, 5e-3, 1.5));
     let begun = Instant::now();
     let first = black_box(run());
     let once_s = begun.elapsed().as_secs_f64().max(20e-9);
@@ -87,8 +82,7 @@ impl<T> Scene<'_, T> {
         let (found, timed) = if cfg!(test) {
             (run(), None)
         } else {
-            let (runs, shortest_s, longest_s) = self.effort.pick((5, 5e-4, 0.06), (11, 5e-3, 1.5));
-            let (found, timed) = time(runs, shortest_s, longest_s, self.values, run);
+            let (found, timed) = time(self.effort, self.values, run);
             (found, Some(timed))
         };
         let (errors, work, refusal) = match found {
@@ -115,6 +109,16 @@ impl<T> Scene<'_, T> {
         });
         Ok(&mut self.records[place])
     }
+
+    /// The same with a tolerance as its setting.
+    pub(crate) fn at_tolerance(
+        &mut self,
+        method: &'static str,
+        tolerance: f64,
+        run: impl Fn() -> Run<T>,
+    ) -> Result<&mut Record, AnyError> {
+        self.add(method, format!("tolerance {tolerance:.0e}"), run)
+    }
 }
 
 #[cfg(test)]
@@ -126,7 +130,7 @@ mod tests {
     fn a_run_does_as_much_work_as_it_says() {
         let count = Cell::new(0_u64);
         let (first, [median_ns, spread_ns]) =
-            time(5, 2e-4, 0.05, 10.0, || count.replace(count.get() + 1));
+            time(Effort::Quick, 10.0, || count.replace(count.get() + 1));
         assert_eq!(first, 0);
         assert!(count.get() >= 6, "{}", count.get());
         assert!(median_ns > 0.0 && spread_ns >= 0.0);

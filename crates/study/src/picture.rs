@@ -1,8 +1,8 @@
 //! A picture of the chart: one panel with a name, a caption, and the numbers behind it; and the work-precision diagrams:
 //! error against cost, one curve a method, the Pareto front drawn.
 
-use crate::record::{Question, Record, distinct, pareto_front};
-use figure::{Axis, Figure, Layer, Legend, Panel, Style};
+use crate::record::{Question, Record, by_scene, distinct, pareto_front};
+use figure::{Axis, Layer, Legend, Panel, Style};
 
 /// A picture of the chart.
 #[derive(Debug, Clone, PartialEq)]
@@ -17,10 +17,7 @@ pub struct Picture {
     pub caption: String,
 }
 
-/// Width of a picture in pixels.
-const WIDTH: f64 = 1020.0;
-
-/// Height of its plot.
+/// Height of a picture's plot in pixels.
 const HEIGHT: f64 = 478.0;
 
 impl Picture {
@@ -34,17 +31,14 @@ impl Picture {
         }
     }
 
+    /// Adds a curve.
+    pub(crate) fn line(&mut self, name: &str, style: Style, points: Vec<(f64, f64)>) {
+        self.add(Layer::line(name, style, points));
+    }
+
     /// Adds a layer.
     pub(crate) fn add(&mut self, layer: Layer) {
         self.panel.layers.push(layer);
-    }
-
-    /// What is drawn.
-    #[must_use]
-    pub fn figure(&self) -> Figure {
-        Figure::new(&self.title)
-            .width(WIDTH)
-            .panel(self.panel.clone())
     }
 
     /// What it is made of: the points of its curves, and the centres of the cells of its map under their classes.
@@ -72,16 +66,12 @@ impl Picture {
 
 /// One diagram a scene.
 pub(crate) fn diagrams(records: &[Record]) -> Vec<Picture> {
-    let mut diagrams = Vec::new();
-    for question in Question::ALL {
-        let mine: Vec<&Record> = records.iter().filter(|r| r.question == question).collect();
-        let scenes = distinct(mine.iter().map(|r| r.scene));
-        for (scene, name) in scenes.into_iter().zip(question.diagrams()) {
-            let rows: Vec<&Record> = mine.iter().filter(|r| r.scene == scene).copied().collect();
-            diagrams.push(diagram(question, scene, name, &rows));
-        }
-    }
-    diagrams
+    let scenes = by_scene(records).into_iter();
+    let drawn = scenes.filter_map(|(question, place, rows)| {
+        let [.., names] = question.words();
+        Some(diagram(question, names.split(' ').nth(place)?, &rows))
+    });
+    drawn.collect()
 }
 
 /// Cost and error of a record as they are drawn: errors below 1e-16 there.
@@ -95,18 +85,20 @@ fn places(rows: &[&Record]) -> Vec<(f64, f64)> {
     shown.map(|r| place(r)).collect()
 }
 
-fn diagram(question: Question, scene: &str, name: &'static str, rows: &[&Record]) -> Picture {
+fn diagram(question: Question, name: &'static str, rows: &[&Record]) -> Picture {
+    let scene = rows[0].scene;
     let shown = places(rows);
     // half a marker of room around the outermost points
     let low = shown.iter().fold(f64::INFINITY, |low, p| low.min(p.0));
     let high = shown.iter().fold(0.0, |high, p| p.0.max(high));
     let lowest = shown.iter().fold(1.0, |low, p| p.1.min(low));
     let decade = |x: f64, up: f64| 10.0_f64.powf((x.log10() + up).floor());
+    let [asks, value, ..] = question.words();
     let mut figure = Picture::new(
         name,
-        &format!("{}: {scene}", question.name()),
+        &format!("{asks}: {scene}"),
         Axis::logarithmic("cost")
-            .unit(&format!("ns per value: {}", question.value()))
+            .unit(&format!("ns per value: {value}"))
             .range(decade(low, -0.1), decade(high, 1.1)),
         Axis::logarithmic("largest error over the largest value").range(decade(lowest, -0.2), 2.0),
     );
@@ -114,33 +106,20 @@ fn diagram(question: Question, scene: &str, name: &'static str, rows: &[&Record]
     for method in distinct(rows.iter().map(|r| r.method)) {
         let own = rows.iter().filter(|r| r.method == method);
         let own: Vec<&Record> = own.copied().collect();
-        let default = if own.iter().any(|r| r.default_path) {
-            " [default]"
-        } else {
-            ""
-        };
+        let is_default = own.iter().any(|r| r.default_path);
+        let default = if is_default { " [default]" } else { "" };
         let failures = match own.iter().filter(|r| r.failed()).count() {
             0 => String::new(),
             n if n == own.len() => " (fails)".to_owned(),
             n => format!(" ({n} of {} fail)", own.len()),
         };
         // settings of fields and tables vary in several ways at once: no line orders them
-        let style = if question == Question::Fields || method == "table" {
-            Style::Points
-        } else {
-            Style::Marked
-        };
-        figure.add(Layer::line(
-            &format!("{method}{default}{failures}"),
-            style,
-            places(&own),
-        ));
+        let cloud = question == Question::Fields || method == "table";
+        let style = if cloud { Style::Points } else { Style::Marked };
+        let name = format!("{method}{default}{failures}");
+        figure.line(&name, style, places(&own));
     }
-    figure.add(Layer::line(
-        "Pareto front",
-        Style::HeavyDashed,
-        staircase(rows),
-    ));
+    figure.line("Pareto front", Style::HeavyDashed, staircase(rows));
     figure
 }
 
@@ -179,12 +158,9 @@ fn caption(question: Question, scene: &str) -> &'static str {
 /// The border of what the front dominates.
 fn staircase(rows: &[&Record]) -> Vec<(f64, f64)> {
     let mut points: Vec<(f64, f64)> = Vec::new();
-    for record in pareto_front(rows) {
-        let (cost, error) = place(record);
-        if let Some(&(_, before)) = points.last() {
-            points.push((cost, before));
-        }
-        points.push((cost, error));
+    for (cost, error) in pareto_front(rows).into_iter().map(place) {
+        let before = points.last().map(|&(_, before)| (cost, before));
+        points.extend(before.into_iter().chain([(cost, error)]));
     }
     points
 }

@@ -1,6 +1,6 @@
 //! The cheapest method for each accuracy, with the default path beside it, and why others that are ahead are not taken.
 
-use crate::record::{Question, Record, distinct};
+use crate::record::{Question, Record, by_scene};
 
 /// Accuracies at which the default path is to be on the Pareto front.
 pub(crate) const LEVELS: [f64; 6] = [1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8];
@@ -27,15 +27,6 @@ pub(crate) struct Ranking<'a> {
 }
 
 impl Ranking<'_> {
-    /// Whether nothing is cheaper than the default path at this accuracy, by more than [`EQUAL`].
-    pub(crate) fn on_front(&self) -> bool {
-        match (self.best, self.own) {
-            (Some(best), Some(own)) => own.cost_ns <= EQUAL * best.cost_ns,
-            (None, None) => true,
-            (Some(_), None) | (None, Some(_)) => false,
-        }
-    }
-
     /// The cheapest that is ahead of the default path, in words; nothing where it is on the front.
     pub(crate) fn first_ahead(&self) -> Option<String> {
         Some(self.words(self.ahead.first()?))
@@ -61,24 +52,15 @@ impl Ranking<'_> {
 
 /// Of every scene with a default path at every accuracy.
 pub(crate) fn rankings(records: &[Record]) -> Vec<Ranking<'_>> {
-    let mut found = Vec::new();
-    for question in Question::ALL {
-        let mine = || records.iter().filter(move |r| r.question == question);
-        for scene in distinct(mine().map(|r| r.scene)) {
-            let rows: Vec<&Record> = mine().filter(|r| r.scene == scene).collect();
-            // a scene that only compares other ways has no default path to judge
-            if rows.iter().any(|r| r.default_path) {
-                let at = |level| ranking(&rows, level);
-                found.extend(LEVELS.into_iter().filter_map(at));
-            }
-        }
-    }
-    found
+    let mut scenes = by_scene(records);
+    // a scene that only compares other ways has no default path to judge
+    scenes.retain(|(.., rows)| rows.iter().any(|r| r.default_path));
+    let at_levels = |(.., rows): &(_, _, Vec<_>)| LEVELS.map(|level| ranking(rows, level));
+    scenes.iter().flat_map(at_levels).collect()
 }
 
-/// Of the rows of one scene, at one accuracy; none without rows.
-fn ranking<'a>(rows: &[&'a Record], level: f64) -> Option<Ranking<'a>> {
-    let first = rows.first()?;
+/// Of the rows of one scene, at one accuracy.
+fn ranking<'a>(rows: &[&'a Record], level: f64) -> Ranking<'a> {
     let reaches = |r: &&&Record| !r.failed() && r.error_max <= level && r.cost_ns.is_finite();
     let mut reached: Vec<&Record> = rows.iter().filter(reaches).copied().collect();
     reached.sort_by(|a, b| a.cost_ns.total_cmp(&b.cost_ns));
@@ -90,14 +72,14 @@ fn ranking<'a>(rows: &[&'a Record], level: f64) -> Option<Ranking<'a>> {
             ahead.push(record);
         }
     }
-    Some(Ranking {
-        question: first.question,
-        scene: first.scene,
+    Ranking {
+        question: rows[0].question,
+        scene: rows[0].scene,
         level,
         best: reached.first().copied(),
         own,
         ahead,
-    })
+    }
 }
 
 /// Why the program does not take a method that is cheaper than its own somewhere, in one clause, for methods that have

@@ -1,5 +1,7 @@
 //! What is measured of one method at one setting in one scene.
 
+use halfspace::Six;
+
 /// The four questions of the chart.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Question {
@@ -14,12 +16,11 @@ pub enum Question {
 }
 
 impl Question {
-    /// All of them.
-    pub const ALL: [Self; 4] = [Self::Kernels, Self::Force, Self::Fields, Self::Impacts];
+    pub(crate) const ALL: [Self; 4] = [Self::Kernels, Self::Force, Self::Fields, Self::Impacts];
 
     /// Its name in files, what one value is for cost and work, what the report calls it, and the names of its diagrams in
     /// the order in which the scenes appear.
-    fn row(self) -> [&'static str; 4] {
+    pub(crate) fn words(self) -> [&'static str; 4] {
         match self {
             Self::Kernels => [
                 "kernels",
@@ -50,30 +51,24 @@ impl Question {
     }
 
     /// Its name in files.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        self.row()[0]
-    }
-
-    /// What one value is, for cost and work.
-    #[must_use]
-    pub fn value(self) -> &'static str {
-        self.row()[1]
-    }
-
-    /// What the report calls it.
-    pub(crate) fn title(self) -> &'static str {
-        self.row()[2]
-    }
-
-    /// Names of its diagrams, in the order in which the scenes appear.
-    pub(crate) fn diagrams(self) -> impl Iterator<Item = &'static str> {
-        self.row()[3].split(' ')
+    pub(crate) fn name(self) -> &'static str {
+        self.words()[0]
     }
 }
 
+/// The largest size of each field.
+pub(crate) fn peaks(values: &[Six]) -> Six {
+    std::array::from_fn(|f| values.iter().fold(0.0_f64, |most, v| most.max(v[f].abs())))
+}
+
+/// Errors of some of the six fields at many places, each over the scale of its field.
+pub(crate) fn off(found: &[Six], exact: &[Six], scale: &Six, fields: &[usize]) -> Vec<f64> {
+    let pairs = found.iter().zip(exact);
+    let errors = pairs.flat_map(|(a, b)| fields.iter().map(|&f| (a[f] - b[f]) / scale[f]));
+    errors.collect()
+}
+
 /// The largest of relative errors, and the root of their mean square; anything that is not a number is infinite.
-#[must_use]
 pub(crate) fn sizes(errors: &[f64]) -> [f64; 2] {
     let finite = |e: f64| if e.is_nan() { f64::INFINITY } else { e.abs() };
     let max = errors.iter().fold(0.0_f64, |most, &e| most.max(finite(e)));
@@ -136,8 +131,7 @@ impl Record {
     }
 
     /// Whether the method gave no usable answer.
-    #[must_use]
-    pub fn failed(&self) -> bool {
+    pub(crate) fn failed(&self) -> bool {
         self.refusal.is_some() || self.error_max > FAILED || self.error_max.is_nan()
     }
 }
@@ -158,6 +152,20 @@ pub(crate) fn pareto_front<'a>(records: &[&'a Record]) -> Vec<&'a Record> {
         better
     });
     front
+}
+
+/// The rows of each scene, with its question and its place among that question's scenes.
+pub(crate) fn by_scene(records: &[Record]) -> Vec<(Question, usize, Vec<&Record>)> {
+    let mut scenes = Vec::new();
+    for question in Question::ALL {
+        let mine = || records.iter().filter(move |r| r.question == question);
+        let names = distinct(mine().map(|r| r.scene)).into_iter();
+        scenes.extend(names.enumerate().map(|(place, name)| {
+            let rows = mine().filter(|r| r.scene == name).collect();
+            (question, place, rows)
+        }));
+    }
+    scenes
 }
 
 /// The different items in the order of their first appearance.

@@ -6,14 +6,15 @@ use crate::picture::Picture;
 use crate::ranking::{Ranking, rankings, why_not};
 use crate::record::{Question, Record, distinct};
 use fault::AnyError;
-use figure::{to_png, to_svg};
-use output::{Folder, NewFile};
+use figure::Figure;
+use output::Folder;
+use paper::{csv_file, drawn};
 
 /// Columns of pictures.csv.
 pub const PICTURE_COLUMNS: &str = "picture name x y";
 
-/// Pixels of a PNG for each of the SVG's.
-const SCALE: f32 = 1.5;
+/// Width of a picture in pixels.
+const WIDTH: f64 = 1020.0;
 
 impl Chart {
     /// Writes chart.csv, pictures.csv, report.md and the pictures into a folder.
@@ -21,54 +22,24 @@ impl Chart {
     /// # Errors
     /// The file or the picture, with the reason; no file has changed then.
     pub fn write(&self, folder: &Folder) -> Result<(), AnyError> {
-        let rows = || self.records.iter().map(Record::row).collect();
-        let mut files = vec![
-            csv_file("chart.csv", Record::COLUMNS, rows),
-            csv_file("pictures.csv", PICTURE_COLUMNS, || self.points()),
-        ];
+        let rows = self.records.iter().map(Record::row);
+        let mut files = vec![csv_file("chart.csv", Record::COLUMNS, rows)?];
+        let mut points = Vec::new();
         for picture in self.diagrams.iter().chain(&self.maps) {
             let name = picture.name;
+            points.extend(picture.points().into_iter().map(|(curve, x, y)| {
+                let [x, y] = [x, y].map(|value| value.to_string());
+                [name.to_owned(), curve.to_owned(), x, y]
+            }));
             let failed = |source| format!("the picture {name} cannot be drawn: {source}");
-            let figure = picture.figure();
-            let svg = to_svg(&figure).map_err(failed)?;
-            let png = to_png(&figure, SCALE).map_err(failed)?;
-            files.push(NewFile::of(format!("{name}.svg"), svg));
-            files.push(NewFile::of(format!("{name}.png"), png));
+            let figure = Figure::new(&picture.title).width(WIDTH);
+            let figure = figure.panel(picture.panel.clone());
+            files.extend(drawn(name, &figure).map_err(failed)?);
         }
-        files.push(NewFile::of("report.md", markdown(self)));
+        files.push(csv_file("pictures.csv", PICTURE_COLUMNS, points)?);
+        files.push(("report.md".to_owned(), markdown(self).into_bytes()));
         Ok(folder.write(files)?)
     }
-
-    /// The rows of pictures.csv.
-    fn points(&self) -> Vec<[String; 4]> {
-        let pictures = self.diagrams.iter().chain(&self.maps);
-        pictures
-            .flat_map(|picture| {
-                let row = |(name, x, y): (&str, f64, f64)| {
-                    let [x, y] = [x, y].map(|value| value.to_string());
-                    [picture.name.to_owned(), name.to_owned(), x, y]
-                };
-                picture.points().into_iter().map(row)
-            })
-            .collect()
-    }
-}
-
-/// A table as CSV. Described in data-schema/chart.md.
-fn csv_file<'a, const N: usize>(
-    name: &str,
-    columns: &'static str,
-    rows: impl Fn() -> Vec<[String; N]> + 'a,
-) -> NewFile<'a> {
-    NewFile::new(name, move |part| {
-        let words = |error: csv::Error| error.to_string();
-        let mut writer = csv::Writer::from_path(part).map_err(words)?;
-        writer.write_record(columns.split(' ')).map_err(words)?;
-        for row in rows() {
-            writer.write_record(row).map_err(words)?;
-        }
-        writer.flush().map_err(|error| error.to_string())
-    })
 }
 
 /// The report as Markdown.
@@ -88,11 +59,11 @@ fn markdown(chart: &Chart) -> String {
     ];
     let all = rankings(&chart.records);
     for question in Question::ALL {
-        lines.push(format!("## {}\n", question.title()));
+        let [name, _, title, _] = question.words();
+        lines.push(format!("## {title}\n"));
         let mine: Vec<&Ranking<'_>> = all.iter().filter(|s| s.question == question).collect();
         lines.extend(answer(chart, question, &mine));
         lines.extend(not_taken(&mine));
-        let name = question.name();
         for picture in chart.diagrams.iter().filter(|f| f.name.starts_with(name)) {
             lines.push(shown(picture));
             if !picture.caption.is_empty() {
@@ -147,17 +118,16 @@ fn answer(chart: &Chart, question: Question, rankings: &[&Ranking<'_>]) -> [Stri
     };
     let (coarse, fine) = (cheapest(1e-3), cheapest(1e-6));
     let first = format!("The cheapest for an error of 1e-3 is {coarse}; for 1e-6 it is {fine}.");
-    let reached: Vec<_> = rankings.iter().filter(|s| s.best.is_some()).collect();
-    let (on, of) = (reached.iter().filter(|s| s.on_front()), reached.len());
-    let on = on.count();
-    let off: Vec<String> = reached.iter().filter_map(|s| s.first_ahead()).collect();
+    let of = rankings.iter().filter(|s| s.best.is_some()).count();
+    let off: Vec<String> = rankings.iter().filter_map(|s| s.first_ahead()).collect();
     let second = if off.is_empty() {
         format!(
-            "The default path is on the front by time at all {on} accuracies from 1e-3 to 1e-8 that anything reaches."
+            "The default path is on the front by time at all {of} accuracies from 1e-3 to 1e-8 that anything reaches."
         )
     } else {
         format!(
-            "The default path is on the front by time at {on} of {of} accuracies from 1e-3 to 1e-8 that anything reaches, and not at {}.",
+            "The default path is on the front by time at {} of {of} accuracies from 1e-3 to 1e-8 that anything reaches, and not at {}.",
+            of - off.len(),
             off.join(", ")
         )
     };
@@ -175,10 +145,8 @@ fn answer(chart: &Chart, question: Question, rankings: &[&Ranking<'_>]) -> [Stri
 }
 
 fn table(rankings: &[&Ranking<'_>]) -> Vec<String> {
-    let mut lines = vec![
-        "| scene | error | cheapest of all | cost | default path | cost |".to_owned(),
-        "|---|---|---|---|---|---|".to_owned(),
-    ];
+    let head = "| scene | error | cheapest of all | cost | default path | cost |";
+    let mut lines = vec![format!("{head}\n|---|---|---|---|---|---|")];
     let cell = |found: Option<&Record>| match found {
         Some(r) => format!("{}, {} | {}", r.method, r.setting, time(r.cost_ns)),
         None => "not reached | ".to_owned(),
@@ -193,11 +161,9 @@ fn table(rankings: &[&Ranking<'_>]) -> Vec<String> {
 
 /// Methods that failed, with their largest errors.
 fn failures(records: &[Record]) -> Vec<String> {
-    let mut lines = vec![
-        "## Failures in the rows\n".to_owned(),
-        "| question | scene | method | setting | largest error | says |".to_owned(),
-        "|---|---|---|---|---|---|".to_owned(),
-    ];
+    let head = "| question | scene | method | setting | largest error | says |";
+    let head = format!("## Failures in the rows\n\n{head}\n|---|---|---|---|---|---|");
+    let mut lines = vec![head];
     lines.extend(records.iter().filter(|r| r.failed()).map(|r| {
         let (question, says) = (r.question.name(), r.refusal.as_deref().unwrap_or(""));
         let (scene, method, setting, error) = (r.scene, r.method, &r.setting, r.error_max);

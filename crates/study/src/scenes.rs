@@ -1,33 +1,29 @@
 //! The impacts of the chart, and its small kernel tables: several densities, each read with stencils of several orders.
 
-use contact::{Collision, HalfSpace, Material, Striker};
+use contact::{FixedDisc, HalfSpace, Material, StaticShare, Striker};
 use fault::AnyError;
+use halfspace::{Deflection, Medium, SurfaceResponse};
 use impact::Impact;
 use lookup::{Content, Table};
+use paper::RADIUS_M;
 use tabulator::{Axis, Grid, Silent};
-
-/// Tip radius of the paper's rod, and radius of its disc, in m.
-pub(crate) const ROD_RADIUS_M: f64 = 0.004;
 
 /// Radius of the ball in m.
 const BALL_RADIUS_M: f64 = 0.005;
 
-/// The collision of the paper: a copper rod of this Young's modulus in Pa on a steel block.
-pub(crate) fn paper(copper_pa: f64) -> Result<Collision, AnyError> {
-    let block = HalfSpace::new(Material::named("steel")?)?;
-    let copper = Material {
-        youngs_modulus_pa: copper_pa,
-        ..Material::named("copper")?
-    };
-    let rod = Striker::new(copper, 0.0122, ROD_RADIUS_M)?;
-    Ok(Collision::new(&block, &rod, 100.0))
+/// The paper's disc, with copper of a Young's modulus in Pa.
+pub(crate) fn paper_disc(
+    copper_pa: f64,
+    response: &SurfaceResponse,
+) -> Result<FixedDisc<'_>, AnyError> {
+    let collision = paper::coupled(copper_pa, RADIUS_M)?.collision();
+    Ok(collision.fixed_disc(response, RADIUS_M, StaticShare::Full))
 }
 
-/// Young's modulus of copper in Pa in the paper's Table 1.
-pub(crate) const TABLE_1_PA: f64 = 123e9;
-
-/// Young's modulus of copper in Pa that the paper's Hertz values are computed with.
-pub(crate) const HERTZ_PA: f64 = 129e9;
+/// The steel block's response under the paper's disc.
+pub(crate) fn paper_response() -> Result<SurfaceResponse, AnyError> {
+    Ok(SurfaceResponse::new(&Medium::new(0.3)?, Deflection::Centre))
+}
 
 /// A steel ball of 10 mm on a block of a material of the library.
 pub(crate) fn ball(target: &str, velocity_m_s: f64) -> Result<Impact, AnyError> {
@@ -37,16 +33,10 @@ pub(crate) fn ball(target: &str, velocity_m_s: f64) -> Result<Impact, AnyError> 
     Ok(Impact::new(block, ball, velocity_m_s))
 }
 
-/// The collision of an impact.
-pub(crate) fn collision(impact: &Impact) -> Collision {
-    Collision::new(&impact.half_space, &impact.striker, impact.velocity_m_s)
-}
-
 /// Extent of the tables in r0.
 const EXTENT: f64 = 2.0;
 
 /// A table of one density.
-#[derive(Debug)]
 pub(crate) struct Density {
     /// Distance of its nodes in r0; none: as in the demo table, which is graded toward the disc's edge and the surface.
     spacing: Option<f64>,

@@ -14,20 +14,17 @@ const STARS: &str = "stars: values printed in the paper";
 /// Points of a curve.
 const POINTS: u32 = 620;
 
-fn times() -> impl Iterator<Item = f64> {
-    (0..=POINTS).map(|i| UNTIL_S * f64::from(i) / f64::from(POINTS))
+fn over_time(of: impl Fn(f64) -> Option<f64>) -> Vec<(f64, f64)> {
+    let times = (0..=POINTS).map(|i| UNTIL_S * f64::from(i) / f64::from(POINTS));
+    times.filter_map(|t| Some((t, of(t)?))).collect()
 }
 
 fn motion(run: &Run, of: impl Fn(Motion) -> f64) -> Vec<(f64, f64)> {
-    let at = |t| run.excitation().motion(t).map(|motion| (t, of(motion)));
-    times().filter_map(at).collect()
+    over_time(|t| run.excitation().motion(t).map(&of))
 }
 
 fn force(run: &Run, scale: f64) -> Vec<(f64, f64)> {
-    let excitation = run.excitation();
-    times()
-        .map(|t| (t, excitation.force_n(t) / scale))
-        .collect()
+    over_time(|t| Some(run.excitation().force_n(t) / scale))
 }
 
 /// Fig. 4.
@@ -57,17 +54,16 @@ pub(super) fn history(runs: &Runs) -> Redrawn {
         }
     }
     speeds = speeds.layer(Layer::star((27.0e-6, -99.1), "-99.1 m/s"));
-    let figure = Figure::new("Fig. 4: force, displacements and velocity")
-        .subtitle(STARS)
-        .sharing(Sharing::X)
-        .width(WIDTH)
-        .panel(forces)
-        .panel(lengths)
-        .panel(speeds);
     Redrawn {
         name: "fig-04",
         title: "Fig. 4: force P, displacement h, deflection w and speed v",
-        figure,
+        figure: Figure::new("Fig. 4: force, displacements and velocity")
+            .subtitle(STARS)
+            .sharing(Sharing::X)
+            .width(WIDTH)
+            .panel(forces)
+            .panel(lengths)
+            .panel(speeds),
         caption: "h is the rod's displacement, w the half-space's; the velocity is positive into the block, so that the printed 99.1 m/s of departure are negative. A contact whose radius follows the load counts the static deflection of the block once, the paper's model twice: hence its smaller force and longer contact.",
         claims: symmetry(runs),
     }
@@ -75,49 +71,45 @@ pub(super) fn history(runs: &Runs) -> Redrawn {
 
 fn symmetry(runs: &Runs) -> Vec<Claim> {
     let share = |run: &Run| run.peak_force_time_s / run.contact_time_s;
-    let (hertz, coupled) = (share(&runs.hertz_printed), share(&runs.table_1));
-    let turn = motion(&runs.table_1, |m| m.velocity_m_s);
-    let turn = turn.iter().find(|(_, v)| *v <= 0.0);
-    let turn_s = turn.map_or(f64::NAN, |(t, _)| *t);
+    let table_1 = &runs.table_1;
+    let (hertz, coupled) = (share(&runs.hertz_printed), share(table_1));
+    let mut speeds = motion(table_1, |m| m.velocity_m_s).into_iter();
+    let turn_s = speeds.find(|(_, v)| *v <= 0.0).map_or(f64::NAN, |(t, _)| t);
+    // h - w at the end of contact over the largest h
+    let end = table_1.excitation().motion(table_1.contact_time_s);
+    let open_m = end.map_or(f64::NAN, |m| (m.displacement_m - m.deflection_m).abs());
+    let closes = open_m / table_1.peak_displacement_m;
     vec![
-        Claim::new(
-            "P(t) is symmetrical about t's, with ts = 2 t's",
-            (coupled - 0.5).abs() < 0.01,
-            format!(
+        Claim {
+            says: "P(t) is symmetrical about t's, with ts = 2 t's",
+            holds: (coupled - 0.5).abs() < 0.01,
+            found: format!(
                 "the peak comes at {coupled:.4} of the contact time, Hertz's at {hertz:.4}: what the waves take away makes the rise a little shorter than the fall"
             ),
-        ),
-        Claim::new(
-            "the speed drops to zero at t's",
-            (turn_s / runs.table_1.peak_force_time_s - 1.0).abs() < 0.02,
-            format!(
+        },
+        Claim {
+            says: "the speed drops to zero at t's",
+            holds: (turn_s / table_1.peak_force_time_s - 1.0).abs() < 0.02,
+            found: format!(
                 "the rod turns at {:.2} us, the force peaks at {:.2} us",
                 1e6 * turn_s,
-                1e6 * runs.table_1.peak_force_time_s
+                1e6 * table_1.peak_force_time_s
             ),
-        ),
-        Claim::new(
-            "h - w = 0 when the force has fallen to zero",
-            closes(&runs.table_1) < 1e-3,
-            format!("{:.0e} of the largest h", closes(&runs.table_1)),
-        ),
-        Claim::new(
-            "the restitution hardly depends on speed and size",
-            false,
-            format!(
+        },
+        Claim {
+            says: "h - w = 0 when the force has fallen to zero",
+            holds: closes < 1e-3,
+            found: format!("{closes:.0e} of the largest h"),
+        },
+        Claim {
+            says: "the restitution hardly depends on speed and size",
+            holds: false,
+            found: format!(
                 "the loss 1 - e^2 of {:.4} grows with the speed to the power 3/5 for a contact that follows the load; 0.991 is a time-step error",
-                runs.table_1.loss
+                table_1.loss
             ),
-        ),
+        },
     ]
-}
-
-/// h - w at the end of contact over the largest h.
-fn closes(run: &Run) -> f64 {
-    let end = run.excitation().motion(run.contact_time_s);
-    end.map_or(f64::NAN, |m| {
-        (m.displacement_m - m.deflection_m).abs() / run.peak_displacement_m
-    })
 }
 
 /// Fig. 6.
@@ -145,12 +137,12 @@ pub(super) fn stress(runs: &Runs) -> Redrawn {
             panel,
         ),
         caption: "S is the area of the rod, not of the contact.",
-        claims: vec![Claim::new(
-            "the stress is significantly higher than the tensile strength",
-            mean_ry > 1.0,
-            format!(
+        claims: vec![Claim {
+            says: "the stress is significantly higher than the tensile strength",
+            holds: mean_ry > 1.0,
+            found: format!(
                 "14 times the tensile strength and {mean_ry:.0} times the yield point of Table 1 on average over the rod's section: at {VELOCITY_M_S:.0} m/s the linear elastic model is used far outside its range, as the paper says itself"
             ),
-        )],
+        }],
     }
 }

@@ -1,9 +1,9 @@
 //! Figure 5, the contact stress against the radius; and the paper's scheme against its step.
 
 use super::{Claim, HERTZ, Redrawn, WIDTH, single};
-use crate::case::{PRINTED_PA, RADIUS_M, STEP_S, TABLE_1_PA, VELOCITY_M_S};
+use crate::case::{PRINTED_PA, RADIUS_M, STEP_S, TABLE_1_PA};
 use crate::case::{coupled, explicit, hertz, kmax};
-use contact::{Collision, Exact, Solver};
+use contact::{Exact, Solver};
 use fault::AnyError;
 use figure::{Axis, Figure, Layer, Legend, Panel, Sharing, Style};
 use impact::Impact;
@@ -31,10 +31,8 @@ fn over_radius(
 
 /// Slope between the ends, on logarithmic axes.
 fn slope(points: &[(f64, f64)]) -> f64 {
-    match (points.first(), points.last()) {
-        (Some(a), Some(b)) => (b.1 / a.1).ln() / (b.0 / a.0).ln(),
-        _ => f64::NAN,
-    }
+    let [a, b] = [points[0], points[points.len() - 1]];
+    (b.1 / a.1).ln() / (b.0 / a.0).ln()
 }
 
 /// Fig. 5.
@@ -64,13 +62,13 @@ pub(super) fn on_radius() -> Result<Redrawn, AnyError> {
             panel,
         ),
         caption: "The radius is that of the rod, its tip and the disc; the mass stays.",
-        claims: vec![Claim::new(
-            "Kmax goes as r0 to the power -9/5",
-            (of_hertz + 1.8).abs() < 1e-6,
-            format!(
+        claims: vec![Claim {
+            says: "Kmax goes as r0 to the power -9/5",
+            holds: (of_hertz + 1.8).abs() < 1e-6,
+            found: format!(
                 "{of_hertz:.4} for Hertz; coupled with the half-space {of_block:.3} between 2 and 12 mm, because the disc's static deflection stiffens with its radius"
             ),
-        )],
+        }],
     })
 }
 
@@ -93,7 +91,7 @@ fn over_step(copper_pa: f64) -> Result<Vec<Found>, AnyError> {
         |solver, &i| {
             let step_s = f64::from(i) * SPACING_S;
             let impact = explicit(copper_pa, step_s)?;
-            let collision = Collision::new(&impact.half_space, &impact.striker, VELOCITY_M_S);
+            let collision = impact.collision();
             let summary = solver.solve(&collision, &impact.settings)?.summary;
             let units = collision.units();
             let values = [
@@ -130,10 +128,8 @@ pub(super) fn on_step() -> Result<Redrawn, AnyError> {
         let mut panel = Panel::new(step, axis).height(210.0).legend(Legend::Outside);
         for (copper, found) in [("123", &table_1), ("129", &printed)] {
             let name = &format!("copper of {copper} GPa");
-            let points = found
-                .iter()
-                .map(|(step_s, values)| (1e6 * step_s, values[k]));
-            panel = panel.line(name, Style::Plain, points.collect());
+            let point = |(step_s, values): &Found| (1e6 * step_s, values[k]);
+            panel = panel.line(name, Style::Plain, found.iter().map(point).collect());
         }
         let level = ends.map(|step_us| (step_us, PRINTED[k].0));
         panel = panel.line("printed", Style::HeavyDashed, level.to_vec());
@@ -152,37 +148,33 @@ pub(super) fn on_step() -> Result<Redrawn, AnyError> {
 }
 
 fn of_steps(table_1: &[Found], printed: &[Found]) -> Vec<Claim> {
-    let fitting = |found: &[Found]| -> Vec<String> {
+    let fitting = |found: &[Found]| {
         let steps = found.iter().filter(gives_all);
-        steps
-            .map(|(step_s, _)| format!("{:.3}", 1e6 * step_s))
-            .collect()
+        let steps: Vec<_> = steps.map(|(s, _)| format!("{:.3}", 1e6 * s)).collect();
+        if steps.is_empty() {
+            "no step".to_owned()
+        } else {
+            format!("{} us", steps.join(", "))
+        }
     };
-    let (of_table_1, of_printed) = (fitting(table_1), fitting(printed));
-    let told = |steps: &[String]| match steps {
-        [] => "no step".to_owned(),
-        steps => format!("{} us", steps.join(", ")),
-    };
-    let ends =
-        [printed.first(), printed.last()].map(|f| f.map_or(f64::NAN, |(_, values)| values[2]));
+    let [first, last] = [0, printed.len() - 1].map(|i| printed[i].1[2]);
     vec![
-        Claim::new(
-            "Kmax = 14.11, ts = 27.0 us and Rf = 0.991 together",
-            !of_printed.is_empty(),
-            format!(
+        Claim {
+            says: "Kmax = 14.11, ts = 27.0 us and Rf = 0.991 together",
+            holds: printed.iter().any(|found| gives_all(&found)),
+            found: format!(
                 "all three to their digits with {} and copper of 129 GPa, {} and 123 GPa, of {} steps each",
-                told(&of_printed),
-                told(&of_table_1),
+                fitting(printed),
+                fitting(table_1),
                 printed.len()
             ),
-        ),
-        Claim::new(
-            "the restitution is 0.991",
-            (ends[0] - 0.991).abs() < 5e-4 && (ends[1] - 0.991).abs() < 5e-4,
-            format!(
-                "{:.4} with the smallest step, {:.4} with the largest: it follows the step",
-                ends[0], ends[1]
+        },
+        Claim {
+            says: "the restitution is 0.991",
+            holds: [first, last].iter().all(|e| (e - 0.991).abs() < 5e-4),
+            found: format!(
+                "{first:.4} with the smallest step, {last:.4} with the largest: it follows the step"
             ),
-        ),
+        },
     ]
 }

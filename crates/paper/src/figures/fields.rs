@@ -90,13 +90,12 @@ impl Shown {
 
     /// Its curves among the fields at all points.
     fn curves(&self, fields: &[([f64; 2], FieldHistory)]) -> Vec<Curve> {
-        let find = |place| fields.iter().find(|(other, _)| *other == place);
-        let found = self.places().filter_map(find);
-        let curve = |(_, history): &([f64; 2], FieldHistory)| {
+        let curve = |place| {
+            let (_, history) = fields.iter().find(|(other, _)| *other == place)?;
             let samples = history[self.field].samples.iter().copied();
-            history.time_s.iter().copied().zip(samples).collect()
+            Some(history.time_s.iter().copied().zip(samples).collect())
         };
-        found.map(curve).collect()
+        self.places().filter_map(curve).collect()
     }
 
     fn draw(&self, ours: &[Curve], theirs: &[Curve], speeds: &WaveSpeeds) -> Figure {
@@ -158,10 +157,11 @@ fn fields(run: &Run) -> Result<Vec<([f64; 2], FieldHistory)>, AnyError> {
             places.push(place);
         }
     }
-    let fields = run.excitation().fields(1e-2 * TOLERANCE)?;
-    let fields = fields
-        .until(UNTIL * run.contact_time_s)
+    let fields = run
+        .excitation()
+        .fields(1e-2 * TOLERANCE)?
         .to_tolerance(TOLERANCE);
+    let fields = fields.until(UNTIL * run.contact_time_s);
     let at = places.into_par_iter().map(|[r, z]| {
         let history = fields.at(r * RADIUS_M, z * RADIUS_M)?;
         Ok(([r, z], history))
@@ -171,11 +171,8 @@ fn fields(run: &Run) -> Result<Vec<([f64; 2], FieldHistory)>, AnyError> {
 
 /// Values in words, from the nearest point to the farthest.
 fn list(curves: &[Curve], of: impl Fn(&Curve) -> f64, digits: usize) -> String {
-    let values: Vec<String> = curves
-        .iter()
-        .map(|c| format!("{:.digits$}", of(c)))
-        .collect();
-    values.join(", ")
+    let values = curves.iter().map(|c| format!("{:.digits$}", of(c)));
+    values.collect::<Vec<_>>().join(", ")
 }
 
 /// Whether values fall or rise from point to point.
@@ -184,33 +181,31 @@ fn falls(curves: &[Curve], of: impl Fn(&Curve) -> f64) -> bool {
 }
 
 fn amplitude(curves: &[Curve], scale: f64, unit: &str) -> Claim {
-    Claim::new(
-        "away from the source the amplitude decreases",
-        falls(curves, |c| peak(c).abs()),
-        format!("{} {unit}", list(curves, |c| scale * peak(c), 2))
-            .trim_end()
-            .to_owned(),
-    )
+    Claim {
+        says: "away from the source the amplitude decreases",
+        holds: falls(curves, |c| peak(c).abs()),
+        found: list(curves, |c| scale * peak(c), 2) + unit,
+    }
 }
 
 fn width(curves: &[Curve]) -> Claim {
-    Claim::new(
-        "away from the source the disturbance widens",
-        falls(curves, |c| -width_s(c)),
-        format!(
+    Claim {
+        says: "away from the source the disturbance widens",
+        holds: falls(curves, |c| -width_s(c)),
+        found: format!(
             "time above half the peak {} us",
             list(curves, |c| 1e6 * width_s(c), 2)
         ),
-    )
+    }
 }
 
 /// A deflection against the main one, beyond a fraction of it, at the points after the first ones.
 fn negative(curves: &[Curve], fraction: f64, places: &str) -> Claim {
-    Claim::new(
-        "away from the source a slight negative deflection appears",
-        curves.iter().all(|c| other(c) < -fraction * peak(c)),
-        format!("{} um at {places}", list(curves, |c| 1e6 * other(c), 2)),
-    )
+    Claim {
+        says: "away from the source a slight negative deflection appears",
+        holds: curves.iter().all(|c| other(c) < -fraction * peak(c)),
+        found: format!("{} um at {places}", list(curves, |c| 1e6 * other(c), 2)),
+    }
 }
 
 fn of_surface(curves: &[Curve], speeds: &WaveSpeeds) -> Vec<Claim> {
@@ -219,23 +214,23 @@ fn of_surface(curves: &[Curve], speeds: &WaveSpeeds) -> Vec<Claim> {
     let after = curves[3].iter().find(|(t, _)| *t >= rayleigh_s);
     let at_rayleigh = after.map_or(0.0, |(_, x)| x / peak(&curves[3]));
     vec![
-        amplitude(curves, 1e6, "um"),
+        amplitude(curves, 1e6, " um"),
         width(curves),
         negative(&curves[2..], 0.0, "3 and 5 r0"),
-        Claim::new(
-            "the arrivals of S and R cannot be seen",
-            at_rayleigh.abs() < 0.1,
-            format!(
+        Claim {
+            says: "the arrivals of S and R cannot be seen",
+            holds: at_rayleigh.abs() < 0.1,
+            found: format!(
                 "at 5 r0 the Rayleigh wave of the disc's edge comes at {:.2} us, when the deflection has {at_rayleigh:+.3} of its peak: the force has just begun to rise, and with zero slope",
                 1e6 * rayleigh_s
             ),
-        ),
+        },
     ]
 }
 
 fn of_depths(curves: &[Curve], _: &WaveSpeeds) -> Vec<Claim> {
     vec![
-        amplitude(curves, 1e6, "um"),
+        amplitude(curves, 1e6, " um"),
         width(curves),
         negative(&curves[1..], 1e-3, "r0, 3 r0 and 5 r0"),
     ]
@@ -244,14 +239,14 @@ fn of_depths(curves: &[Curve], _: &WaveSpeeds) -> Vec<Claim> {
 fn of_reversal(curves: &[Curve], _: &WaveSpeeds) -> Vec<Claim> {
     vec![
         amplitude(curves, 1.0 / STRENGTH_PA, ""),
-        Claim::new(
-            "at the end of the disturbance the stress changes its sign into tension",
-            curves.iter().all(|c| other(c) > 1e-3 * peak(c).abs()),
-            format!(
+        Claim {
+            says: "at the end of the disturbance the stress changes its sign into tension",
+            holds: curves.iter().all(|c| other(c) > 1e-3 * peak(c).abs()),
+            found: format!(
                 "largest tension {} Rm",
                 list(curves, |c| other(c) / STRENGTH_PA, 3)
             ),
-        ),
+        },
     ]
 }
 
@@ -264,15 +259,15 @@ fn of_quiet(curves: &[Curve], speeds: &WaveSpeeds) -> Vec<Claim> {
     });
     vec![
         amplitude(curves, 1.0 / STRENGTH_PA, ""),
-        Claim::new(
-            "at 5 r0 there is no disturbance before 4 r0/c1",
-            found_s >= first_s,
-            format!(
+        Claim {
+            says: "at 5 r0 there is no disturbance before 4 r0/c1",
+            holds: found_s >= first_s,
+            found: format!(
                 "the first sample above 1e-9 of the peak is at {:.2} us, 4 r0/c1 is {:.2} us",
                 1e6 * found_s,
                 1e6 * first_s
             ),
-        ),
+        },
     ]
 }
 
@@ -297,18 +292,11 @@ fn other(curve: &Curve) -> f64 {
 
 /// The time in s for which a curve is above half its peak.
 fn width_s(curve: &Curve) -> f64 {
-    let (peak, mut width) = (peak(curve), 0.0);
-    for pair in curve.windows(2) {
-        let ((before_s, before), (after_s, after)) = (pair[0], pair[1]);
-        let above = |x: f64| (x / peak).max(0.5) - 0.5 > 0.0;
-        width += match (above(before), above(after)) {
-            (true, true) => after_s - before_s,
-            (false, false) => 0.0,
-            (left, _) => {
-                let share = (0.5 * peak - before) / (after - before);
-                (after_s - before_s) * if left { share } else { 1.0 - share }
-            }
-        };
-    }
-    width
+    let peak = peak(curve);
+    let widths = curve.windows(2).map(|pair| {
+        let [(from_s, a), (to_s, b)] = [pair[0], pair[1]].map(|(t, x)| (t, x / peak - 0.5));
+        let part = (a.max(0.0) + b.max(0.0)) / (a.abs() + b.abs()).max(f64::MIN_POSITIVE);
+        (to_s - from_s) * part
+    });
+    widths.sum()
 }

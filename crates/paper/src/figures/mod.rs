@@ -34,12 +34,6 @@ pub struct Claim {
     pub holds: bool,
 }
 
-impl Claim {
-    pub(crate) fn new(says: &'static str, holds: bool, found: String) -> Self {
-        Self { says, found, holds }
-    }
-}
-
 /// All of them, in order.
 pub(crate) fn all(runs: &Runs) -> Result<Vec<Redrawn>, AnyError> {
     let mut all = vec![

@@ -31,13 +31,19 @@ use std::f64::consts::{LN_10, PI};
 
 /// Step responses at one point as functions of the Laplace variable: the six fields inside, and at the centre of the
 /// surface w alone, over its static value.
-#[derive(Debug)]
 pub(crate) struct Hankel {
     medium: Medium,
     r: f64,
     z: f64,
     digits: f64,
-    evaluations: Cell<u64>,
+    /// Slowness of the Rayleigh wave, the slowest.
+    slowest: f64,
+    /// 1/kappa^2.
+    shear: f64,
+    /// Of a panel.
+    rule: Rule,
+    /// Integrand evaluations so far.
+    pub(crate) evaluations: Cell<u64>,
 }
 
 /// A node on the real axis with what does not depend on s: k and the load's J0, J1, J1/(k r) times the weight.
@@ -47,22 +53,17 @@ impl Hankel {
     /// To `digits` decimal digits.
     pub(crate) fn new(medium: &Medium, [r, z]: [f64; 2], digits: f64) -> Self {
         debug_assert!(z > 0.0 || r == 0.0, "on the surface only the centre");
+        let [least, slope] = if z > 0.0 { [2.0, 1.2] } else { [3.0, 1.3] };
         Self {
             medium: medium.clone(),
             r,
             z,
             digits,
+            slowest: 1.0 / medium.rayleigh_speed(),
+            shear: 1.0 / (medium.kappa() * medium.kappa()),
+            rule: Rule::new((least + slope * digits).ceil() as usize),
             evaluations: Cell::new(0),
         }
-    }
-
-    /// Integrand evaluations so far.
-    pub(crate) fn evaluations(&self) -> u64 {
-        self.evaluations.get()
-    }
-
-    fn count(&self, evaluations: u64) {
-        self.evaluations.set(self.evaluations.get() + evaluations);
     }
 
     /// Step responses at many s with Im s >= 0, continued through the imaginary axis where one of them needs it.
@@ -77,13 +78,17 @@ impl Hankel {
             return s.iter().map(|&s| self.continued(s)).collect();
         }
         let widest = s.iter().map(|s| s.im.abs()).fold(0.0, f64::max);
-        let shared = self.nodes(least, widest);
-        s.iter().map(|&s| self.step(&shared, s)).collect()
-    }
-
-    /// Slowness of the Rayleigh wave, the slowest.
-    fn slowest(&self) -> f64 {
-        1.0 / self.medium.rayleigh_speed()
+        let nodes = self.nodes(least, widest);
+        let at = |&s: &Complex64| {
+            let end = s.im.abs() * self.slowest + self.reach() + 4.0 * s.re;
+            let needed = nodes.iter().take_while(|(k, _)| *k <= end);
+            let mut sum = [Complex64::default(); 6];
+            for &(k, bessel) in needed {
+                self.add(&mut sum, k.into(), s, bessel.map(Complex64::from));
+            }
+            sum.map(|v| v / s)
+        };
+        s.iter().map(at).collect()
     }
 
     /// k beyond which e^{-k z} has decayed.
@@ -92,18 +97,17 @@ impl Hankel {
     }
 
     /// Nodes that serve every s with Re s >= `least` and |Im s| <= `widest`.
-    pub(crate) fn nodes(&self, least: f64, widest: f64) -> Vec<Node> {
-        let slowest = self.slowest();
-        let end = widest * slowest + self.reach() + 4.0 * least;
+    fn nodes(&self, least: f64, widest: f64) -> Vec<Node> {
+        let last = widest * self.slowest;
+        let end = last + self.reach() + 4.0 * least;
         let width = 3.5 / (1.0 + self.r);
-        let rule = Rule::new((2.0 + 1.2 * self.digits).ceil() as usize);
         let mut nodes = Vec::new();
         let mut from = 0.0;
         while from < end {
             // beyond the last singularity their distance grows
-            let clear = least.hypot((from - widest * slowest).max(0.0));
+            let clear = least.hypot((from - last).max(0.0));
             let to = from + width.min(2.0 * clear);
-            for (k, weight) in rule.on(from, to) {
+            for (k, weight) in self.rule.on(from, to) {
                 let scale = weight * load(k.into()).re;
                 let x = k * self.r;
                 let j1 = libm::j1(x);
@@ -115,79 +119,42 @@ impl Hankel {
         nodes
     }
 
-    /// Step response of the six fields at s, Re s > 0.
-    pub(crate) fn step(&self, nodes: &[Node], s: Complex64) -> [Complex64; 6] {
-        let end = s.im.abs() * self.slowest() + self.reach() + 4.0 * s.re;
-        let count = nodes.partition_point(|&(k, _)| k <= end);
-        let mut sum = [Complex64::default(); 6];
-        for &(k, bessel) in &nodes[..count] {
-            self.add(&mut sum, k.into(), s, bessel.map(Complex64::from));
-        }
-        self.count(count as u64);
-        sum.map(|v| v / s)
-    }
-
-    /// Adds the fields of one k.
-    fn add(&self, sum: &mut [Complex64; 6], k: Complex64, s: Complex64, bessel: [Complex64; 3]) {
-        let roots = Roots::new(&self.medium, k, s);
-        let terms = roots.fields(&self.medium, k, s, self.z, bessel);
-        for (total, term) in sum.iter_mut().zip(terms) {
-            *total += term;
-        }
-    }
-
     /// Step response at any s with Im s >= 0, continued through the imaginary axis.
-    ///
-    /// The path rises along the imaginary axis above the three singularities and leaves to the right.
-    pub(crate) fn continued(&self, s: Complex64) -> [Complex64; 6] {
-        let slowest = self.slowest();
+    fn continued(&self, s: Complex64) -> [Complex64; 6] {
         let clearance = 1.0 / (1.0 + self.r);
-        let (height, widest) = path(s, slowest, clearance);
-        let widest = widest.min(1.5 * clearance);
-        let end = s.im.abs() * slowest + self.reach();
+        let end = s.im.abs() * self.slowest + self.reach();
+        let (legs, widest) = path(s, self.slowest, clearance, end);
+        let widths = [0.7 * s.norm(), widest.min(1.5 * clearance)];
         let mut sum = [Complex64::default(); 6];
-        let mut leg = |from: Complex64, to: Complex64| {
-            let rule = Rule::new((2.0 + 1.2 * self.digits).ceil() as usize);
-            self.along(&rule, [from, to], [0.7 * s.norm(), widest], |k, weight| {
-                let scale = weight * load(k);
-                let [j0, j1] = bessel(k * self.r);
-                let ratio = if k.norm() * self.r < 1e-6 {
-                    0.5.into()
-                } else {
-                    j1 / (k * self.r)
-                };
-                self.add(&mut sum, k, s, [j0, j1, ratio].map(|j| scale * j));
-            });
-        };
-        let corner = Complex64::new(0.0, height);
-        if height > 0.0 {
-            leg(Complex64::default(), corner);
-        }
-        leg(corner, corner + end);
+        self.along(&legs, widths, |k, weight| {
+            let scale = weight * load(k);
+            let (x, is_small) = (k * self.r, k.norm() * self.r < 1e-6);
+            let [j0, j1] = bessel(x);
+            let ratio = if is_small { 0.5.into() } else { j1 / x };
+            self.add(&mut sum, k, s, [j0, j1, ratio].map(|j| scale * j));
+        });
         sum.map(|v| v / s)
     }
 
-    /// Goes along a straight part of a path in the k plane: every k with its weight, on panels no wider than `widest`,
-    /// and than `least` near the beginning, where the singularities of k = 0 are as near as s.
+    /// Goes along straight parts of a path in the k plane: every k with its weight, on panels no wider than `widest`,
+    /// and than `least` near the beginning of each, where the singularities of k = 0 are as near as s.
     fn along(
         &self,
-        rule: &Rule,
-        [from, to]: [Complex64; 2],
+        legs: &[[Complex64; 2]],
         [least, widest]: [f64; 2],
         mut f: impl FnMut(Complex64, Complex64),
     ) {
-        let length = (to - from).norm();
-        let direction = (to - from) / length;
-        let mut at = 0.0;
-        while at < length * (1.0 - 1e-12) {
-            let end = (at + least.max(0.5 * at).min(widest)).min(length);
-            let mut count = 0;
-            for (x, weight) in rule.on(at, end) {
-                f(from + direction * x, weight * direction);
-                count += 1;
+        for [from, to] in legs {
+            let length = (to - from).norm();
+            let direction = (to - from) / length;
+            let mut at = 0.0;
+            while at < length * (1.0 - 1e-12) {
+                let end = (at + least.max(0.5 * at).min(widest)).min(length);
+                for (x, weight) in self.rule.on(at, end) {
+                    f(from + direction * x, weight * direction);
+                }
+                at = end;
             }
-            self.count(count);
-            at = end;
         }
     }
 
@@ -195,32 +162,91 @@ impl Hankel {
     /// imaginary axis.
     pub(crate) fn surface(&self, s: Complex64) -> Complex64 {
         let rest = 1.0 - self.medium.poisson_ratio();
-        let slowest = self.slowest();
-        let near = |k: Complex64| Roots::new(&self.medium, k, s).surface(s) - rest / k;
-        let far = |k: Complex64| Roots::far(&self.medium, k, s).surface(s) - rest / k;
-        let mut sum = Complex64::default();
-        let (height, widest) = path(s, slowest, 1.0);
-        let widths = [(0.7 * s.norm()).min(1.0), widest.min(2.0)];
-        let rule = Rule::new((3.0 + 1.3 * self.digits).ceil() as usize);
-        let mut leg = |from: Complex64, to: Complex64, f: &dyn Fn(Complex64) -> Complex64| {
-            self.along(&rule, [from, to], widths, |k, weight| sum += weight * f(k));
+        let without_rest = |k: Complex64, [alpha, _, _, inverse]: Roots| {
+            alpha * s * s * self.shear * inverse - rest / k
         };
-        let corner = Complex64::new(0.0, height);
-        let start = corner + s.norm() * slowest + 4.0;
-        let whole = |k: Complex64| load(k) * near(k);
-        if height > 0.0 {
-            leg(Complex64::default(), corner, &whole);
-        }
-        leg(corner, start, &whole);
+        let (legs, widest) = path(s, self.slowest, 1.0, s.norm() * self.slowest + 4.0);
+        let widths = [(0.7 * s.norm()).min(1.0), widest.min(2.0)];
+        let mut sum = Complex64::default();
+        self.along(&legs, widths, |k, weight| {
+            sum += weight * (load(k) * without_rest(k, self.roots(k, s, above)));
+        });
         // 3 (sin k - k cos k)/(2 pi k^2) = sum over both signs of e^{+-ik} (-+ i - k)/2 times 3/(2 pi k^2)
         let depth = self.digits * LN_10 + 2.0;
+        let [_, [_, start]] = legs;
         for sign in [1.0, -1.0] {
             let i = Complex64::new(0.0, sign);
-            let half = |k: Complex64| 0.75 / PI * (i * k).exp() * (-i - k) / (k * k) * far(k);
-            leg(start, start + i * depth, &half);
+            self.along(&[[start, start + i * depth]], widths, |k, weight| {
+                let half = 0.75 / PI * (i * k).exp() * (-i - k) / (k * k);
+                sum += weight * (half * without_rest(k, self.roots(k, s, beyond)));
+            });
         }
         (1.0 + sum / (0.375 * rest)) / s
     }
+
+    /// The integrand at one (k, s), by a branch of the roots.
+    fn roots(
+        &self,
+        k: Complex64,
+        s: Complex64,
+        root: impl Fn(Complex64, Complex64) -> Complex64,
+    ) -> Roots {
+        self.evaluations.update(|count| count + 1);
+        let (alpha, beta) = (root(k, s), root(k, s * self.shear.sqrt()));
+        let (k2, s2) = (k * k, s * s);
+        let slow = s2 * self.shear;
+        let gamma = 2.0 * k2 + slow;
+        // gamma^2 - 4 k^4 and alpha beta - k^2 apart: no difference of large numbers for k >> s
+        let product = alpha * beta;
+        let excess = (k2 * (s2 + slow) + s2 * slow) / (product + k2);
+        let d = slow * (4.0 * k2 + slow) - 4.0 * k2 * excess;
+        [alpha, beta, gamma, d.inv()]
+    }
+
+    /// Adds the fields of one k, in the order of [`halfspace::FIELDS`], from J0 and J1 times a weight, and J1/(k r) times
+    /// it.
+    fn add(
+        &self,
+        sum: &mut [Complex64; 6],
+        k: Complex64,
+        s: Complex64,
+        [j0, j1, j1_over_kr]: [Complex64; 3],
+    ) {
+        let [alpha, beta, gamma, inverse] = self.roots(k, s, above);
+        let k2 = k * k;
+        let p = (-alpha * self.z).exp() * inverse;
+        let q = (-beta * self.z).exp() * inverse;
+        let cross = 4.0 * alpha * beta * k2 * q;
+        let lame = self.medium.lambda_over_mu() * s * s;
+        let u = k * (gamma * p - 2.0 * alpha * beta * q);
+        let hoop = 2.0 * u * k * j1_over_kr;
+        let terms = [
+            u * j1,
+            alpha * (gamma * p - 2.0 * k2 * q) * j0,
+            (gamma * (2.0 * k2 - lame) * p - cross) * j0 - hoop,
+            -lame * gamma * p * j0 + hoop,
+            (cross - gamma * gamma * p) * j0,
+            2.0 * alpha * gamma * k * (q - p) * j1,
+        ];
+        for (total, term) in sum.iter_mut().zip(terms) {
+            *total += term;
+        }
+    }
+}
+
+/// alpha, beta, gamma and 1/D.
+type Roots = [Complex64; 4];
+
+/// sqrt(k^2 + s^2), the right branch for every k on a path that passes above the branch point -i s.
+fn above(k: Complex64, s: Complex64) -> Complex64 {
+    // by factors: the cut from -i s runs to the right below the path, that from i s to the left
+    let i = Complex64::i();
+    i * (-(k + i * s)).sqrt() * (k - i * s).sqrt()
+}
+
+/// The same for |k| beyond the last singularity, in any direction of a half-plane Re k > 0.
+fn beyond(k: Complex64, s: Complex64) -> Complex64 {
+    k * (1.0 + (s / k) * (s / k)).sqrt()
 }
 
 /// J0 and J1 of a complex argument.
@@ -231,91 +257,6 @@ fn bessel(x: Complex64) -> [Complex64; 2] {
     [0.0, 1.0].map(|order| {
         complex_bessel::besselj(order, x).unwrap_or(Complex64::new(f64::INFINITY, 0.0))
     })
-}
-
-/// The two roots and what follows from them at one (k, s).
-#[derive(Debug, Clone, Copy)]
-struct Roots {
-    alpha: Complex64,
-    beta: Complex64,
-    gamma: Complex64,
-    /// 1/D.
-    inverse: Complex64,
-    /// 1/kappa^2.
-    shear: f64,
-}
-
-impl Roots {
-    /// Right branch for every k on a path that passes above the branch points -i s, -i s/kappa.
-    fn new(medium: &Medium, k: Complex64, s: Complex64) -> Self {
-        // by factors: the cut from -i s runs to the right below the path, that from i s to the left
-        let root = |s: Complex64| {
-            let i = Complex64::i();
-            i * (-(k + i * s)).sqrt() * (k - i * s).sqrt()
-        };
-        Self::from(medium, k, s, root)
-    }
-
-    /// The same for |k| beyond the last singularity, in any direction of a half-plane Re k > 0.
-    fn far(medium: &Medium, k: Complex64, s: Complex64) -> Self {
-        let root = |s: Complex64| k * (1.0 + (s / k) * (s / k)).sqrt();
-        Self::from(medium, k, s, root)
-    }
-
-    fn from(
-        medium: &Medium,
-        k: Complex64,
-        s: Complex64,
-        root: impl Fn(Complex64) -> Complex64,
-    ) -> Self {
-        let shear = 1.0 / (medium.kappa() * medium.kappa());
-        let (alpha, beta) = (root(s), root(s * shear.sqrt()));
-        let (k2, s2) = (k * k, s * s);
-        let slow = s2 * shear;
-        let gamma = 2.0 * k2 + slow;
-        // gamma^2 - 4 k^4 and alpha beta - k^2 apart: no difference of large numbers for k >> s
-        let product = alpha * beta;
-        let excess = (k2 * (s2 + slow) + s2 * slow) / (product + k2);
-        let d = slow * (4.0 * k2 + slow) - 4.0 * k2 * excess;
-        Self {
-            alpha,
-            beta,
-            gamma,
-            inverse: d.inv(),
-            shear,
-        }
-    }
-
-    /// The deflection of the surface, w at z = 0.
-    fn surface(&self, s: Complex64) -> Complex64 {
-        self.alpha * s * s * self.shear * self.inverse
-    }
-
-    /// The fields in the order of [`halfspace::FIELDS`] from J0 and J1 times a weight, and J1/(k r) times it.
-    fn fields(
-        &self,
-        medium: &Medium,
-        k: Complex64,
-        s: Complex64,
-        z: f64,
-        [j0, j1, j1_over_kr]: [Complex64; 3],
-    ) -> [Complex64; 6] {
-        let k2 = k * k;
-        let p = (-self.alpha * z).exp() * self.inverse;
-        let q = (-self.beta * z).exp() * self.inverse;
-        let cross = 4.0 * self.alpha * self.beta * k2 * q;
-        let lame = medium.lambda_over_mu() * s * s;
-        let u = k * (self.gamma * p - 2.0 * self.alpha * self.beta * q);
-        let hoop = 2.0 * u * k * j1_over_kr;
-        [
-            u * j1,
-            self.alpha * (self.gamma * p - 2.0 * k2 * q) * j0,
-            (self.gamma * (2.0 * k2 - lame) * p - cross) * j0 - hoop,
-            -lame * self.gamma * p * j0 + hoop,
-            (cross - self.gamma * self.gamma * p) * j0,
-            2.0 * self.alpha * self.gamma * k * (q - p) * j1,
-        ]
-    }
 }
 
 /// k Z_H(k) of Hertz's pressure, (30): 3 (sin k - k cos k)/(2 pi k^2).
@@ -329,13 +270,19 @@ fn load(k: Complex64) -> Complex64 {
 }
 
 /// A path in the k plane from 0 that passes above the singularities -i s x, x = 1 .. `slowest`, and to the
-/// right of i s x: its height, and the widest panel that keeps away from them.
-fn path(s: Complex64, slowest: f64, clearance: f64) -> (f64, f64) {
-    if s.im == 0.0 && s.re > 0.0 {
+/// right of i s x, and leaves to the right as far as `end`: its two straight parts, the first along the imaginary axis,
+/// and the widest panel that keeps away from the singularities.
+fn path(s: Complex64, slowest: f64, clearance: f64, end: f64) -> ([[Complex64; 2]; 2], f64) {
+    let (height, widest) = if s.im == 0.0 && s.re > 0.0 {
         (0.0, f64::INFINITY)
     } else if s.re > 0.25 * s.im {
         (0.0, 1.4 * s.re)
     } else {
         ((-s.re).max(0.0) * slowest + clearance, 1.5 * clearance)
-    }
+    };
+    let corner = Complex64::new(0.0, height);
+    (
+        [[Complex64::default(), corner], [corner, corner + end]],
+        widest,
+    )
 }

@@ -13,12 +13,12 @@ mod framework;
 mod hankel;
 mod series;
 
-use crate::measure::Effort;
+use crate::measure::{Effort, Run};
 use framework::{euler, invert, stehfest, talbot};
 use halfspace::{Medium, Six};
 use hankel::Hankel;
 use num_complex::Complex64;
-use series::{Series, Window, de_hoog, durbin};
+use series::{Series, de_hoog, durbin, in_window};
 
 /// A numerical inversion of the Laplace transform at one setting, ready for any scene and time.
 pub(crate) struct Inversion {
@@ -112,8 +112,9 @@ impl Inversion {
             while let Some(first) = rest.first() {
                 let (now, later) = rest.split_at(rest.partition_point(|t| *t <= span * first));
                 let longest = now.last().copied().unwrap_or(*first);
-                let window = Window::new(longest, aliasing, samples);
-                values.extend(in_window(hankel, &window, series, now));
+                let of_window = [longest, aliasing];
+                let transform = |s: &[Complex64]| hankel.values(s);
+                values.extend(in_window(series, samples, of_window, now, transform));
                 rest = later;
             }
             values
@@ -128,25 +129,11 @@ impl Inversion {
 
     /// Step responses at ascending times, and the integrand evaluations they took; at the centre of the surface only
     /// w over its static value.
-    pub(crate) fn run(&self, medium: &Medium, place: [f64; 2], times: &[f64]) -> (Vec<Six>, u64) {
+    pub(crate) fn run(&self, medium: &Medium, place: [f64; 2], times: &[f64]) -> Run<Vec<Six>> {
         let hankel = Hankel::new(medium, place, self.digits);
-        ((self.invert)(&hankel, times), hankel.evaluations())
+        let values = (self.invert)(&hankel, times);
+        Ok((values, Some(hankel.evaluations.get())))
     }
-}
-
-/// Fields at many times by a series method, whose samples are shared.
-fn in_window(hankel: &Hankel, window: &Window, series: Series, times: &[f64]) -> Vec<Six> {
-    let samples = hankel.values(&window.nodes());
-    let fields: [Vec<f64>; 6] = std::array::from_fn(|f| {
-        let column: Vec<Complex64> = samples.iter().map(|s| s[f]).collect();
-        if column.iter().any(|v| v.norm_sqr() > 0.0) {
-            window.invert(series, &column, times)
-        } else {
-            vec![0.0; times.len()]
-        }
-    });
-    let times = 0..times.len();
-    times.map(|i| fields.each_ref().map(|f| f[i])).collect()
 }
 
 #[cfg(test)]

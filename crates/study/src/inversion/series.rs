@@ -4,46 +4,39 @@
 use num_complex::Complex64;
 use std::f64::consts::PI;
 
-/// Where a series method samples the transform: a + i k pi/T.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Window {
-    /// Half the period T of the series; times up to it are inverted.
-    half_period: f64,
-    /// Distance a of the path from the imaginary axis.
-    damping: f64,
-    /// Number of samples.
-    samples: usize,
-}
-
-impl Window {
-    /// Times up to `longest` with an aliasing error of `aliasing`: a = -ln(aliasing)/(2 T), T = 1.25 `longest`.
-    pub(crate) fn new(longest: f64, aliasing: f64, samples: usize) -> Self {
-        let half_period = 1.25 * longest;
-        Self {
-            half_period,
-            damping: -aliasing.ln() / (2.0 * half_period),
-            samples,
-        }
-    }
-
-    /// The nodes of all samples.
-    pub(crate) fn nodes(&self) -> Vec<Complex64> {
-        let step = PI / self.half_period;
-        let node = |k| Complex64::new(self.damping, step * k as f64);
-        (0..self.samples).map(node).collect()
-    }
-
-    /// f at some times from the samples of its transform.
-    pub(crate) fn invert(&self, series: Series, samples: &[Complex64], times: &[f64]) -> Vec<f64> {
-        let turn = |t: &f64| Complex64::from_polar(1.0, PI * t / self.half_period);
-        let sums = series(samples, &times.iter().map(turn).collect::<Vec<_>>());
-        let scale = |(sum, t): (f64, &f64)| (self.damping * t).exp() / self.half_period * sum;
-        sums.into_iter().zip(times).map(scale).collect()
-    }
-}
-
 /// A way to sum the series: from its samples, the sums for some e^{i pi t/T}.
 pub(crate) type Series = fn(&[Complex64], &[Complex64]) -> Vec<f64>;
+
+/// f at some times of a transform with any number of components, which is sampled at a + i k pi/T for all of them.
+///
+/// The times lie up to `longest`: a = -ln(`aliasing`)/(2 T) for an aliasing error of that size, T = 1.25 `longest`.
+pub(crate) fn in_window<const N: usize>(
+    series: Series,
+    samples: usize,
+    [longest, aliasing]: [f64; 2],
+    times: &[f64],
+    transform: impl Fn(&[Complex64]) -> Vec<[Complex64; N]>,
+) -> Vec<[f64; N]> {
+    let half_period = 1.25 * longest;
+    let damping = -aliasing.ln() / (2.0 * half_period);
+    let step = PI / half_period;
+    let node = |k| Complex64::new(damping, step * k as f64);
+    let values = transform(&(0..samples).map(node).collect::<Vec<_>>());
+    let turn = |t: &f64| Complex64::from_polar(1.0, PI * t / half_period);
+    let turns: Vec<Complex64> = times.iter().map(turn).collect();
+    let mut found = vec![[0.0; N]; times.len()];
+    for f in 0..N {
+        let column: Vec<Complex64> = values.iter().map(|value| value[f]).collect();
+        // a component that is not looked at is zero
+        if column.iter().any(|v| v.norm_sqr() > 0.0) {
+            let sums = series(&column, &turns).into_iter().zip(times);
+            for (found, (sum, t)) in found.iter_mut().zip(sums) {
+                found[f] = (damping * t).exp() / half_period * sum;
+            }
+        }
+    }
+    found
+}
 
 /// Durbin (1974): the tail of the series is cut off.
 pub(crate) fn durbin(samples: &[Complex64], turns: &[Complex64]) -> Vec<f64> {

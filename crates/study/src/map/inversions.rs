@@ -39,23 +39,16 @@ pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Picture>
             Axis::logarithmic("largest error over the largest value").range(1e-16, 10.0),
         );
         for method in Inversion::pictured(effort) {
-            let (values, _) = method.run(&medium, scene.place, &scene.times);
+            let (values, _) = method.run(&medium, scene.place, &scene.times)?;
             let label = format!("{}, {}", method.name, method.setting);
-            figure.add(Layer::line(
-                &label,
-                Style::Plain,
-                over_time(&scene, &values),
-            ));
+            figure.line(&label, Style::Plain, over_time(&scene, &values));
             advance();
         }
         let own = over_time(&scene, &scene.by_kernel(&kernel)?);
-        figure.add(Layer::line("single integral, 1e-10", Style::Heavy, own));
-        let ends = [scene.arrivals.first(), scene.arrivals.last()];
-        for (arrival, label) in ends.into_iter().zip(["first front", "last front"]) {
-            figure
-                .panel
-                .layers
-                .extend(arrival.map(|&t| Layer::mark(t, label)));
+        figure.line("single integral, 1e-10", Style::Heavy, own);
+        let last = scene.arrivals.len() - 1;
+        for (arrival, label) in [(0, "first front"), (last, "last front")] {
+            figure.add(Layer::mark(scene.arrivals[arrival], label));
         }
         CAPTION.clone_into(&mut figure.caption);
         figures.push(figure);

@@ -12,13 +12,12 @@ use std::f64::consts::PI;
 /// Poisson's ratio where two roots of the Rayleigh cubic meet.
 ///
 /// The zero of the discriminant of the Rayleigh cubic, to the last bit.
-pub const DOUBLE_ROOT: f64 = 0.263_082_064_883_363_66;
+const DOUBLE_ROOT: f64 = 0.263_082_064_883_363_66;
 
 /// A_3 and A_2 of Hertz's pressure without cancellation: a Gauss rule over the chord function.
 ///
 /// A_n = (3/(8 pi)) int_{-1}^1 (1 - x^2) E_{n-3}(xi - i x) dx, E_0 = 1/rho, E_{-1} = zeta/rho^3; for |xi| > 1 + r.
-#[must_use]
-pub fn chord_potentials(xi: Complex64, r: f64) -> [Complex64; 2] {
+pub(super) fn chord_potentials(xi: Complex64, r: f64) -> [Complex64; 2] {
     let rule = Rule::new(64);
     let mut sum = [Complex64::default(); 2];
     for (x, weight) in rule.on(-1.0, 1.0) {
@@ -50,8 +49,7 @@ fn closed_potential(xi: Complex64, r: f64) -> Complex64 {
 }
 
 /// Relative error of A_3 in closed form at |xi| in a direction (0 the real axis, pi/2 the imaginary one).
-#[must_use]
-pub fn closed_form_error(size: f64, direction: f64, r: f64) -> f64 {
+pub(super) fn closed_form_error(size: f64, direction: f64, r: f64) -> f64 {
     let xi = Complex64::from_polar(size, direction);
     let xi = Complex64::new(xi.re.max(0.0), xi.im);
     let exact = chord_potentials(xi, r)[0];
@@ -59,10 +57,7 @@ pub fn closed_form_error(size: f64, direction: f64, r: f64) -> f64 {
 }
 
 /// Relative error of the program's static w at a depth, where it uses the multipole series.
-///
-/// # Errors
-/// None for depths in the domain of the kernels.
-pub fn deep_static_error(medium: &Medium, r: f64, z: f64) -> Result<f64, AnyError> {
+pub(super) fn deep_static_error(medium: &Medium, r: f64, z: f64) -> Result<f64, AnyError> {
     let kernel = Kernel::new(medium, Profile::Hertz, 1e-10)?;
     let [a3, a2] = chord_potentials(z.into(), r);
     let exact = (1.0 - medium.poisson_ratio()) * a3.re + 0.5 * z * a2.re;
@@ -70,10 +65,7 @@ pub fn deep_static_error(medium: &Medium, r: f64, z: f64) -> Result<f64, AnyErro
 }
 
 /// Largest difference between the closed form of W and the program's, near the double root.
-///
-/// # Errors
-/// When the ratio is outside (-1, 0.5).
-pub fn double_root_error(distance: f64) -> Result<f64, AnyError> {
+pub(super) fn double_root_error(distance: f64) -> Result<f64, AnyError> {
     let medium = Medium::new(DOUBLE_ROOT + distance)?;
     let response = SurfaceResponse::new(&medium, Deflection::Centre);
     let worst = (1..40).map(|i| {
@@ -84,30 +76,22 @@ pub fn double_root_error(distance: f64) -> Result<f64, AnyError> {
 }
 
 /// Largest difference between the program's surface response and the single integral, near the double root.
-///
-/// # Errors
-/// When the ratio is outside (-1, 0.5).
-pub fn double_root_own_error(distance: f64) -> Result<f64, AnyError> {
+pub(super) fn double_root_own_error(distance: f64) -> Result<f64, AnyError> {
     let medium = Medium::new(DOUBLE_ROOT + distance)?;
     let response = SurfaceResponse::new(&medium, Deflection::Centre);
     let kernel = Kernel::new(&medium, Profile::Hertz, 1e-14)?;
     let rest = kernel.static_field(0.0, 0.0)?[1];
-    let mut worst = 0.0_f64;
-    for i in 1..40 {
+    (1..40).try_fold(0.0_f64, |worst, i| {
         let t = f64::from(i) * 0.025 / medium.kappa();
         let integral = 1.0 + kernel.remainder(0.0, 0.0, t)?.value[1] / rest;
-        worst = worst.max((integral - response.step(t)).abs());
-    }
-    Ok(worst)
+        Ok(worst.max((integral - response.step(t)).abs()))
+    })
 }
 
 /// Difference of the kernels at tolerances 1e-8 and 1e-13 over the largest field, at a distance from nu = 1/2.
 ///
 /// The times are those of the shear waves, which stay where they are while c1 goes to infinity.
-///
-/// # Errors
-/// When the ratio is outside (-1, 0.5).
-pub fn incompressible_error(distance: f64) -> Result<f64, AnyError> {
+pub(super) fn incompressible_error(distance: f64) -> Result<f64, AnyError> {
     let medium = Medium::new(0.5 - distance)?;
     let coarse = Kernel::new(&medium, Profile::Hertz, 1e-8)?;
     let fine = Kernel::new(&medium, Profile::Hertz, 1e-13)?;
@@ -127,10 +111,7 @@ pub fn incompressible_error(distance: f64) -> Result<f64, AnyError> {
 }
 
 /// W at T = 0.7 for a ratio, from the program and from the closed form.
-///
-/// # Errors
-/// When the ratio is outside (-1, 0.5).
-pub fn incompressible_surface(distance: f64) -> Result<[f64; 2], AnyError> {
+pub(super) fn incompressible_surface(distance: f64) -> Result<[f64; 2], AnyError> {
     let medium = Medium::new(0.5 - distance)?;
     let response = SurfaceResponse::new(&medium, Deflection::Centre);
     Ok([
@@ -140,14 +121,9 @@ pub fn incompressible_surface(distance: f64) -> Result<[f64; 2], AnyError> {
 }
 
 /// All three pictures.
-pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Picture>, AnyError> {
-    let done = vec![
-        potentials(effort)?,
-        double_root(effort)?,
-        incompressible(effort)?,
-    ];
-    advance();
-    Ok(done)
+pub(crate) fn figures(effort: Effort) -> Result<Vec<Picture>, AnyError> {
+    let figures = [potentials, double_root, incompressible];
+    figures.into_iter().map(|figure| figure(effort)).collect()
 }
 
 /// Adds a curve of errors, those below 1e-17 drawn there.
@@ -160,7 +136,7 @@ fn add(
 ) -> Result<(), AnyError> {
     let point = |&x: &f64| Ok((x, error(x)?.max(1e-17)));
     let points: Result<_, AnyError> = places.iter().map(point).collect();
-    figure.add(Layer::line(name, style, points?));
+    figure.line(name, style, points?);
     Ok(())
 }
 

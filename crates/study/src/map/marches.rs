@@ -18,18 +18,18 @@
 use super::Map;
 use crate::measure::Effort;
 use crate::picture::Picture;
-use crate::scenes::{HERTZ_PA, ROD_RADIUS_M, paper};
+use crate::scenes::{paper_disc, paper_response};
 use contact::law::hertz::CONTACT_TIME;
 use contact::{
     FixedDisc, History, MarchError, StaticShare, Summary, Weights, march_explicit, march_implicit,
 };
 use fault::AnyError;
 use figure::{Interval, Layer, Style};
-use halfspace::{Deflection, Medium, SurfaceResponse};
+use paper::PRINTED_PA;
 
 /// What a march made of an impact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Outcome {
+pub(super) enum Outcome {
     /// Restitution within 1e-3 of the converged one.
     Accurate,
     /// It loses energy, though not the right amount.
@@ -51,23 +51,19 @@ const OUTCOMES: [&str; 5] = [
 ];
 
 /// A disc with its converged impact and what first-order theory needs of it.
-#[derive(Debug, Clone)]
-pub struct Converged<'a> {
+pub(super) struct Converged<'a> {
     disc: FixedDisc<'a>,
     /// Its results.
-    pub summary: Summary,
+    pub(super) summary: Summary,
     /// Maxima of its force.
     maxima: usize,
     /// C of the energy that the explicit scheme feeds in: 1 - e^2 = loss - h C.
-    pub gain: f64,
+    pub(super) gain: f64,
 }
 
 impl<'a> Converged<'a> {
     /// Marches implicitly with 800 steps or more and takes the integrals of the energy balance.
-    ///
-    /// # Errors
-    /// Those of the march.
-    pub fn new(disc: FixedDisc<'a>) -> Result<Self, MarchError> {
+    pub(super) fn new(disc: FixedDisc<'a>) -> Result<Self, MarchError> {
         let history = march_implicit(&disc, CONTACT_TIME / 800.0)?;
         let summary = Summary::new(&history)?;
         let steps = (summary.contact_time / history.step).ceil() as usize;
@@ -86,25 +82,17 @@ impl<'a> Converged<'a> {
     }
 
     /// Restitution of the explicit scheme at a step (collision units), to first order.
-    #[must_use]
-    pub fn explicit_restitution(&self, step: f64) -> f64 {
+    pub(super) fn explicit_restitution(&self, step: f64) -> f64 {
         (1.0 - self.summary.loss + step * self.gain).max(0.0).sqrt()
     }
 
-    /// Step beyond which the explicit scheme gains energy, to first order.
-    fn energy_step(&self) -> f64 {
-        self.summary.loss / self.gain
-    }
-
     /// Step beyond which the explicit scheme blows up: h k/Z = 2.
-    #[must_use]
-    pub fn stable_step(&self) -> f64 {
+    pub(super) fn stable_step(&self) -> f64 {
         2.0 / (self.stiffness() * admittance(&self.disc))
     }
 
     /// Step beyond which the newest samples of the explicit scheme oscillate: h k/Z = 6 - 4 sqrt 2.
-    #[must_use]
-    pub fn smooth_step(&self) -> f64 {
+    pub(super) fn smooth_step(&self) -> f64 {
         (3.0 - 2.0 * std::f64::consts::SQRT_2) * self.stable_step()
     }
 
@@ -114,22 +102,19 @@ impl<'a> Converged<'a> {
     }
 
     /// What the explicit scheme makes of the impact at a step.
-    #[must_use]
-    pub fn explicit(&self, step: f64) -> Outcome {
-        self.outcome(march_explicit(&self.disc, step))
+    pub(super) fn explicit(&self, step: f64) -> Outcome {
+        let march = march_explicit(&self.disc, step);
+        self.outcome(march.map(|(history, summary)| (summary, history)))
     }
 
     /// What the implicit scheme makes of it.
-    #[must_use]
-    pub fn implicit(&self, step: f64) -> Outcome {
-        self.outcome(march_implicit(&self.disc, step).and_then(|history| {
-            let summary = Summary::new(&history)?;
-            Ok((history, summary))
-        }))
+    pub(super) fn implicit(&self, step: f64) -> Outcome {
+        let march = march_implicit(&self.disc, step);
+        self.outcome(march.and_then(|march| Ok((Summary::new(&march)?, march))))
     }
 
-    fn outcome(&self, march: Result<(History, Summary), MarchError>) -> Outcome {
-        let Ok((history, summary)) = march else {
+    fn outcome(&self, march: Result<(Summary, History), MarchError>) -> Outcome {
+        let Ok((summary, history)) = march else {
             return Outcome::BlownUp;
         };
         let early = summary.contact_time < 0.8 * self.summary.contact_time;
@@ -148,44 +133,33 @@ impl<'a> Converged<'a> {
 }
 
 /// 1/Z = G(0) in collision units.
-#[must_use]
-pub fn admittance(disc: &FixedDisc<'_>) -> f64 {
+pub(super) fn admittance(disc: &FixedDisc<'_>) -> f64 {
     disc.coupling * disc.response.impulse(0.0) / disc.wave_time
 }
 
 /// Maxima of a force that stand out by 1e-4 of its largest value on both sides.
 fn maxima(force: &[f64]) -> usize {
     let least = 1e-4 * force.iter().fold(0.0_f64, |a, &p| a.max(p));
-    let (mut count, mut rising, mut turn) = (0, true, 0.0_f64);
+    // since the last turn the force rises or falls, by sign
+    let (mut count, mut sign, mut turn) = (0, 1.0_f64, 0.0_f64);
     for &p in force {
-        if rising {
-            turn = turn.max(p);
-            if p < turn - least {
-                count += 1;
-                (rising, turn) = (false, p);
-            }
-        } else {
-            turn = turn.min(p);
-            if p > turn + least {
-                (rising, turn) = (true, p);
-            }
+        turn = sign * (sign * turn).max(sign * p);
+        if sign * p < sign * turn - least {
+            count += usize::from(sign > 0.0);
+            (sign, turn) = (-sign, p);
         }
     }
     count
 }
 
-/// The paper's disc with E = 129 GPa for the copper, which its Hertz values are computed with.
-pub fn paper_disc<'a>(response: &'a SurfaceResponse) -> Result<FixedDisc<'a>, AnyError> {
-    Ok(paper(HERTZ_PA)?.fixed_disc(response, ROD_RADIUS_M, StaticShare::Full))
+/// The paper's case at steps over its contact, of which the second gives its restitution: label, place on a map, step.
+fn paper_steps(paper: &Converged<'_>) -> [(String, (f64, f64), f64); 2] {
+    [54, 200].map(|n| {
+        let step = paper.summary.contact_time / f64::from(n);
+        let place = (1.5 * admittance(&paper.disc), step / CONTACT_TIME);
+        (format!("paper's case, ts/{n}"), place, step)
+    })
 }
-
-/// The steel block's response under the paper's disc.
-pub fn paper_response() -> Result<SurfaceResponse, AnyError> {
-    Ok(SurfaceResponse::new(&Medium::new(0.3)?, Deflection::Centre))
-}
-
-/// Steps over the paper's contact at which its scheme is looked at: the second gives its restitution.
-const PAPER_STEPS: [f64; 2] = [54.0, 200.0];
 
 /// A map of discs, from side to side, against the step over Hertz's contact time.
 fn map<'a>(x: [f64; 2], quantity: &'a str, classes: &'a [&'a str], effort: Effort) -> Map<'a> {
@@ -206,35 +180,21 @@ fn line<'a>(
     columns.iter().map(point).collect()
 }
 
-/// Marks the paper's case at its steps, with something to say of each.
-fn mark(figure: &mut Picture, paper: &Converged<'_>, says: impl Fn(f64) -> String) {
-    for n in PAPER_STEPS {
-        let step = paper.summary.contact_time / n;
-        let place = (1.5 * admittance(&paper.disc), step / CONTACT_TIME);
-        figure.add(Layer::star(
-            place,
-            &format!("paper's case, ts/{n}{}", says(step)),
-        ));
-    }
-}
-
 /// Draws the three maps.
 pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Picture>, AnyError> {
     let response = paper_response()?;
-    let disc = paper_disc(&response)?;
+    let disc = paper_disc(PRINTED_PA, &response)?;
     let stiffness = "contact stiffness over impedance, k/Z, per collision time";
     let map = map([0.1, 100.0], stiffness, &OUTCOMES, effort);
-    let column = |stiffness: f64| {
+    let mut columns = Vec::new();
+    for stiffness in map.columns() {
         // another stiffness over impedance at the same wave time
         let scale = stiffness / (1.5 * admittance(&disc));
         let coupling = disc.coupling * scale;
-        let exact = Converged::new(FixedDisc { coupling, ..disc })?;
-        Ok((stiffness, exact))
-    };
-    let columns = map.columns().into_iter().map(column);
-    let columns = columns.collect::<Result<Vec<_>, AnyError>>()?;
+        columns.push((stiffness, Converged::new(FixedDisc { coupling, ..disc })?));
+    }
     let paper = Converged::new(disc)?;
-    let explicit = explicit(&map, &columns, &paper);
+    let explicit = explicit(&map, &columns, &paper)?;
     advance();
     let implicit = implicit(&map, &columns, &paper);
     advance();
@@ -243,30 +203,36 @@ pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Picture>
     Ok(vec![explicit, implicit, dynamic])
 }
 
-fn explicit(map: &Map<'_>, columns: &[(f64, Converged<'_>)], paper: &Converged<'_>) -> Picture {
+fn explicit(
+    map: &Map<'_>,
+    columns: &[(f64, Converged<'_>)],
+    paper: &Converged<'_>,
+) -> Result<Picture, AnyError> {
     let title = "Explicit march (the paper's scheme)";
     let mut figure = map.picture("march-explicit", title, |cell, y| {
         columns[cell % columns.len()].1.explicit(y * CONTACT_TIME) as usize
     });
     let stable = line(columns, Converged::stable_step);
-    figure.add(Layer::line("theory: h k/Z = 2", Style::Heavy, stable));
+    figure.line("theory: h k/Z = 2", Style::Heavy, stable);
     let complex = "theory: roots turn complex, h k/Z = 0.34";
     let smooth = line(columns, Converged::smooth_step);
-    figure.add(Layer::line(complex, Style::Dotted, smooth));
-    let gain = line(columns, Converged::energy_step);
-    figure.add(Layer::line(
-        "theory: gain = radiated loss",
-        Style::HeavyDashed,
-        gain,
-    ));
-    mark(&mut figure, paper, |step| {
-        match march_explicit(&paper.disc, step) {
-            Ok((_, summary)) => format!(": e = {:.4}", summary.restitution),
-            Err(_) => String::new(),
-        }
-    });
-    figure.caption = explain(paper);
-    figure
+    figure.line(complex, Style::Dotted, smooth);
+    let gain = line(columns, |exact| exact.summary.loss / exact.gain);
+    figure.line("theory: gain = radiated loss", Style::HeavyDashed, gain);
+    let mut told = Vec::new();
+    for (label, place, step) in paper_steps(paper) {
+        let (_, found) = march_explicit(&paper.disc, step)?;
+        let [found, theory] = [found.restitution, paper.explicit_restitution(step)];
+        figure.add(Layer::star(place, &format!("{label}: e = {found:.4}")));
+        told.push([found, theory].map(|e| format!("{e:.4}")));
+    }
+    figure.caption = format!(
+        "The paper's case (E = 129 GPa) has a restitution of {:.5} when it is converged. \
+         Its explicit scheme gives {} at a step of ts/200 and {} at ts/54; first-order theory gives {} and {}. \
+         The published 0.991 is the energy that the scheme feeds in at about ts/200, not a property of the impact.",
+        paper.summary.restitution, told[1][0], told[0][0], told[1][1], told[0][1],
+    );
+    Ok(figure)
 }
 
 fn implicit(map: &Map<'_>, columns: &[(f64, Converged<'_>)], paper: &Converged<'_>) -> Picture {
@@ -282,16 +248,15 @@ fn implicit(map: &Map<'_>, columns: &[(f64, Converged<'_>)], paper: &Converged<'
         growing.extend(grows.map(|&y| (*x, y)));
     }
     let root = "theory: a root of the weights beyond 1";
-    figure.add(Layer::line(root, Style::Dots, growing));
+    figure.line(root, Style::Dots, growing);
     let fewest = "eight samples in contact, the fewest that are interpolated";
-    let step = |exact: &Converged<'_>| exact.summary.contact_time / 8.0;
-    figure.add(Layer::line(fewest, Style::Dotted, line(columns, step)));
-    let cells = figure.points();
-    let gains = cells
-        .iter()
-        .filter(|(class, ..)| *class == OUTCOMES[2])
-        .count();
-    mark(&mut figure, paper, |_| String::new());
+    let step = line(columns, |exact| exact.summary.contact_time / 8.0);
+    figure.line(fewest, Style::Dotted, step);
+    let cells = figure.points().into_iter();
+    let gains = cells.filter(|(class, ..)| *class == OUTCOMES[2]).count();
+    for (label, place, _) in paper_steps(paper) {
+        figure.add(Layer::star(place, &label));
+    }
     figure.caption = format!(
         "The implicit march gains energy in {gains} cells of this plane, and with fewer than eight samples in \
         contact it refuses with a sentence that asks for a smaller step. The curvature of the newest cell, an \
@@ -302,49 +267,23 @@ fn implicit(map: &Map<'_>, columns: &[(f64, Converged<'_>)], paper: &Converged<'
     figure
 }
 
-/// The restitution of 0.991 in numbers.
-fn explain(paper: &Converged<'_>) -> String {
-    let at = |n: f64| paper.summary.contact_time / n;
-    let found = |n: f64| match march_explicit(&paper.disc, at(n)) {
-        Ok((_, summary)) => format!("{:.4}", summary.restitution),
-        Err(error) => error.to_string(),
-    };
-    format!(
-        "The paper's case (E = 129 GPa) has a restitution of {:.5} when it is converged. \
-         Its explicit scheme gives {} at a step of ts/200 and {} at ts/54; first-order theory gives {:.4} and {:.4}. \
-         The published 0.991 is the energy that the scheme feeds in at about ts/200, not a property of the impact.",
-        paper.summary.restitution,
-        found(200.0),
-        found(54.0),
-        paper.explicit_restitution(at(200.0)),
-        paper.explicit_restitution(at(54.0)),
-    )
-}
-
 /// Growth per step of the implicit scheme's newest samples at a frozen contact stiffness k.
 ///
 /// The largest root, in modulus, of p_n/k + coupling [p_n - sum_j g_j (p_{n-j} - p_{n-j-1})] = 0, for the dynamic
 /// share without the first p_n in brackets, from a long run of the recurrence; below one the samples settle.
-#[must_use]
-pub fn linear_growth(disc: &FixedDisc<'_>, stiffness: f64, step: f64) -> f64 {
+pub(super) fn linear_growth(disc: &FixedDisc<'_>, stiffness: f64, step: f64) -> f64 {
     const STEPS: usize = 400;
     let lag = Weights::of(disc, disc.response, step).values;
-    let still = match disc.share {
-        StaticShare::Full => 1.0,
-        StaticShare::Dynamic => 0.0,
-    };
-    let own = 1.0 / stiffness + disc.coupling * (still - lag[0]);
+    let own = 1.0 / stiffness + disc.coupling * (disc.share.factor() - lag[0]);
     let mut p = vec![0.0; lag.len() + 1];
     p.push(1.0);
     // rescaled so that nothing overflows; the logarithm of the scale is kept
     let mut growth = 0.0;
     for n in 0..STEPS {
         let m = p.len();
-        let past: f64 = lag[1..]
-            .iter()
-            .enumerate()
-            .map(|(j, g)| g * (p[m - 1 - j] - p[m - 2 - j]))
-            .sum();
+        let terms = lag[1..].iter().enumerate();
+        let past = terms.map(|(j, g)| g * (p[m - 1 - j] - p[m - 2 - j]));
+        let past: f64 = past.sum();
         p.push(disc.coupling * (past - lag[0] * p[m - 1]) / own);
         p.remove(0);
         let size = p.iter().fold(0.0_f64, |a, v| a.max(v.abs()));
@@ -371,15 +310,13 @@ fn dynamic<'a>(disc: &FixedDisc<'a>, coupling: f64) -> FixedDisc<'a> {
 }
 
 /// What the `dynamic` share makes of an impact at a step: whether it has a solution.
-#[must_use]
-pub fn dynamic_is_solved(disc: &FixedDisc<'_>, step: f64) -> bool {
+pub(super) fn dynamic_is_solved(disc: &FixedDisc<'_>, step: f64) -> bool {
     let march = march_implicit(&dynamic(disc, disc.coupling), step);
     !matches!(march, Err(MarchError::NoSolution { .. }))
 }
 
 /// The largest argument that a condition allows, which it does below and not above; relative to 1e-9.
-pub(super) fn bisected(low: f64, high: f64, allows: impl Fn(f64) -> bool) -> f64 {
-    let (mut low, mut high) = (low, high);
+pub(super) fn bisected(mut low: f64, mut high: f64, allows: impl Fn(f64) -> bool) -> f64 {
     for _ in 0..60 {
         let middle = 0.5 * (low + high);
         if allows(middle) {
@@ -392,8 +329,7 @@ pub(super) fn bisected(low: f64, high: f64, allows: impl Fn(f64) -> bool) -> f64
 }
 
 /// Largest coupling for which the `dynamic` share has a solution at a step, up to a force of Hertz's peak.
-#[must_use]
-pub fn dynamic_limit(disc: &FixedDisc<'_>, step: f64) -> f64 {
+pub(super) fn dynamic_limit(disc: &FixedDisc<'_>, step: f64) -> f64 {
     // Numerov's weight of the newest force
     let allowed = 2.0 / 3.0 + 1.25 * step * step / 12.0;
     bisected(0.0, 1e6, |coupling| {
@@ -403,8 +339,7 @@ pub fn dynamic_limit(disc: &FixedDisc<'_>, step: f64) -> f64 {
 }
 
 /// Largest coupling for which the newest samples of the `dynamic` share settle, up to a force of Hertz's peak.
-#[must_use]
-pub fn dynamic_growth_limit(disc: &FixedDisc<'_>, step: f64) -> f64 {
+pub(super) fn dynamic_growth_limit(disc: &FixedDisc<'_>, step: f64) -> f64 {
     let grows = |coupling: f64| linear_growth(&dynamic(disc, coupling), 1.5, step) > 1.0;
     bisected(0.0, dynamic_limit(disc, step), |coupling| !grows(coupling))
 }
@@ -435,24 +370,16 @@ fn dynamic_share(paper: &FixedDisc<'_>, effort: Effort) -> Picture {
         }
     });
     let [x, y] = map.plane;
-    let steps = y.cells(effort.pick(30, 80));
-    for (name, style, limit) in [
-        (
-            "theory: newest weight times coupling = 2/3, the law folds back",
-            Style::Heavy,
-            dynamic_limit as fn(&FixedDisc<'_>, f64) -> f64,
-        ),
-        (
-            "theory: a root of the weights beyond 1, the samples grow",
-            Style::HeavyDashed,
-            dynamic_growth_limit,
-        ),
-    ] {
-        let points = steps.iter().map(|&y| (limit(paper, y * CONTACT_TIME), y));
+    let line = |limit: fn(&FixedDisc<'_>, f64) -> f64| {
+        let steps = y.cells(effort.pick(30, 80)).into_iter();
+        let points = steps.map(|y| (limit(paper, y * CONTACT_TIME), y));
         // as long as it stays in the plane
-        let points = points.filter(|point| point.0 < x.high).collect();
-        figure.add(Layer::line(name, style, points));
-    }
+        points.filter(|point| point.0 < x.high).collect()
+    };
+    let folds = "theory: newest weight times coupling = 2/3, the law folds back";
+    figure.line(folds, Style::Heavy, line(dynamic_limit));
+    let grows = "theory: a root of the weights beyond 1, the samples grow";
+    figure.line(grows, Style::HeavyDashed, line(dynamic_growth_limit));
     let place = (paper.coupling, 1.0 / 137.0);
     figure.add(Layer::star(place, "paper's case, 137 steps"));
     figure.caption = "Without its static part the newest weight of the deflection is negative: the contact law \

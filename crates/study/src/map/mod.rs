@@ -4,9 +4,11 @@
 //! of kernels.
 
 pub(crate) mod inversions;
-pub mod kernels;
-pub mod marches;
-pub mod models;
+pub(crate) mod kernels;
+pub(crate) mod marches;
+pub(crate) mod models;
+#[cfg(test)]
+mod tests;
 
 use crate::picture::Picture;
 use figure::{Axis, Classes, Interval, Layer};

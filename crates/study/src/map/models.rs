@@ -8,45 +8,48 @@ use super::Map;
 use super::marches::bisected;
 use crate::measure::Effort;
 use crate::picture::Picture;
-use crate::question::marching::{Results, errors, results};
+use crate::question::marching::errors;
 use crate::record::sizes;
-use crate::scenes::{ROD_RADIUS_M, TABLE_1_PA, ball, collision, paper};
+use crate::scenes::{ball, paper_disc};
 use contact::law::area_dashpot::{AreaDashpot, left_out};
 use contact::law::hertz::CONTACT_TIME;
 use contact::law::quasi_static::{quasi_static, quasi_static_radiation};
 use contact::law::radiation::{LARGEST_LAG, LOSS, radiation};
-use contact::{Accuracy, FixedDisc, GrowingContact, Library, MarchError, PunchWaves};
+use contact::{Accuracy, FixedDisc, GrowingContact, Library, MarchError, Material, PunchWaves};
 use contact::{Family, Groups, Rung};
 use contact::{StaticShare, Summary, march_growing, march_implicit, refine};
 use fault::AnyError;
 use figure::{Interval, Layer, Style};
 use halfspace::{Deflection, Medium, SurfaceResponse};
+use paper::TABLE_1_PA;
 
 /// Tolerances of the three pictures.
-pub const TOLERANCES: [f64; 3] = [1e-2, 1e-3, 1e-4];
+pub(super) const TOLERANCES: [f64; 3] = [1e-2, 1e-3, 1e-4];
 
 /// Speeds of the built-in materials' points in m/s.
-pub const SPEEDS_M_S: [f64; 3] = [1.0, 10.0, 100.0];
+pub(super) const SPEEDS_M_S: [f64; 3] = [1.0, 10.0, 100.0];
 
-/// The plane of contacts that follow the load, at one Poisson ratio.
-#[derive(Debug)]
-pub struct Plane {
-    centre: SurfaceResponse,
-    waves: PunchWaves,
-}
+/// A march that changes by more when its step is halved is said not to have converged.
+const UNSETTLED: f64 = 1e-2;
+
+/// How often a step that is too long is halved.
+const MOST_HALVINGS: usize = 5;
+
+/// Accuracy of the march that models of a fixed disc are compared with.
+const ACCURACY: f64 = 1e-5;
 
 /// Errors of the cheaper models at one place of a plane, largest over peak force, contact time, restitution
 /// and peak displacement; infinite where the program refuses the model.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ModelErrors {
+#[derive(Debug)]
+pub(super) struct ModelErrors {
     /// No waves: Hertz, or two springs.
-    pub quasi_static: f64,
+    pub(super) quasi_static: f64,
     /// First-order radiated loss.
-    pub radiation: f64,
+    pub(super) radiation: f64,
     /// Dashpot on the area of a contact that follows the load.
-    pub dashpot: f64,
+    pub(super) dashpot: f64,
     /// Change of the march that they are compared with over the last halving of its step.
-    pub march: f64,
+    pub(super) march: f64,
 }
 
 impl ModelErrors {
@@ -59,246 +62,196 @@ impl ModelErrors {
 }
 
 /// The largest error of a model's results, or infinite where it is beyond its bounds.
-fn error(is_allowed: bool, found: &Summary, exact: &Results) -> f64 {
-    if is_allowed {
-        sizes(&errors(&results(found), exact))[0]
-    } else {
-        f64::INFINITY
-    }
+fn error(is_allowed: bool, found: &Summary, exact: &Summary) -> f64 {
+    let error = sizes(&errors(found, exact))[0];
+    if is_allowed { error } else { f64::INFINITY }
 }
 
-/// A march that changes by more when its step is halved is said not to have converged.
-const UNSETTLED: f64 = 1e-2;
-
-/// How often a step that is too long is halved.
-const MOST_HALVINGS: usize = 5;
-
-fn summary(growing: &GrowingContact<'_>, step: f64) -> Result<Summary, MarchError> {
-    Summary::new(&march_growing(growing, step)?)
+/// The plane of a family at one Poisson ratio: of contacts that follow the load ([`Family::Growing`]), or of the paper's
+/// disc with other groups ([`Family::Full`]).
+pub(super) struct Plane {
+    family: Family,
+    centre: SurfaceResponse,
+    waves: PunchWaves,
 }
 
 impl Plane {
-    /// The contact at a place of the plane.
-    #[must_use]
-    pub fn contact(&self, share: f64, memory: f64) -> GrowingContact<'_> {
-        GrowingContact {
-            waves: &self.waves,
-            target_share: share,
-            wave_time: self.wave_time(memory),
-        }
-    }
-
-    /// The plane at a Poisson ratio.
-    ///
-    /// # Errors
-    /// When the ratio is outside (-1, 0.5).
-    pub fn new(poisson_ratio: f64) -> Result<Self, AnyError> {
+    pub(super) fn new(family: Family, poisson_ratio: f64) -> Result<Self, AnyError> {
         let medium = Medium::new(poisson_ratio)?;
         Ok(Self {
+            family,
             waves: PunchWaves::new(&medium),
             centre: SurfaceResponse::new(&medium, Deflection::Centre),
         })
     }
 
-    /// a/c1 in collision times for a memory over contact time.
-    fn wave_time(&self, memory: f64) -> f64 {
-        memory * CONTACT_TIME / (2.0 * self.centre.memory())
-    }
-
-    /// The lag of the radiation model and the memory in collision times, as `auto` forms them.
-    fn groups(&self, share: f64, memory: f64) -> Groups {
-        Groups {
-            family: Family::Growing,
-            coupling: 0.0,
-            lag: share * self.wave_time(memory) * self.centre.relaxation_time(),
-            memory: memory * CONTACT_TIME,
+    /// A contact that follows the load.
+    pub(super) fn growing(&self, share: f64, memory: f64) -> GrowingContact<'_> {
+        GrowingContact {
+            waves: &self.waves,
+            target_share: share,
+            wave_time: memory * CONTACT_TIME / (2.0 * self.centre.memory()),
         }
     }
 
-    /// What `auto` chooses there.
-    #[must_use]
-    pub fn chosen(&self, share: f64, memory: f64, tolerance: f64) -> Rung {
-        let asked = Accuracy::of_contact(tolerance, None);
-        self.groups(share, memory).choose(&asked).0
+    /// A disc.
+    fn disc(&self, coupling: f64, memory: f64) -> FixedDisc<'_> {
+        FixedDisc {
+            response: &self.centre,
+            coupling,
+            wave_time: memory * CONTACT_TIME / self.centre.memory(),
+            share: StaticShare::Full,
+        }
     }
 
-    /// Errors of the cheaper models against the growing contact with `steps` steps over Hertz's contact time.
-    ///
-    /// Where that is too coarse to hold the start of a very fast contact the step is halved, as step control does.
-    ///
-    /// # Errors
-    /// Those of the march.
-    pub fn errors(&self, share: f64, memory: f64, steps: usize) -> Result<ModelErrors, MarchError> {
-        let growing = self.contact(share, memory);
+    /// What `auto` chooses by, as it forms them.
+    fn groups(&self, deflection: f64, memory: f64) -> Groups {
+        let (wave_time, memory) = if self.family == Family::Full {
+            let disc = self.disc(deflection, memory);
+            (disc.wave_time, disc.memory())
+        } else {
+            let wave_time = self.growing(deflection, memory).wave_time;
+            (wave_time, memory * CONTACT_TIME)
+        };
+        Groups {
+            family: self.family,
+            coupling: deflection,
+            lag: deflection * wave_time * self.centre.relaxation_time(),
+            memory,
+        }
+    }
+
+    /// What `auto` chooses at a place.
+    pub(super) fn chosen(&self, deflection: f64, memory: f64, tolerance: f64) -> Rung {
+        let asked = Accuracy::of_contact(tolerance, None);
+        self.groups(deflection, memory).choose(&asked).0
+    }
+
+    /// Largest memory, up to 1e3, at which `auto` has not yet left a rung for the next.
+    pub(super) fn boundary(&self, deflection: f64, tolerance: f64, leaves: Rung) -> f64 {
+        let low: f64 = if self.family == Family::Full {
+            1e-12
+        } else {
+            1e-9
+        };
+        let stays = |memory: f64| match self.chosen(deflection, memory.exp(), tolerance) {
+            Rung::QuasiStatic => true,
+            Rung::Radiation | Rung::AreaDashpot => leaves != Rung::QuasiStatic,
+            Rung::FullMemory => false,
+        };
+        bisected(low.ln(), 1e3_f64.ln(), stays).exp()
+    }
+
+    /// Errors of the cheaper models: against the growing contact with `steps` steps over Hertz's contact time, or against
+    /// the implicit march of a disc, which finds its own.
+    pub(super) fn errors(
+        &self,
+        deflection: f64,
+        memory: f64,
+        steps: usize,
+    ) -> Result<ModelErrors, MarchError> {
+        let is_disc = self.family == Family::Full;
+        // a growing contact has all of its compliance from the half-space at most
+        let deflection = deflection.min(if is_disc { f64::INFINITY } else { 1.0 });
+        let groups = self.groups(deflection, memory);
+        let lag_is_allowed = groups.first_order_loss() <= LOSS * LARGEST_LAG;
+        if is_disc {
+            let disc = self.disc(deflection, memory);
+            let accuracy = Accuracy::of_contact(ACCURACY, None);
+            let first = quasi_static(deflection).0.contact_time / accuracy.first_steps();
+            let exact = refine(|step| march_implicit(&disc, step), first, accuracy)?.summary;
+            let with_loss = |lag| quasi_static_radiation(deflection, lag);
+            return Ok(ModelErrors {
+                quasi_static: error(true, &with_loss(0.0), &exact),
+                radiation: error(lag_is_allowed, &with_loss(groups.lag), &exact),
+                dashpot: f64::INFINITY,
+                march: ACCURACY,
+            });
+        }
+        let growing = self.growing(deflection, memory);
+        let summary = |step| Summary::new(&march_growing(&growing, step)?);
         let mut step = CONTACT_TIME / steps as f64;
-        let mut found = summary(&growing, step);
+        let mut found = summary(step);
+        // too coarse to hold the start of a very fast contact: halved, as step control does
         for _ in 0..MOST_HALVINGS {
             if matches!(found, Err(MarchError::StepTooLong { .. })) {
                 step *= 0.5;
-                found = summary(&growing, step);
+                found = summary(step);
             }
         }
-        let exact = results(&found?);
-        let march = match summary(&growing, 2.0 * step) {
-            Ok(coarse) => error(true, &coarse, &exact),
-            Err(_) => f64::INFINITY,
-        };
-        let Groups {
-            lag,
-            memory: length,
-            ..
-        } = self.groups(share, memory);
-        let dashpot = AreaDashpot::new(share, self.wave_time(memory), &self.waves);
-        let is_allowed = left_out(dashpot.lag, length).contact() < 1.0;
+        let exact = found?;
+        let coarse = summary(2.0 * step);
+        let dashpot = AreaDashpot::new(deflection, growing.wave_time, &self.waves);
+        let is_allowed = left_out(dashpot.lag, groups.memory).contact() < 1.0;
         Ok(ModelErrors {
             quasi_static: error(true, &radiation(0.0), &exact),
-            radiation: error(lag <= LARGEST_LAG, &radiation(lag), &exact),
+            radiation: error(lag_is_allowed, &radiation(groups.lag), &exact),
             dashpot: error(is_allowed, &dashpot.summary(), &exact),
-            march,
+            march: coarse.map_or(f64::INFINITY, |coarse| error(true, &coarse, &exact)),
         })
     }
 
-    /// Memory at which `auto` leaves a rung for the next, at a share.
-    #[must_use]
-    pub fn boundary(&self, share: f64, tolerance: f64, leaves: Rung) -> f64 {
-        memory_of_change(1e-9, leaves, |memory| self.chosen(share, memory, tolerance))
+    /// A picture a tolerance: the cheapest model that meets it in each cell, the memory at which `auto` leaves some, and
+    /// what is added at a tolerance.
+    fn pictures(
+        &self,
+        map: &Map<'_>,
+        names: [&'static str; 3],
+        steps: usize,
+        advance: &dyn Fn(),
+        add: impl Fn(&mut Picture, f64) -> Result<(), AnyError>,
+    ) -> Result<Vec<Picture>, AnyError> {
+        let (what, points, leaves) = if self.family == Family::Full {
+            let loss = ("auto leaves the first-order loss", Rung::Radiation);
+            let leaves = [("auto leaves two springs", Rung::QuasiStatic), loss];
+            ("Cheapest model of the paper's fixed disc", 60, leaves)
+        } else {
+            let dashpot = ("auto leaves the area dashpot", Rung::AreaDashpot);
+            let leaves = [("auto leaves hertz", Rung::QuasiStatic), dashpot];
+            ("Cheapest model", 40, leaves)
+        };
+        let mut errors = Vec::new();
+        for memory in map.plane[1].cells(map.shape[1]) {
+            for deflection in map.columns() {
+                errors.push(self.errors(deflection, memory, steps)?);
+            }
+            advance();
+        }
+        let last = map.classes.len() - 1;
+        let pictures = names.into_iter().zip(TOLERANCES).map(|(name, tolerance)| {
+            let title = format!("{what} that meets {tolerance:.0e}");
+            let class = |cell: usize, _| errors[cell].cheapest(tolerance).min(last);
+            let mut figure = map.picture(name, &title, class);
+            let styles = [Style::Heavy, Style::HeavyDashed];
+            for ((label, rung), style) in leaves.into_iter().zip(styles) {
+                let memory = |x| self.boundary(x, tolerance, rung);
+                figure.line(label, style, map.line(points, memory));
+            }
+            add(&mut figure, tolerance)?;
+            Ok(figure)
+        });
+        pictures.collect()
     }
-}
-
-/// Accuracy of the march that models of a fixed disc are compared with.
-const ACCURACY: f64 = 1e-5;
-
-/// Errors of the cheaper models of a fixed disc against the implicit march.
-///
-/// # Errors
-/// Those of the march.
-pub fn disc_errors(disc: &FixedDisc<'_>) -> Result<ModelErrors, MarchError> {
-    let (springs, loss_per_lag) = quasi_static(disc.coupling);
-    let accuracy = Accuracy::of_contact(ACCURACY, None);
-    let march = |step| march_implicit(disc, step);
-    let first = springs.contact_time / accuracy.first_steps();
-    let exact = results(&refine(march, first, accuracy)?.summary);
-    let with_loss = |lag: f64| quasi_static_radiation(disc.coupling, lag);
-    let lag = disc_groups(disc).lag;
-    let is_allowed = loss_per_lag * lag <= LOSS * LARGEST_LAG;
-    Ok(ModelErrors {
-        quasi_static: error(true, &with_loss(0.0), &exact),
-        radiation: error(is_allowed, &with_loss(lag), &exact),
-        dashpot: f64::INFINITY,
-        march: ACCURACY,
-    })
-}
-
-/// What `auto` chooses for a disc at a tolerance.
-#[must_use]
-pub fn disc_chosen(disc: &FixedDisc<'_>, tolerance: f64) -> Rung {
-    let asked = Accuracy::of_contact(tolerance, None);
-    disc_groups(disc).choose(&asked).0
-}
-
-fn disc_groups(disc: &FixedDisc<'_>) -> Groups {
-    Groups {
-        family: Family::Full,
-        coupling: disc.coupling,
-        lag: disc.coupling * disc.wave_time * disc.response.relaxation_time(),
-        memory: disc.memory(),
-    }
-}
-
-/// The paper's disc with other groups.
-#[must_use]
-pub fn disc_at<'a>(like: &FixedDisc<'a>, coupling: f64, memory: f64) -> FixedDisc<'a> {
-    FixedDisc {
-        coupling,
-        wave_time: memory * CONTACT_TIME / like.response.memory(),
-        share: StaticShare::Full,
-        ..*like
-    }
-}
-
-/// Largest memory, from `low` to 1e3, at which `auto` has not yet left a rung for the next.
-fn memory_of_change(low: f64, leaves: Rung, chosen: impl Fn(f64) -> Rung) -> f64 {
-    let stays = |memory: f64| match chosen(memory.exp()) {
-        Rung::QuasiStatic => true,
-        Rung::Radiation | Rung::AreaDashpot => leaves != Rung::QuasiStatic,
-        Rung::FullMemory => false,
-    };
-    bisected(low.ln(), 1e3_f64.ln(), stays).exp()
 }
 
 /// Where a steel ball on a material of the library lies in the plane.
-///
-/// # Errors
-/// When the library's material makes no scene.
-pub fn place_of(target: &str, velocity_m_s: f64) -> Result<(f64, f64), AnyError> {
-    let collision = collision(&ball(target, velocity_m_s)?);
-    let centre = SurfaceResponse::new(
-        &Medium::new(collision.target_poisson_ratio)?,
-        Deflection::Centre,
-    );
+pub(super) fn place_of(target: &str, velocity_m_s: f64) -> Result<(f64, f64), AnyError> {
+    let collision = ball(target, velocity_m_s)?.collision();
+    let medium = Medium::new(collision.target_poisson_ratio)?;
+    let centre = SurfaceResponse::new(&medium, Deflection::Centre);
     let memory = 2.0 * centre.memory() * collision.contact_wave_time();
     Ok((collision.target_share(), memory / CONTACT_TIME))
 }
 
 /// Names of the built-in materials that can be a target: those with a density.
-#[must_use]
-pub fn targets() -> Vec<String> {
-    Library::built_in()
-        .iter()
-        .filter(|material| material.density_kg_m3.is_some())
-        .map(|material| material.name.clone())
-        .collect()
-}
-
-fn shape(effort: Effort) -> [usize; 2] {
-    effort.pick([12, 14], [32, 40])
-}
-
-/// Rows of the plane, for the progress bar.
-pub(crate) fn rows(effort: Effort) -> u64 {
-    shape(effort)[1] as u64
+pub(super) fn targets() -> impl Iterator<Item = &'static str> {
+    let dense = |material: &&Material| material.density_kg_m3.is_some();
+    let known = Library::built_in().iter().filter(dense);
+    known.map(|material| &*material.name)
 }
 
 /// The ordinate of both planes.
 const MEMORY: &str = "memory over contact time";
-
-/// The errors of the models in each cell of a map.
-fn computed(
-    map: &Map<'_>,
-    at: impl Fn(f64, f64) -> Result<ModelErrors, MarchError>,
-    advance: &dyn Fn(),
-) -> Result<Vec<ModelErrors>, AnyError> {
-    let (columns, mut errors) = (map.columns(), Vec::new());
-    for memory in map.plane[1].cells(map.shape[1]) {
-        for &deflection in &columns {
-            errors.push(at(deflection, memory)?);
-        }
-        advance();
-    }
-    Ok(errors)
-}
-
-/// The cheapest model that meets a tolerance in each cell, and the memory at which `auto` leaves some.
-fn picture(
-    map: &Map<'_>,
-    [name, what]: [&'static str; 2],
-    tolerance: f64,
-    errors: &[ModelErrors],
-    leaves: [(&str, Rung); 2],
-    points: usize,
-    memory: impl Fn(f64, Rung) -> f64,
-) -> Picture {
-    let title = format!("{what} that meets {tolerance:.0e}");
-    let last = map.classes.len() - 1;
-    let class = |cell: usize, _| errors[cell].cheapest(tolerance).min(last);
-    let mut figure = map.picture(name, &title, class);
-    let styles = [Style::Heavy, Style::HeavyDashed];
-    for ((label, rung), style) in leaves.into_iter().zip(styles) {
-        let line = map.line(points, |x| memory(x, rung));
-        figure.add(Layer::line(label, style, line));
-    }
-    figure
-}
 
 /// A picture a tolerance for contacts that follow the load, then for the paper's disc.
 pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Picture>, AnyError> {
@@ -309,50 +262,30 @@ pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Picture>
 }
 
 fn growing_figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Picture>, AnyError> {
-    let plane = Plane::new(0.3)?;
-    let x = Interval::logarithmic(0.01, 1.15);
-    let y = Interval::logarithmic(1e-4, 3.0);
-    let shape = shape(effort);
+    let plane = Plane::new(Family::Growing, 0.3)?;
+    let shape = effort.pick([12, 14], [32, 40]);
+    let [x, y] = [(0.01, 1.15), (1e-4, 3.0)].map(|(low, high)| Interval::logarithmic(low, high));
+    let share = "static deflection of the half-space over indentation";
+    let unsettled = "growing, not yet converged to 1e-2";
     let map = Map {
         plane: [x, y],
-        quantities: [
-            "static deflection of the half-space over indentation",
-            MEMORY,
-        ],
+        quantities: [share, MEMORY],
         shape,
-        classes: &[
-            "hertz",
-            "radiation",
-            "area dashpot",
-            "growing",
-            "growing, not yet converged to 1e-2",
-        ],
+        classes: &["hertz", "radiation", "area dashpot", "growing", unsettled],
     };
     let steps = effort.pick(128, 192);
-    // the half-space has all of the compliance at most
-    let at = |share: f64, memory| plane.errors(share.min(1.0), memory, steps);
-    let errors = computed(&map, at, advance)?;
     // `auto`'s estimate of what hertz leaves out over the error found, in the middle of the plane
-    let (i, k) = (shape[0] / 2, shape[1] / 2);
-    let groups = plane.groups(x.cells(shape[0])[i], y.cells(shape[1])[k]);
-    let (_, estimate) = groups.choose(&Accuracy::of_contact(f64::INFINITY, None));
-    let ratio = estimate / errors[k * shape[0] + i].quasi_static;
-    let mut figures = Vec::new();
+    let [i, k] = shape.map(|cells| cells / 2);
+    let (share, memory) = (x.cells(shape[0])[i], y.cells(shape[1])[k]);
+    let any = Accuracy::of_contact(f64::INFINITY, None);
+    let (_, estimate) = plane.groups(share, memory).choose(&any);
+    let ratio = estimate / plane.errors(share, memory, steps)?.quasi_static;
     let names = ["models-1e-2", "models-1e-3", "models-1e-4"];
-    for (name, tolerance) in names.into_iter().zip(TOLERANCES) {
-        let leaves = [
-            ("auto leaves hertz", Rung::QuasiStatic),
-            ("auto leaves the area dashpot", Rung::AreaDashpot),
-        ];
-        let names = [name, "Cheapest model"];
-        let memory = |x, rung| plane.boundary(x, tolerance, rung);
-        let mut figure = picture(&map, names, tolerance, &errors, leaves, 40, memory);
+    plane.pictures(&map, names, steps, advance, |figure, tolerance| {
         for speed in SPEEDS_M_S {
-            let targets = targets();
-            let places = targets.iter().map(|target| place_of(target, speed));
-            let places = places.collect::<Result<_, _>>()?;
+            let places = targets().map(|target| place_of(target, speed));
             let label = format!("steel ball on each material, {speed} m/s");
-            figure.add(Layer::line(&label, Style::Points, places));
+            figure.line(&label, Style::Points, places.collect::<Result<_, _>>()?);
         }
         figure.caption = format!(
             "Regions are computed: each model against the converged growing contact, largest error of peak force, \
@@ -362,37 +295,22 @@ fn growing_figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Picture>, A
              and step control refuses it. `auto` never takes a model that misses, and its estimate for hertz is {ratio:.1} times the error \
              found in the middle of the plane."
         );
-        figures.push(figure);
-    }
-    Ok(figures)
+        Ok(())
+    })
 }
 
 fn disc_figures(effort: Effort) -> Result<Vec<Picture>, AnyError> {
-    let response = SurfaceResponse::new(&Medium::new(0.3)?, Deflection::Centre);
-    let paper = paper(TABLE_1_PA)?.fixed_disc(&response, ROD_RADIUS_M, StaticShare::Full);
+    let plane = Plane::new(Family::Full, 0.3)?;
+    let response = &plane.centre;
+    let paper = paper_disc(TABLE_1_PA, response)?;
     let map = Map {
-        plane: [
-            Interval::logarithmic(1e-3, 10.0),
-            Interval::logarithmic(1e-4, 1.0),
-        ],
+        plane: [[1e-3, 10.0], [1e-4, 1.0]].map(|[low, high]| Interval::logarithmic(low, high)),
         quantities: ["static deflection over indentation (coupling)", MEMORY],
         shape: effort.pick([14, 12], [40, 40]),
         classes: &["two springs", "two springs and first-order loss", "wave"],
     };
-    let at = |coupling, memory| disc_errors(&disc_at(&paper, coupling, memory));
-    let errors = computed(&map, at, &|| ())?;
-    let what = "Cheapest model of the paper's fixed disc";
     let names = ["models-disc-1e-2", "models-disc-1e-3", "models-disc-1e-4"];
-    let figures = names.into_iter().zip(TOLERANCES).map(|(name, tolerance)| {
-        let leaves = [
-            ("auto leaves two springs", Rung::QuasiStatic),
-            ("auto leaves the first-order loss", Rung::Radiation),
-        ];
-        let memory = |coupling, rung| {
-            let chosen = |memory| disc_chosen(&disc_at(&paper, coupling, memory), tolerance);
-            memory_of_change(1e-12, rung, chosen)
-        };
-        let mut figure = picture(&map, [name, what], tolerance, &errors, leaves, 60, memory);
+    plane.pictures(&map, names, 0, &|| (), |figure, tolerance| {
         // half of the first-order loss is the error of the restitution of two springs
         let loss = 2.0 * tolerance;
         let theory = map.line(60, |coupling| {
@@ -401,7 +319,7 @@ fn disc_figures(effort: Effort) -> Result<Vec<Picture>, AnyError> {
             wave_time * response.memory() / CONTACT_TIME
         });
         let label = format!("theory: first-order loss of {loss:.0e}");
-        figure.add(Layer::line(&label, Style::Dotted, theory));
+        figure.line(&label, Style::Dotted, theory);
         let place = (paper.coupling, paper.memory() / CONTACT_TIME);
         figure.add(Layer::star(place, "paper's case"));
         figure.caption = format!(
@@ -409,7 +327,6 @@ fn disc_figures(effort: Effort) -> Result<Vec<Picture>, AnyError> {
              order in the memory, and then by their shape. Regions are computed against the implicit march; the lines \
              are where `auto` changes model at a tolerance of {tolerance:.0e}."
         );
-        figure
-    });
-    Ok(figures.collect())
+        Ok(())
+    })
 }

@@ -10,17 +10,18 @@
 //! u(t) = P(t) static + int_0^t P'(t - x) R(x) dx,     P = sin^4(pi t/T)
 //! ```
 
-use super::kernels::POISSON_RATIO;
+use super::kernels::{ALL, POISSON_RATIO};
 use crate::measure::{Effort, Run, Scene};
-use crate::record::{Question, Record};
+use crate::record::{Question, Record, off, peaks};
 use crate::scenes::Density;
 use fault::AnyError;
 use halfspace::gauss::Rule;
 use halfspace::{Arrivals, FIELDS, Kernel, Medium, Profile, Six};
 use impact::convolve::{Convolver, Method};
-use impact::kernels::{CellPlan, Pulse};
+use impact::kernels::{CellPlan, Cells, Pulse};
 use impact::{KernelSource, Place};
-use lookup::{PulseSum, Smoothness, Stencil};
+use lookup::Smoothness::{Linear, Smooth};
+use lookup::{PulseSum, Stencil};
 use std::f64::consts::PI;
 use tabulator::{Axis, PointPlan};
 
@@ -66,27 +67,24 @@ pub(crate) fn measure(
             question: Question::Fields,
             name,
             values: pulse.end(),
-            errors: &|(samples, width): &Samples| Ok(pulse.errors(samples, *width)),
+            errors: &|samples: &Vec<Six>| Ok(pulse.errors(samples)),
             records: &mut records,
         };
-        exact_cells(&medium, pulse, &mut rows)?;
+        exact_cells(pulse, &mut rows)?;
         advance();
         looked_up(densities, pulse, &mut rows)?;
         advance();
         rows.name = interpolation;
-        interpolations(&medium, pulse, &mut rows)?;
+        interpolations(pulse, &mut rows)?;
         advance();
     }
     Ok(records)
 }
 
-/// Fields at samples so far apart.
-type Samples = (Vec<Six>, f64);
-
 /// Samples with their number, the work.
-fn counted(samples: Vec<Six>, width: f64) -> Run<Samples> {
+fn counted(samples: Vec<Six>) -> Run<Vec<Six>> {
     let count = samples.len() as u64;
-    Ok(((samples, width), Some(count)))
+    Ok((samples, Some(count)))
 }
 
 /// The response at all samples.
@@ -96,50 +94,54 @@ fn response(convolver: &Convolver, rest: &Six, cells: &[Six]) -> Vec<Six> {
     samples.map(|n| fields.each_ref().map(|f| f[n])).collect()
 }
 
+/// Cells computed for a point in r0, for so many samples so far apart of a pulse of a length.
+pub(crate) fn computed(
+    source: &KernelSource,
+    [r, z]: [f64; 2],
+    (samples, step): (usize, f64),
+    length: f64,
+    tolerance: f64,
+) -> Result<Cells, AnyError> {
+    let place = Place {
+        r,
+        z,
+        disc_radius_m: 1.0,
+    };
+    let plan = CellPlan {
+        step,
+        count: samples + lookup::BEYOND,
+        pulse: Pulse::Smooth(length),
+        rates: false,
+        tolerance,
+    };
+    Ok(source.cells(POISSON_RATIO, place, plan)?)
+}
+
 /// Cells computed for the point itself, for a force that is linear or smooth between samples.
-fn exact_cells(
-    medium: &Medium,
-    pulse: &PulseReference,
-    rows: &mut Scene<'_, Samples>,
-) -> Result<(), AnyError> {
-    use Smoothness::{Linear, Smooth};
-    // smoothness, kernel tolerance and halvings of the step; the program's own tolerance goes with the scene's
-    let settings: [(Smoothness, f64, &[i32], &[i32]); 4] = [
-        (Smooth, 1e-8, &[1, 3], &[0, 1, 2, 3, 4, 5]),
-        (Smooth, 1e-12, &[], &[2, 3, 4, 5]),
-        (Smooth, 1e-4, &[], &[1, 2, 3]),
-        (Linear, 1e-8, &[3], &[0, 1, 2, 3, 4, 5]),
+fn exact_cells(pulse: &PulseReference, rows: &mut Scene<'_, Vec<Six>>) -> Result<(), AnyError> {
+    let medium = Medium::new(POISSON_RATIO)?;
+    let linear = "direct, linear cells";
+    // method, smoothness, kernel tolerance and halvings of the step; the program's own tolerance goes with the scene's
+    let settings: [(_, _, f64, [&[i32]; 2]); 4] = [
+        ("direct", Smooth, 1e-8, [&[1, 3], &[0, 1, 2, 3, 4, 5]]),
+        ("direct", Smooth, 1e-12, [&[], &[2, 3, 4, 5]]),
+        ("direct", Smooth, 1e-4, [&[], &[1, 2, 3]]),
+        (linear, Linear, 1e-8, [&[3], &[0, 1, 2, 3, 4, 5]]),
     ];
-    let [r, z] = pulse.place;
-    for (smoothness, tolerance, quick, full) in settings {
-        let source = KernelSource::direct(medium, tolerance)?;
+    for (method, smoothness, tolerance, [quick, full]) in settings {
+        let source = KernelSource::direct(&medium, tolerance)?;
         for &halvings in rows.effort.pick(quick, full) {
             let width = EVERY * 0.5_f64.powi(halvings);
             let force = pulse.force(width);
             let convolver = Convolver::new(&force);
             let run = || {
-                let place = Place {
-                    r,
-                    z,
-                    disc_radius_m: 1.0,
-                };
-                let plan = CellPlan {
-                    step: width,
-                    count: force.len() + lookup::BEYOND,
-                    pulse: Pulse::Smooth(pulse.length),
-                    rates: false,
-                    tolerance,
-                };
-                let cells = source.cells(medium.poisson_ratio(), place, plan)?;
+                let samples = (force.len(), width);
+                let cells = computed(&source, pulse.place, samples, pulse.length, tolerance)?;
                 let of_force = match smoothness {
                     Linear => &cells.moments.averages,
                     Smooth => &cells.smooth,
                 };
-                counted(response(&convolver, &cells.static_part, of_force), width)
-            };
-            let method = match smoothness {
-                Linear => "direct, linear cells",
-                Smooth => "direct",
+                counted(response(&convolver, &cells.static_part, of_force))
             };
             let setting = format!("step {width}, kernel {tolerance:.0e}");
             let row = rows.add(method, setting, run)?;
@@ -153,10 +155,9 @@ fn exact_cells(
 fn looked_up(
     densities: &[Density],
     pulse: &PulseReference,
-    rows: &mut Scene<'_, Samples>,
+    rows: &mut Scene<'_, Vec<Six>>,
 ) -> Result<(), AnyError> {
     use Method::{Direct, Transform};
-    use Smoothness::{Linear, Smooth};
     // for which forces, and how they are summed: none is by running sums of the two exponentials of the pulse
     let own = [
         ("table, direct sums", Smooth, Some(Direct), true),
@@ -166,12 +167,12 @@ fn looked_up(
     ];
     let method = "table, other nodes or points";
     let other = [(method, Smooth, Some(Transform), false)];
-    let effort = rows.effort;
-    let [r, z] = pulse.place;
+    let (effort, [r, z]) = (rows.effort, pulse.place);
     for density in densities {
         for points in effort.pick(vec![Density::points()], vec![4, 6, Density::points()]) {
             let table = density.with_stencil(points)?;
-            let (ways, coarsest) = if density.is_default(points) {
+            let is_default = density.is_default(points);
+            let (ways, coarsest) = if is_default {
                 (&own[..], 4)
             } else {
                 (&other[..], 0)
@@ -187,11 +188,10 @@ fn looked_up(
                         let mut cells = vec![[0.0; 6]; force.len()];
                         let nu = POISSON_RATIO;
                         let info = table.trace(smoothness, nu, r, z, coarsening, &mut cells)?;
-                        let samples = match &convolver {
+                        counted(match &convolver {
                             Some(convolver) => response(convolver, &info.static_part, &cells),
                             None => sums.response(&info.static_part, &cells),
-                        };
-                        counted(samples, width)
+                        })
                     };
                     let setting = format!("step {width}, {spacing}, {points} points");
                     rows.add(method, setting, run)?.default_path = is_own;
@@ -203,7 +203,6 @@ fn looked_up(
 }
 
 /// A pulse at a point and its exact response at a few times.
-#[derive(Debug)]
 struct PulseReference {
     place: [f64; 2],
     length: f64,
@@ -227,23 +226,18 @@ impl PulseReference {
         let last = (0.5 * length).max(arrivals.last()) + 0.7 * length;
         let stride = (last / every / count as f64).ceil().max(1.0);
         let times: Vec<f64> = (1..=count).map(|i| i as f64 * stride * every).collect();
-        let end = times.last().copied().unwrap_or(0.0);
+        let end = times[count - 1];
         let mut cuts = arrivals.sorted();
         cuts.extend([0.0, end]);
         // panels no longer than a sixteenth of the pulse
-        cuts.extend(
-            (1..)
-                .map(|i| f64::from(i) * length / 16.0)
-                .take_while(|&x| x < end),
-        );
+        let panels = (1..).map(|i| f64::from(i) * length / 16.0);
+        cuts.extend(panels.take_while(|&x| x < end));
         cuts.sort_by(f64::total_cmp);
         cuts.dedup_by(|a, b| (*a - *b).abs() < 1e-9);
         cuts.retain(|&x| x <= end);
         let rule = Rule::new(14);
-        let mut exact: Vec<Six> = times
-            .iter()
-            .map(|&t| rest.map(|s| force(t, length) * s))
-            .collect();
+        let at_rest = |&t: &f64| rest.map(|s| sine(t, length)[0] * s);
+        let mut exact: Vec<Six> = times.iter().map(at_rest).collect();
         for pair in cuts.windows(2) {
             let (middle, half) = (0.5 * (pair[0] + pair[1]), 0.5 * (pair[1] - pair[0]));
             for (x, weight) in rule.on(-1.0, 1.0) {
@@ -252,26 +246,25 @@ impl PulseReference {
                 let weight = weight * half * 1.5 * (1.0 - x * x);
                 let value = kernel.remainder(r, z, place)?.value;
                 for (u, &t) in exact.iter_mut().zip(&times) {
-                    let slope = weight * slope(t - place, length);
+                    let slope = weight * sine(t - place, length)[1];
                     for f in 0..6 {
                         u[f] += slope * value[f];
                     }
                 }
             }
         }
-        let peak = std::array::from_fn(|f| exact.iter().fold(0.0_f64, |a, u| a.max(u[f].abs())));
         Ok(Self {
             place: [r, z],
             length,
             times,
+            peak: peaks(&exact),
             exact,
-            peak,
         })
     }
 
     /// The last of the times.
     fn end(&self) -> f64 {
-        self.times.last().copied().unwrap_or(1.0)
+        self.times[self.times.len() - 1]
     }
 
     /// Samples of the pulse so far apart, as many as are needed.
@@ -281,46 +274,33 @@ impl PulseReference {
         (0..count).map(|n| pulse.force(n)).collect()
     }
 
-    /// Relative errors of samples `width` apart, some of which are at the times.
-    fn errors(&self, samples: &[Six], width: f64) -> Vec<f64> {
-        let errors = |(exact, t): (&Six, &f64)| {
+    /// Relative errors of samples until the end, some of which are at the times.
+    fn errors(&self, samples: &[Six]) -> Vec<f64> {
+        let width = self.end() / (samples.len() - 1) as f64;
+        let at = |t: &f64| {
             let place = (t / width).round();
             debug_assert!((place * width - t).abs() <= 1e-9 * t, "no sample at {t}");
-            let value = samples[place as usize];
-            std::array::from_fn::<_, 6, _>(|f| (value[f] - exact[f]) / self.peak[f])
+            samples[place as usize]
         };
-        self.exact
-            .iter()
-            .zip(&self.times)
-            .flat_map(errors)
-            .collect()
+        let found: Vec<Six> = self.times.iter().map(at).collect();
+        off(&found, &self.exact, &self.peak, &ALL)
     }
 }
 
-/// sin^4(pi t/T) on [0, T].
-fn force(t: f64, length: f64) -> f64 {
-    if (0.0..=length).contains(&t) {
-        (PI * t / length).sin().powi(4)
-    } else {
-        0.0
+/// sin^4(pi t/T) on [0, T], and its slope.
+fn sine(t: f64, length: f64) -> [f64; 2] {
+    if !(0.0..=length).contains(&t) {
+        return [0.0; 2];
     }
-}
-
-fn slope(t: f64, length: f64) -> f64 {
-    if (0.0..=length).contains(&t) {
-        let (sine, cosine) = (PI * t / length).sin_cos();
-        4.0 * PI / length * sine.powi(3) * cosine
-    } else {
-        0.0
-    }
+    let (sine, cosine) = (PI * t / length).sin_cos();
+    [sine.powi(4), 4.0 * PI / length * sine.powi(3) * cosine]
 }
 
 /// Cells corrected for the force's curvature from the numbers of one point.
 pub(crate) fn series(point: &tabulator::PointKernels, width: f64, count: usize) -> Vec<Six> {
-    let by_field = |values: &[Six]| -> Vec<f64> {
-        (0..6)
-            .flat_map(|f| values.iter().map(move |v| v[f]))
-            .collect()
+    let by_field = |values: &[Six]| {
+        let field = |f| values.iter().map(move |v| v[f]);
+        ALL.into_iter().flat_map(field).collect()
     };
     let numbers = lookup::Numbers {
         averages: by_field(&point.averages),
@@ -330,21 +310,17 @@ pub(crate) fn series(point: &tabulator::PointKernels, width: f64, count: usize) 
     };
     let whole = lookup::Series::new(width, point.averages.len(), numbers);
     let mut cells = vec![[0.0; 6]; count];
-    whole.fill(Smoothness::Smooth, 0, &mut cells);
+    whole.fill(Smooth, 0, &mut cells);
     cells
 }
 
 /// Interpolating the whole response against interpolating the remainder beside the exact static part: by the same stencils
 /// over the same exact kernels in double precision.
-fn interpolations(
-    medium: &Medium,
-    pulse: &PulseReference,
-    rows: &mut Scene<'_, Samples>,
-) -> Result<(), AnyError> {
+fn interpolations(pulse: &PulseReference, rows: &mut Scene<'_, Vec<Six>>) -> Result<(), AnyError> {
     let [r, z] = pulse.place;
     let width = 0.1;
     let count = pulse.force(width).len();
-    let plan = PointPlan::new(medium.poisson_ratio(), 1e-9, width, count + 4, 4)?;
+    let plan = PointPlan::new(POISSON_RATIO, 1e-9, width, count + 4, 4)?;
     let kernel = plan.kernel();
     let rest = kernel.static_field(r, z)?;
     let pulse = PulseSum::new(pulse.length, width);
@@ -353,23 +329,16 @@ fn interpolations(
         let nodes = Axis::uniform(3.0, spacing).nodes();
         for points in effort.pick(vec![6], vec![4, 6, 8]) {
             let mesh = lookup::locate(&nodes, r).zip(lookup::locate(&nodes, z));
-            let Some((i, k)) = mesh else {
-                continue;
-            };
+            let (i, k) = mesh.ok_or("a point outside the nodes")?;
             let across = Stencil::mirrored(&nodes, i, r, points);
             let down = Stencil::one_sided(&nodes, k, z, points);
             let mut corners = Vec::new();
             for (a, &i) in across.nodes().iter().enumerate() {
                 for (d, &k) in down.nodes().iter().enumerate() {
                     let cells = series(&plan.compute(nodes[i], nodes[k])?, width, count);
-                    let weight = FIELDS.map(|field| {
-                        let radial = if field.is_odd_in_r() {
-                            across.odd()[a]
-                        } else {
-                            across.even()[a]
-                        };
-                        radial * down.even()[d]
-                    });
+                    let radial = [across.even()[a], across.odd()[a]];
+                    let parity = FIELDS.map(|field| usize::from(field.is_odd_in_r()));
+                    let weight = parity.map(|parity| radial[parity] * down.even()[d]);
                     corners.push((weight, cells, kernel.static_field(nodes[i], nodes[k])?));
                 }
             }
@@ -389,7 +358,7 @@ fn interpolations(
                         }
                     }
                     let outside = rest.map(|rest| (1.0 - inside) * rest);
-                    counted(pulse.response(&outside, &sum), width)
+                    counted(pulse.response(&outside, &sum))
                 };
                 let setting = format!("spacing {spacing} r0, {points} points, step {width}");
                 rows.add(method, setting, run)?;

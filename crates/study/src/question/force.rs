@@ -3,21 +3,23 @@
 //! One value is one impact; its error is the largest over peak force, contact time, restitution and
 //! peak displacement against the converged march of the fullest model of its family.
 
-use super::marching::{Order, Results, errors, march, results};
+use super::marching::{Order, errors, march};
 use crate::measure::{Effort, Run, Scene};
 use crate::record::{Question, Record};
-use crate::scenes::{ROD_RADIUS_M, TABLE_1_PA, ball, collision, paper};
+use crate::scenes::{ball, paper_disc, paper_response};
 use contact::law::area_dashpot::AreaDashpot;
 use contact::law::hertz::CONTACT_TIME;
 use contact::law::quasi_static::{quasi_static, quasi_static_radiation};
 use contact::law::radiation::radiation;
 use contact::{
-    Accuracy, Collision, FixedDisc, GrowingContact, History, MarchError, Model, PunchWaves,
-    ResponseTable, Settings, Solver, StaticShare, Summary, Tabulated, Workspace, march_explicit,
-    march_growing, march_implicit, refine, solve_disc, solve_growing,
+    Accuracy, FixedDisc, GrowingContact, History, MarchError, Model, PunchWaves, ResponseTable,
+    Solver, Summary, Tabulated, Workspace, march_explicit, march_growing, march_implicit, refine,
+    solve_disc, solve_growing,
 };
 use fault::AnyError;
 use halfspace::{Deflection, Medium, SurfaceResponse};
+use impact::Impact;
+use paper::{RADIUS_M, TABLE_1_PA, coupled};
 use std::cell::{Cell, RefCell};
 use std::hint::black_box;
 
@@ -29,52 +31,40 @@ pub(crate) const BALL: &str = "steel ball on steel at 1 m/s, growing contact";
 
 /// Measures every method in both scenes.
 pub(crate) fn measure(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Record>, AnyError> {
-    let mut records = Vec::new();
-    let mut measure = |name, exact, methods: &dyn Fn(Scene<'_, _>) -> Result<(), AnyError>| {
-        let scene = Scene {
-            effort,
-            question: Question::Force,
-            name,
-            values: 1.0,
-            errors: &|found: &Results| Ok(errors(found, &exact).to_vec()),
-            records: &mut records,
-        };
-        methods(scene)?;
-        advance();
-        Ok::<_, AnyError>(())
-    };
-    let collided = paper(TABLE_1_PA)?;
-    let medium = Medium::new(collided.target_poisson_ratio)?;
-    let response = SurfaceResponse::new(&medium, Deflection::Centre);
-    let disc = collided.fixed_disc(&response, ROD_RADIUS_M, StaticShare::Full);
-    let reference = refine(|step| march_implicit(&disc, step), 0.02, 2e-11)?;
-    measure(DISC, results(&reference.summary), &|mut scene| {
-        on_disc(&mut scene, &disc)?;
-        to_tolerance(&mut scene, &disc)?;
-        let settings = Settings {
-            model: Model::Wave,
-            static_share: StaticShare::Full,
-            disc_radius_m: Some(ROD_RADIUS_M),
-            ..Settings::default()
-        };
-        from_series(&mut scene, &collided, settings)
-    })?;
+    let response = paper_response()?;
+    let disc = paper_disc(TABLE_1_PA, &response)?;
+    let on_disc_exact = refine(|step| march_implicit(&disc, step), 0.02, 2e-11)?.summary;
 
-    let collision = collision(&ball("steel", 1.0)?);
+    let mut ball = ball("steel", 1.0)?;
+    ball.settings.model = Model::Growing;
+    let collision = ball.collision();
     let medium = Medium::new(collision.target_poisson_ratio)?;
     let waves = PunchWaves::new(&medium);
     let growing = collision.growing_contact(&waves);
     // itself measured against superposition in time (tests/reference/growing.csv)
-    let reference = solve_growing(&growing, &Accuracy::of_contact(1e-10, None))?;
-    measure(BALL, results(&reference.summary), &|mut scene| {
-        let response = SurfaceResponse::new(&medium, Deflection::Centre);
-        following(&mut scene, &growing, collision.lag(&response))?;
-        let settings = Settings {
-            model: Model::Growing,
-            ..Settings::default()
-        };
-        from_series(&mut scene, &collision, settings)
-    })?;
+    let growing_exact = solve_growing(&growing, &Accuracy::of_contact(1e-10, None))?.summary;
+
+    let mut records = Vec::new();
+    let mut scene = Scene {
+        effort,
+        question: Question::Force,
+        name: DISC,
+        values: 1.0,
+        errors: &|found| Ok(errors(found, &on_disc_exact).to_vec()),
+        records: &mut records,
+    };
+    on_disc(&mut scene, &disc)?;
+    to_tolerance(&mut scene, &disc)?;
+    from_series(&mut scene, &coupled(TABLE_1_PA, RADIUS_M)?)?;
+    advance();
+
+    let against_growing = |found: &Summary| Ok(errors(found, &growing_exact).to_vec());
+    scene.name = BALL;
+    scene.errors = &against_growing;
+    let response = SurfaceResponse::new(&medium, Deflection::Centre);
+    following(&mut scene, &growing, collision.lag(&response))?;
+    from_series(&mut scene, &ball)?;
+    advance();
     Ok(records)
 }
 
@@ -84,51 +74,54 @@ fn work(history: &History, memory: f64) -> u64 {
     steps * steps.min((memory / history.step).ceil() as u64 + 1)
 }
 
-/// The marches of a fixed disc by their numbers of steps, and the closed forms.
-fn on_disc(scene: &mut Scene<'_, Results>, disc: &FixedDisc<'_>) -> Result<(), AnyError> {
-    type March = fn(&FixedDisc<'_>, f64) -> Run<Results>;
-    let marches: [(&str, March, &[usize], &[usize]); 4] = [
-        (
-            "wave implicit",
-            |disc, step| {
-                let history = march_implicit(disc, step)?;
-                let work = work(&history, disc.memory());
-                Ok((results(&Summary::new(&history)?), Some(work)))
-            },
-            &[16, 64, 256],
-            &[12, 16, 24, 32, 64, 128, 256, 512, 1024, 2048],
-        ),
-        (
-            "implicit of order 1",
-            |disc, step| Ok(march(disc, step, Order::First)),
-            &[32, 256],
-            &[16, 64, 256, 1024, 4096],
-        ),
-        (
-            "implicit of order 2",
-            |disc, step| Ok(march(disc, step, Order::Second)),
-            &[32, 256],
-            &[16, 64, 256, 1024, 4096],
-        ),
-        (
-            "wave explicit (the paper's)",
-            |disc, step| {
-                let (history, summary) = march_explicit(disc, step)?;
-                Ok((results(&summary), Some(work(&history, disc.memory()))))
-            },
-            &[54, 200, 800],
-            &[20, 54, 100, 200, 400, 800, 1600, 3200, 6400],
-        ),
-    ];
-    let duration = quasi_static(disc.coupling).0.contact_time;
-    for (method, march, quick, full) in marches {
-        for &n in scene.effort.pick(quick, full) {
-            // the program halves its step instead: nobody tells it how many are enough
-            scene.add(method, format!("{n} steps"), || {
-                march(disc, duration / n as f64)
-            })?;
-        }
+/// The results of a march with so much memory, and its work.
+fn measured(history: &History, memory: f64) -> Run<Summary> {
+    Ok((Summary::new(history)?, Some(work(history, memory))))
+}
+
+/// A march by its number of steps over a duration: few settings, or all.
+///
+/// The program halves its step instead: nobody tells it how many are enough.
+fn stepped(
+    scene: &mut Scene<'_, Summary>,
+    method: &'static str,
+    duration: f64,
+    [quick, full]: [&[usize]; 2],
+    march: impl Fn(f64) -> Run<Summary>,
+) -> Result<(), AnyError> {
+    for &n in scene.effort.pick(quick, full) {
+        scene.add(method, format!("{n} steps"), || march(duration / n as f64))?;
     }
+    Ok(())
+}
+
+/// The marches of a fixed disc by their numbers of steps, and the closed forms.
+fn on_disc(scene: &mut Scene<'_, Summary>, disc: &FixedDisc<'_>) -> Result<(), AnyError> {
+    let (duration, memory) = (quasi_static(disc.coupling).0.contact_time, disc.memory());
+    let steps: [&[usize]; 2] = [
+        &[16, 64, 256],
+        &[12, 16, 24, 32, 64, 128, 256, 512, 1024, 2048],
+    ];
+    let implicit = |step| measured(&march_implicit(disc, step)?, memory);
+    stepped(scene, "wave implicit", duration, steps, implicit)?;
+    for (method, order) in [
+        ("implicit of order 1", Order::First),
+        ("implicit of order 2", Order::Second),
+    ] {
+        let steps: [&[usize]; 2] = [&[32, 256], &[16, 64, 256, 1024, 4096]];
+        let march = |step| Ok(march(disc, step, order));
+        stepped(scene, method, duration, steps, march)?;
+    }
+    let steps: [&[usize]; 2] = [
+        &[54, 200, 800],
+        &[20, 54, 100, 200, 400, 800, 1600, 3200, 6400],
+    ];
+    let explicit = |step| {
+        let (history, summary) = march_explicit(disc, step)?;
+        Ok((summary, Some(work(&history, memory))))
+    };
+    let method = "wave explicit (the paper's)";
+    stepped(scene, method, duration, steps, explicit)?;
     closed(scene, "hertz", "closed form", || radiation(black_box(0.0)))?;
     let lag = disc.coupling * disc.wave_time * disc.response.relaxation_time();
     for (method, lag) in [
@@ -143,23 +136,23 @@ fn on_disc(scene: &mut Scene<'_, Results>, disc: &FixedDisc<'_>) -> Result<(), A
 
 /// A closed form.
 fn closed<'a>(
-    scene: &'a mut Scene<'_, Results>,
+    scene: &'a mut Scene<'_, Summary>,
     method: &'static str,
     setting: &str,
     found: impl Fn() -> Summary,
 ) -> Result<&'a mut Record, AnyError> {
-    scene.add(method, setting, || Ok((results(&found()), Some(1))))
+    scene.add(method, setting, || Ok((found(), Some(1))))
 }
 
 /// A march whose step is halved until a tolerance is met, over a contact of some duration with some memory.
 fn halved<'a>(
-    scene: &'a mut Scene<'_, Results>,
+    scene: &'a mut Scene<'_, Summary>,
     method: &'static str,
     tolerance: f64,
     [duration, memory]: [f64; 2],
     march: impl Fn(f64) -> Result<History, MarchError>,
 ) -> Result<&'a mut Record, AnyError> {
-    scene.add(method, at(tolerance), || {
+    scene.at_tolerance(method, tolerance, || {
         let accuracy = Accuracy::from(tolerance);
         let total = Cell::new(0);
         let counted = |step| {
@@ -168,13 +161,8 @@ fn halved<'a>(
             Ok(history)
         };
         let found = refine(counted, duration / accuracy.first_steps(), accuracy)?;
-        Ok((results(&found.summary), Some(total.get())))
+        Ok((found.summary, Some(total.get())))
     })
-}
-
-/// A tolerance as a setting.
-fn at(tolerance: f64) -> String {
-    format!("tolerance {tolerance:.0e}")
 }
 
 /// Tolerances of so many digits.
@@ -183,7 +171,7 @@ fn tolerances(digits: impl IntoIterator<Item = i32>) -> impl Iterator<Item = f64
 }
 
 /// The marches whose step is halved until a tolerance is met: for one scene, and for the scenes of a sweep.
-fn to_tolerance(scene: &mut Scene<'_, Results>, disc: &FixedDisc<'_>) -> Result<(), AnyError> {
+fn to_tolerance(scene: &mut Scene<'_, Summary>, disc: &FixedDisc<'_>) -> Result<(), AnyError> {
     let (duration, memory) = (quasi_static(disc.coupling).0.contact_time, disc.memory());
     let table = ResponseTable::new(disc.response);
     for tolerance in tolerances(3..=scene.effort.pick(5, 9)) {
@@ -205,44 +193,38 @@ fn to_tolerance(scene: &mut Scene<'_, Results>, disc: &FixedDisc<'_>) -> Result<
             let steps = found.summary.contact_time / step;
             let cells = (memory / step).ceil() + 1.0;
             let work = (4.0 / 3.0 * steps * cells) as u64;
-            Ok((results(&found.summary), Some(work)))
+            Ok((found.summary, Some(work)))
         };
         let method = "wave implicit, as in sweeps";
-        scene.add(method, at(tolerance), in_sweep)?.default_path = true;
+        let row = scene.at_tolerance(method, tolerance, in_sweep)?;
+        row.default_path = true;
     }
     Ok(())
 }
 
 /// What sweeps do with many contacts of two materials: series for a million alike, made before they are timed.
-fn from_series(
-    scene: &mut Scene<'_, Results>,
-    collision: &Collision,
-    settings: Settings,
-) -> Result<(), AnyError> {
+fn from_series(scene: &mut Scene<'_, Summary>, impact: &Impact) -> Result<(), AnyError> {
     const CONTACTS: usize = 1_000_000;
-    let responses = Tabulated::default();
+    let (collision, responses) = (impact.collision(), Tabulated::default());
     for tolerance in tolerances(3..=scene.effort.pick(4, 8)) {
-        let settings = Settings {
-            tolerance,
-            ..settings
-        };
-        let some = std::iter::once((*collision, settings));
+        let settings = impact.clone().to_tolerance(tolerance).settings;
+        let some = std::iter::once((collision, settings));
         let outcomes = Solver::new(&responses).outcomes(CONTACTS, some);
         let solver = RefCell::new(Solver::sharing(&responses, &outcomes));
         let solve = || {
-            let solved = solver.borrow_mut().solve(collision, &settings)?;
-            Ok((results(&solved.summary), None))
+            let solved = solver.borrow_mut().solve(&collision, &settings)?;
+            Ok((solved.summary, None))
         };
         solve()?;
         let method = "series, as in large sweeps";
-        scene.add(method, at(tolerance), solve)?.default_path = true;
+        scene.at_tolerance(method, tolerance, solve)?.default_path = true;
     }
     Ok(())
 }
 
 /// A contact that follows the load: closed forms, the march with a uniform step, polynomial pieces.
 fn following(
-    scene: &mut Scene<'_, Results>,
+    scene: &mut Scene<'_, Summary>,
     growing: &GrowingContact<'_>,
     lag: f64,
 ) -> Result<(), AnyError> {
@@ -255,29 +237,24 @@ fn following(
     let dashpot = || black_box(terms).summary();
     closed(scene, "area dashpot", third, dashpot)?.default_path = true;
     let memory = growing.waves.memory * growing.wave_time;
-    let (quick, full): (&[usize], &[usize]) = (&[16, 64], &[12, 16, 24, 32, 64, 128, 256, 512]);
-    for &n in scene.effort.pick(quick, full) {
-        scene.add("growing", format!("{n} steps"), || {
-            let history = march_growing(growing, CONTACT_TIME / n as f64)?;
-            let work = work(&history, memory);
-            Ok((results(&Summary::new(&history)?), Some(work)))
-        })?;
-    }
+    let steps: [&[usize]; 2] = [&[16, 64], &[12, 16, 24, 32, 64, 128, 256, 512]];
+    let march = |step| measured(&march_growing(growing, step)?, memory);
+    stepped(scene, "growing", CONTACT_TIME, steps, march)?;
     for tolerance in tolerances(3..=scene.effort.pick(4, 5)) {
         // what is left where the pieces do not serve
         let method = "growing, step halved to tolerance";
         let march = |step| march_growing(growing, step);
         halved(scene, method, tolerance, [CONTACT_TIME, memory], march)?;
     }
-    let (quick, full): (&[i32], &[i32]) = (&[4, 6], &[3, 4, 5, 6, 7, 8]);
-    for tolerance in tolerances(scene.effort.pick(quick, full).iter().copied()) {
+    let digits = scene.effort.pick(vec![4, 6], vec![3, 4, 5, 6, 7, 8]);
+    for tolerance in tolerances(digits) {
         let solve = || {
             let accuracy = Accuracy::of_contact(tolerance, None);
             let solved = solve_growing(growing, &accuracy)?;
-            Ok((results(&solved.summary), Some(solved.pieces() as u64)))
+            Ok((solved.summary, Some(solved.pieces() as u64)))
         };
         let method = "growing, polynomial pieces";
-        scene.add(method, at(tolerance), solve)?.default_path = true;
+        scene.at_tolerance(method, tolerance, solve)?.default_path = true;
     }
     Ok(())
 }

@@ -3,17 +3,18 @@
 //! One value is the contact and its six fields at one point; the error is the largest over time and fields, over each
 //! field's peak, against an integral over the past of a force that was solved to 1e-9.
 
+use super::fields;
 use super::kernels::POISSON_RATIO;
 use crate::measure::{Effort, Scene};
-use crate::record::{Question, Record};
-use crate::scenes::{Density, ROD_RADIUS_M};
-use contact::{Model, Settings};
+use crate::record::{Question, Record, peaks};
+use crate::scenes::Density;
+use contact::Model;
 use fault::AnyError;
 use halfspace::{FIELDS, Medium, Six};
 use impact::convolve::Convolver;
-use impact::kernels::{CellPlan, Pulse};
-use impact::{Excitation, HalfSpace, Impact, KernelSource, Material, Place, Striker};
+use impact::{Excitation, Impact, KernelSource};
 use lookup::Table;
+use paper::{RADIUS_M, TABLE_1_PA, coupled, growing};
 use std::sync::Arc;
 
 /// An impact and a point.
@@ -48,11 +49,10 @@ pub(crate) fn measure(
             errors: &|found: &Vec<(f64, Six)>| probed.errors(effort, found),
             records: &mut records,
         };
-        let at = |tolerance: f64| format!("tolerance {tolerance:.0e}");
         let tolerances: &[f64] = effort.pick(&[1e-3, 1e-5], &[1e-2, 1e-3, 1e-4, 1e-5, 1e-6]);
         for &tolerance in tolerances {
             let run = || Ok((probed.computed(tolerance)?, None));
-            scene.add("computed", at(tolerance), run)?.default_path = true;
+            scene.at_tolerance("computed", tolerance, run)?.default_path = true;
         }
         if probed.impact.settings.model == Model::Wave {
             for halvings in effort.pick(vec![3], vec![1, 3, 5, 7]) {
@@ -67,7 +67,8 @@ pub(crate) fn measure(
             for &tolerance in tolerances.iter().filter(|_| probed.is_within(&table)) {
                 let source = KernelSource::Table(table.clone());
                 let run = || Ok((probed.fields(tolerance, source.clone())?, None));
-                scene.add("looked up", at(tolerance), run)?.default_path = true;
+                let row = scene.at_tolerance("looked up", tolerance, run)?;
+                row.default_path = true;
             }
         }
         advance();
@@ -77,54 +78,31 @@ pub(crate) fn measure(
 
 /// A copper rod with a round tip on steel, on a fixed disc and with a contact that grows, near it and far away.
 fn scenes() -> Result<Vec<Probed>, AnyError> {
-    let steel = Material {
-        poisson_ratio: POISSON_RATIO,
-        ..Material::named("steel")?
-    };
-    let block = HalfSpace::new(steel)?;
-    let rod = Striker::new(Material::named("copper")?, 0.0122, ROD_RADIUS_M)?;
-    let fixed = Settings {
-        model: Model::Wave,
-        disc_radius_m: Some(ROD_RADIUS_M),
-        ..Settings::default()
-    };
-    let growing = Settings {
-        model: Model::Growing,
-        ..Settings::default()
-    };
-    [
+    let (fixed, growing) = (coupled(TABLE_1_PA, RADIUS_M)?, growing()?);
+    let scenes = [
         ("fixed disc, near", 100.0, &fixed, [0.004, 0.003]),
         ("fixed disc, far", 100.0, &fixed, [0.08, 0.06]),
         ("growing contact, near", 10.0, &growing, [0.0008, 0.0006]),
         ("growing contact, far", 10.0, &growing, [0.08, 0.06]),
-    ]
-    .into_iter()
-    .map(|(name, velocity_m_s, settings, place_m)| {
-        let mut impact = Impact::new(block.clone(), rod.clone(), velocity_m_s);
-        impact.settings = *settings;
-        Probed::new(name, impact, place_m)
-    })
-    .collect()
+    ];
+    let probed = scenes.map(|(name, velocity_m_s, impact, place_m)| {
+        let mut impact = impact.clone().to_tolerance(CONVERGED);
+        impact.velocity_m_s = velocity_m_s;
+        let mut probed = Probed {
+            name,
+            reference: impact.solve()?.excitation().clone(),
+            impact,
+            place_m,
+            peaks: [0.0; 6],
+        };
+        let fields = probed.computed(1e-5)?.into_iter().map(|(_, fields)| fields);
+        probed.peaks = peaks(&fields.collect::<Vec<_>>());
+        Ok(probed)
+    });
+    probed.into_iter().collect()
 }
 
 impl Probed {
-    fn new(name: &'static str, impact: Impact, place_m: [f64; 2]) -> Result<Self, AnyError> {
-        let run = impact.clone().to_tolerance(CONVERGED).solve()?;
-        let mut scene = Self {
-            name,
-            impact,
-            place_m,
-            reference: run.excitation().clone(),
-            peaks: [0.0; 6],
-        };
-        for (_, fields) in scene.computed(1e-5)? {
-            for (peak, value) in scene.peaks.iter_mut().zip(fields) {
-                *peak = peak.max(value.abs());
-            }
-        }
-        Ok(scene)
-    }
-
     fn is_within(&self, table: &Table) -> bool {
         let radius_m = self.reference.units().disc_radius_m;
         let [r, z] = self.place_m.map(|x| x / radius_m);
@@ -155,27 +133,15 @@ impl Probed {
         let run = self.impact.clone().to_tolerance(1e-6).solve()?;
         let excitation = run.excitation();
         let units = *excitation.units();
-        let [r_m, z_m] = self.place_m;
         let step_s = width * units.time_s();
         let end_s = self.end_s(excitation);
         let count = (end_s / step_s).ceil() as usize;
-        let force: Vec<f64> = (0..count)
-            .map(|n| excitation.force_n(n as f64 * step_s))
-            .collect();
-        let place = Place {
-            r: r_m / units.disc_radius_m,
-            z: z_m / units.disc_radius_m,
-            disc_radius_m: units.disc_radius_m,
-        };
-        let plan = CellPlan {
-            step: width,
-            count: count + lookup::BEYOND,
-            pulse: Pulse::Smooth(excitation.end_s() / units.time_s()),
-            rates: false,
-            tolerance: 1e-8,
-        };
+        let force = (0..count).map(|n| excitation.force_n(n as f64 * step_s));
+        let force: Vec<f64> = force.collect();
         let source = KernelSource::direct(excitation.medium(), 1e-8)?;
-        let cells = source.cells(POISSON_RATIO, place, plan)?;
+        let place = self.place_m.map(|x| x / units.disc_radius_m);
+        let length = excitation.end_s() / units.time_s();
+        let cells = fields::computed(&source, place, (count, width), length, 1e-8)?;
         let found = Convolver::new(&force).fields(&cells.static_part, &cells.smooth);
         let scale = [units.displacement_m_per_n(), units.stress_pa_per_n()];
         let at = |n: usize| std::array::from_fn(|f| scale[usize::from(f >= 2)] * found[f][n]);
@@ -203,10 +169,9 @@ impl Probed {
             let Some((time, fields)) = found.get(after) else {
                 continue;
             };
-            let exact = self
-                .reference
-                .instant(self.place_m, *time, FIELDS_CONVERGED)?
-                .unwrap_or([f64::NAN; 6]);
+            let reference = &self.reference;
+            let exact = reference.instant(self.place_m, *time, FIELDS_CONVERGED)?;
+            let exact = exact.unwrap_or([f64::NAN; 6]);
             for f in 0..6 {
                 let error = (fields[f] - exact[f]).abs() / self.peaks[f].max(f64::MIN_POSITIVE);
                 errors[f] = errors[f].max(error);

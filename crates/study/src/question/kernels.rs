@@ -5,15 +5,14 @@
 
 use crate::inversion::Inversion;
 use crate::measure::{Effort, Scene};
-use crate::record::{Question, Record, sizes};
+use crate::record::{Question, Record, off, peaks, sizes};
 use crate::scenes::Density;
 use fault::AnyError;
 use halfspace::{Arrivals, Deflection, Kernel, Medium, Profile, Six, SurfaceResponse, kausel};
-use std::cell::RefCell;
+use lookup::Smoothness;
 use tabulator::Progress;
 
 /// A point, its times and the exact step responses there.
-#[derive(Debug, Clone)]
 pub(crate) struct KernelScene {
     pub(crate) name: &'static str,
     pub(crate) place: [f64; 2],
@@ -21,7 +20,9 @@ pub(crate) struct KernelScene {
     /// Arrivals of the waves.
     pub(crate) arrivals: Vec<f64>,
     exact: Vec<Six>,
-    /// Largest values; infinite for a field that is not looked at.
+    /// The fields that are looked at.
+    fields: &'static [usize],
+    /// Largest values.
     scale: Six,
     static_part: Six,
     /// One over what the fields are measured in.
@@ -38,7 +39,7 @@ const INTERIOR: [f64; 2] = [0.55, 0.65];
 const NEAR: [f64; 2] = [0.01, -0.01];
 
 /// All six fields.
-const ALL: [usize; 6] = [0, 1, 2, 3, 4, 5];
+pub(crate) const ALL: [usize; 6] = [0, 1, 2, 3, 4, 5];
 
 impl KernelScene {
     /// Six fields at a point inside, from before the first arrival to long after the last.
@@ -53,7 +54,7 @@ impl KernelScene {
     fn late(medium: &Medium, count: usize) -> Result<Self, AnyError> {
         let name = "interior point, after the last front";
         let mut scene = Self::new(name, medium, INTERIOR, 3 * count, &ALL, &[])?;
-        let last = scene.arrivals.last().copied().unwrap_or(0.0);
+        let last = scene.arrivals[scene.arrivals.len() - 1];
         let first = scene.times.partition_point(|&t| t < 1.05 * last);
         scene.times.drain(..first);
         scene.exact.drain(..first);
@@ -82,16 +83,15 @@ impl KernelScene {
         medium: &Medium,
         [r, z]: [f64; 2],
         count: usize,
-        fields: &[usize],
+        fields: &'static [usize],
         near: &[f64],
     ) -> Result<Self, AnyError> {
         let kernel = Kernel::new(medium, Profile::Hertz, 1e-14)?;
         let arrivals = Arrivals::new(medium, Profile::Hertz, r, z)?;
         // from before the first arrival to long after the last, even in the logarithm
         let (first, last) = (0.8 * arrivals.first().max(0.1), 8.0 * arrivals.last());
-        let mut times: Vec<f64> = (0..count)
-            .map(|i| first * (last / first).powf(i as f64 / (count - 1) as f64))
-            .collect();
+        let time = |i| first * (last / first).powf(i as f64 / (count - 1) as f64);
+        let mut times: Vec<f64> = (0..count).map(time).collect();
         for arrival in arrivals.sorted() {
             let both = |d: &f64| [arrival * (1.0 - d), arrival * (1.0 + d)];
             times.extend(near.iter().flat_map(both));
@@ -104,33 +104,25 @@ impl KernelScene {
             times,
             arrivals: arrivals.sorted(),
             exact: Vec::new(),
-            scale: [f64::INFINITY; 6],
+            fields,
+            scale: [0.0; 6],
             static_part: kernel.static_field(r, z)?,
             per_unit: 1.0,
         };
-        for &f in fields {
-            scene.scale[f] = 0.0;
-        }
-        for &t in &scene.times {
-            let whole = scene.whole(kernel.remainder(r, z, t)?.value);
-            for (scale, value) in scene.scale.iter_mut().zip(whole) {
-                *scale = scale.max(value.abs());
-            }
-            scene.exact.push(whole);
-        }
+        scene.exact = scene.by_kernel(&kernel)?;
+        scene.scale = peaks(&scene.exact);
         Ok(scene)
-    }
-
-    /// The whole response of a remainder.
-    fn whole(&self, remainder: Six) -> Six {
-        std::array::from_fn(|f| (remainder[f] + self.static_part[f]) * self.per_unit)
     }
 
     /// The values by the program's kernel.
     pub(crate) fn by_kernel(&self, kernel: &Kernel) -> Result<Vec<Six>, AnyError> {
         let [r, z] = self.place;
-        let value = |&t: &f64| Ok(self.whole(kernel.remainder(r, z, t)?.value));
-        self.times.iter().map(value).collect()
+        let whole = |&t: &f64| {
+            let remainder = kernel.remainder(r, z, t)?.value;
+            let whole = |f: usize| (remainder[f] + self.static_part[f]) * self.per_unit;
+            Ok(std::array::from_fn(whole))
+        };
+        self.times.iter().map(whole).collect()
     }
 
     /// The values of w alone.
@@ -139,23 +131,16 @@ impl KernelScene {
         self.times.iter().map(value).collect()
     }
 
-    /// Largest relative error over the fields at each time.
-    pub(crate) fn errors_over_time(&self, values: &[Six]) -> Vec<f64> {
-        let errors = values.iter().zip(&self.exact).map(|(v, exact)| {
-            let errors: Six = std::array::from_fn(|f| (v[f] - exact[f]) / self.scale[f]);
-            sizes(&errors)[0]
-        });
-        errors.collect()
+    /// The relative errors at all times.
+    fn errors(&self, values: &[Six]) -> Vec<f64> {
+        off(values, &self.exact, &self.scale, self.fields)
     }
 
-    /// The errors of the fields that are looked at.
-    fn errors(&self, values: &[Six]) -> Vec<f64> {
-        let live = (0..6).filter(|&f| self.scale[f].is_finite());
-        let live: Vec<usize> = live.collect();
-        let pairs = values.iter().zip(&self.exact);
-        pairs
-            .flat_map(|(v, exact)| live.iter().map(|&f| (v[f] - exact[f]) / self.scale[f]))
-            .collect()
+    /// The largest of them at each time.
+    pub(crate) fn errors_over_time(&self, values: &[Six]) -> Vec<f64> {
+        let errors = self.errors(values);
+        let largest = |errors: &[f64]| sizes(errors)[0];
+        errors.chunks(self.fields.len()).map(largest).collect()
     }
 }
 
@@ -189,24 +174,22 @@ pub(crate) fn measure(
         for digits in (1..=13).step_by(effort.pick(2, 1)) {
             let tolerance = 10.0_f64.powi(-digits);
             let kernel = Kernel::new(&medium, Profile::Hertz, tolerance)?;
-            let setting = format!("tolerance {tolerance:.0e}");
             let run = || Ok((scene.by_kernel(&kernel)?, None));
-            rows.add("single integral", setting, run)?.default_path = scene.place[1] > 0.0;
+            let row = rows.at_tolerance("single integral", tolerance, run)?;
+            row.default_path = scene.place[1] > 0.0;
         }
         progress.advance(1);
         for inversion in &inversions {
-            rows.add(inversion.name, &inversion.setting, || {
-                let (values, work) = inversion.run(&medium, scene.place, &scene.times);
-                Ok((values, Some(work)))
-            })?;
+            let run = || inversion.run(&medium, scene.place, &scene.times);
+            rows.add(inversion.name, &inversion.setting, run)?;
             progress.advance(1);
         }
         if scene.place == [0.0, 0.0] {
             // what the impact equation uses, and what it is compared with
             let response = SurfaceResponse::new(&medium, Deflection::Centre);
             let fitted = || Ok((scene.at_centre(|t| response.step(t)), None));
-            rows.add("surface response", "fitted once", fitted)?
-                .default_path = true;
+            let row = rows.add("surface response", "fitted once", fitted)?;
+            row.default_path = true;
             let kausel = |t: f64| kausel::centre_step(&medium, medium.kappa() * t);
             let closed = || Ok((scene.at_centre(kausel), None));
             let reference = "closed form (Kausel): the reference";
@@ -226,7 +209,7 @@ fn tables(
     records: &mut Vec<Record>,
 ) -> Result<(), AnyError> {
     let [r, z] = scene.place;
-    let last = scene.times.last().copied().unwrap_or(1.0);
+    let last = scene.times[scene.times.len() - 1];
     let exact_kernel = Kernel::new(medium, Profile::Hertz, 1e-12)?;
     for density in densities {
         for points in effort.pick(vec![4, Density::points()], vec![2, 4, 6, 8]) {
@@ -237,29 +220,18 @@ fn tables(
             exact_kernel
                 .trace(r, z, count as f64 * width)?
                 .for_each_cell(width, count, |j, [average, ..]| exact[j] = average)?;
-            let cells = RefCell::new(vec![[0.0; 6]; count]);
+            let (nu, linear) = (medium.poisson_ratio(), Smoothness::Linear);
             let run = || {
-                table.trace(
-                    lookup::Smoothness::Linear,
-                    medium.poisson_ratio(),
-                    r,
-                    z,
-                    0,
-                    &mut cells.borrow_mut(),
-                )?;
-                Ok(((), Some(0)))
+                let mut cells = vec![[0.0; 6]; count];
+                table.trace(linear, nu, r, z, 0, &mut cells)?;
+                Ok((cells, Some(0)))
             };
             let mut rows = Scene {
                 effort,
                 question: Question::Kernels,
                 name: scene.name,
                 values: count as f64,
-                errors: &|(): &()| {
-                    let cells = cells.borrow();
-                    let pairs = cells.iter().zip(&exact);
-                    let errors = |(a, b): (&Six, &Six)| ALL.map(|f| (a[f] - b[f]) / scene.scale[f]);
-                    Ok(pairs.flat_map(errors).collect())
-                },
+                errors: &|cells: &Vec<Six>| Ok(off(cells, &exact, &scene.scale, &ALL)),
                 records: &mut *records,
             };
             let setting = format!("{}, {points} points", density.label());

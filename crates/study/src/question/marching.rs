@@ -8,7 +8,7 @@
 //!
 //! Product integration after Linz (1985); collision units as in [`contact::CollisionUnits`].
 
-use contact::FixedDisc;
+use contact::{FixedDisc, Summary};
 
 /// Shape of the force within a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -17,45 +17,33 @@ pub(crate) enum Order {
     Second,
 }
 
-/// Peak force, contact time, restitution and peak displacement of an impact in collision units.
-pub(crate) type Results = [f64; 4];
-
-/// Those of the program.
-pub(crate) fn results(summary: &contact::Summary) -> Results {
+/// Differences from a reference of peak force, contact time, restitution and peak displacement: relative, the
+/// restitution's absolute.
+pub(crate) fn errors(found: &Summary, exact: &Summary) -> [f64; 4] {
+    let relative = |found: f64, exact: f64| match found - exact {
+        0.0 => 0.0,
+        difference => difference / exact,
+    };
     [
-        summary.peak_force,
-        summary.contact_time,
-        summary.restitution,
-        summary.peak_displacement,
+        relative(found.peak_force, exact.peak_force),
+        relative(found.contact_time, exact.contact_time),
+        found.restitution - exact.restitution,
+        relative(found.peak_displacement, exact.peak_displacement),
     ]
 }
 
-/// Differences from a reference: relative, the restitution's absolute.
-pub(crate) fn errors(found: &Results, exact: &Results) -> Results {
-    std::array::from_fn(|i| match (i, found[i] - exact[i]) {
-        (2, difference) => difference,
-        (_, 0.0) => 0.0,
-        (_, difference) => difference / exact[i],
-    })
-}
-
-/// Marches until the first separation; the results and the work, steps times cells of memory.
-pub(crate) fn march(impact: &FixedDisc<'_>, step: f64, order: Order) -> (Results, Option<u64>) {
+/// Marches until the first separation: the results that [`errors`] looks at, and the work, steps times cells of memory.
+pub(crate) fn march(impact: &FixedDisc<'_>, step: f64, order: Order) -> (Summary, Option<u64>) {
     const MOST_STEPS: usize = 1_000_000;
     let cell = step / impact.wave_time;
     let cells = (impact.response.memory() / cell).ceil() as usize + 1;
-    let lag: Vec<f64> = (0..cells)
-        .map(|j| {
-            let (from, to) = (j as f64 * cell, (j + 1) as f64 * cell);
-            let response = impact.response;
-            match order {
-                Order::First => 1.0 - response.step(to),
-                Order::Second => {
-                    1.0 - (response.step_integral(to) - response.step_integral(from)) / cell
-                }
-            }
-        })
-        .collect();
+    let response = impact.response;
+    let followed = |from: f64, to: f64| match order {
+        Order::First => response.step(to),
+        Order::Second => (response.step_integral(to) - response.step_integral(from)) / cell,
+    };
+    let lag = |j: usize| 1.0 - followed(j as f64 * cell, (j + 1) as f64 * cell);
+    let lag: Vec<f64> = (0..cells).map(lag).collect();
     // what the newest force does to v h, and to d
     let (swing, push) = match order {
         Order::First => ([0.0, 1.0], [0.0, 0.5]),
@@ -70,9 +58,8 @@ pub(crate) fn march(impact: &FixedDisc<'_>, step: f64, order: Order) -> (Results
     loop {
         let n = force.len();
         let before = force[n - 1];
-        let past: f64 = (1..cells.min(n))
-            .map(|j| lag[j] * (force[n - j] - force[n - j - 1]))
-            .sum();
+        let terms = (1..cells.min(n)).map(|j| lag[j] * (force[n - j] - force[n - j - 1]));
+        let past: f64 = terms.sum();
         work += cells.min(n) as u64;
         let free = d + step * v - inertia * push[0] * before;
         let known = impact.coupling * (lag[0] * before - past);
@@ -82,9 +69,14 @@ pub(crate) fn march(impact: &FixedDisc<'_>, step: f64, order: Order) -> (Results
             let (inside, outside) = (before.cbrt().powi(2), known - free);
             let share = inside / (inside + outside.max(f64::MIN_POSITIVE));
             let velocity = v - 1.25 * step * share * swing[0] * before;
-            let contact_time = (n as f64 - 1.0 + share) * step;
-            let results = [peak(&force), contact_time, -velocity, peak(&displacement)];
-            return (results, Some(work));
+            let found = Summary {
+                peak_force: peak(&force),
+                contact_time: (n as f64 - 1.0 + share) * step,
+                restitution: -velocity,
+                peak_displacement: peak(&displacement),
+                ..Summary::default()
+            };
+            return (found, Some(work));
         }
         d = free - inertia * push[1] * p;
         v -= 1.25 * step * (swing[0] * before + swing[1] * p);
@@ -111,25 +103,21 @@ fn solve(a: f64, b: f64) -> f64 {
 
 /// Largest value of the parabola through the largest sample and its neighbours.
 fn peak(samples: &[f64]) -> f64 {
-    let top = (0..samples.len())
-        .max_by(|&a, &b| samples[a].total_cmp(&samples[b]))
-        .unwrap_or(0);
+    let larger = |&a: &usize, &b: &usize| samples[a].total_cmp(&samples[b]);
+    let top = (0..samples.len()).max_by(larger).unwrap_or(0);
     if top == 0 || top + 1 >= samples.len() {
-        return samples.get(top).copied().unwrap_or(0.0);
+        return samples[top];
     }
     let [a, b, c] = [samples[top - 1], samples[top], samples[top + 1]];
     let bend = a - 2.0 * b + c;
-    if bend < 0.0 {
-        b - (c - a).powi(2) / (8.0 * bend)
-    } else {
-        b
-    }
+    let rise = (c - a).powi(2) / (8.0 * bend);
+    if bend < 0.0 { b - rise } else { b }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use contact::{StaticShare, Summary, march_implicit, refine};
+    use contact::{StaticShare, march_implicit, refine};
     use halfspace::{Deflection, Medium, SurfaceResponse};
 
     #[test]
@@ -142,13 +130,12 @@ mod tests {
             share: StaticShare::Full,
         };
         let exact = refine(|step| march_implicit(&impact, step), 0.02, 1e-9).unwrap();
-        let exact = results(&exact.summary);
+        let exact = exact.summary;
         let own = Summary::new(&march_implicit(&impact, 0.01).unwrap()).unwrap();
-        assert!((own.peak_force / exact[0] - 1.0).abs() < 1e-5);
+        assert!((own.peak_force / exact.peak_force - 1.0).abs() < 1e-5);
         for (order, least) in [(Order::First, 0.9), (Order::Second, 1.7)] {
             let error = |step: f64| {
-                let (found, _) = march(&impact, step, order);
-                let errors = errors(&found, &exact);
+                let errors = errors(&march(&impact, step, order).0, &exact);
                 errors.iter().fold(0.0_f64, |a, e| a.max(e.abs()))
             };
             for step in [0.02, 0.01, 0.005] {
