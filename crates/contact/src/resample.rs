@@ -14,7 +14,7 @@ use std::sync::Arc;
 #[derive(Debug, Clone, Default)]
 pub struct Resampler {
     /// The contact itself; samples where it was not solved by pieces.
-    pieces: Option<Arc<SolvedContact>>,
+    pub pieces: Option<Arc<SolvedContact>>,
     step: f64,
     /// Indentation with its slope and curvature over a step, at each sample.
     indentation: Vec<[f64; 3]>,

@@ -46,22 +46,24 @@ impl Wanted {
 
     /// Duration and largest step in s.
     pub(crate) fn duration_and_step_s(&self, excitation: &Excitation) -> (f64, f64) {
-        let duration_s = self
-            .duration_s
-            .unwrap_or_else(|| 1.1 * excitation.end_s() + self.passing_s(excitation));
-        let mut step_s = self
-            .step_s
-            .unwrap_or_else(|| self.fitting_step_s(excitation));
+        let passed_s = || 1.1 * excitation.end_s() + self.passing_s(excitation);
+        let duration_s = self.duration_s.unwrap_or_else(passed_s);
+        let fitting_s = || self.fitting_step_s(excitation);
+        let mut step_s = self.step_s.unwrap_or_else(fitting_s);
         if let Some(frames) = self.frames {
             step_s = step_s.min(duration_s / (frames as f64 - 1.0).max(1.0));
         }
         (duration_s, step_s)
     }
 
-    /// A step in s that the tolerance asks for.
+    /// A step in s that the tolerance asks for: over a contact the force is followed to third order between samples, but for
+    /// its ends, where the power 3/2 is integrated.
     fn fitting_step_s(&self, excitation: &Excitation) -> f64 {
         match excitation.record() {
-            None => excitation.pulse_s() / self.samples_of_contact(),
+            None => {
+                let samples = (1.5 / self.tolerance.sqrt()).clamp(100.0, 10_000.0);
+                excitation.pulse_s() / samples
+            }
             Some(record) => {
                 let stretches = record.stretches(self.settling_s(excitation), self.tolerance);
                 let unit_s = excitation.units().time_s();
@@ -70,19 +72,11 @@ impl Wanted {
         }
     }
 
-    /// Samples over a contact: between them the force is followed to third order, but for its ends, where the power 3/2
-    /// is integrated.
-    fn samples_of_contact(&self) -> f64 {
-        (1.5 / self.tolerance.sqrt()).clamp(100.0, 10_000.0)
-    }
-
     /// Time in s that the last Rayleigh wave takes to pass the farthest point.
     fn passing_s(&self, excitation: &Excitation) -> f64 {
-        let units = excitation.units();
-        let slowest = excitation.medium().rayleigh_speed() * units.longitudinal_speed_m_s;
-        1.05 * self.farthest_m.map_or(0.0, |distance_m| {
-            (distance_m + units.disc_radius_m) / slowest
-        })
+        let radius_m = excitation.units().disc_radius_m;
+        let travel = |distance_m: f64| (distance_m + radius_m) / excitation.speeds().rayleigh;
+        1.05 * self.farthest_m.map_or(0.0, travel)
     }
 
     /// Time in s after which the fields of a force that has come to rest are taken as static.
@@ -90,9 +84,8 @@ impl Wanted {
     /// What is left of the remainder then is left out: up to 2e-4 of the peak was seen after a lasting change of force,
     /// far less after a pulse. The errors of the fields count it.
     fn settling_s(&self, excitation: &Excitation) -> f64 {
-        let units = excitation.units();
-        let slowest = excitation.medium().rayleigh_speed() * units.longitudinal_speed_m_s;
-        SETTLED * (self.passing_s(excitation) + units.disc_radius_m / slowest)
+        let crossing_s = excitation.units().disc_radius_m / excitation.speeds().rayleigh;
+        SETTLED * (self.passing_s(excitation) + crossing_s)
     }
 
     /// The runs of samples: where a record is quiet for long there are none.
@@ -160,13 +153,10 @@ impl Grid {
     ) -> Result<Self, ImpactError> {
         let (duration_s, wanted_s) = wanted.duration_and_step_s(excitation);
         let unit_s = excitation.units().time_s();
-        let step_s = match source {
-            Some(source) => {
-                let ratio = excitation.medium().poisson_ratio();
-                source.step(ratio, wanted_s / unit_s) * unit_s
-            }
-            None => wanted_s,
-        };
+        let ratio = excitation.medium().poisson_ratio();
+        let step_s = source.map_or(wanted_s, |source| {
+            source.step(ratio, wanted_s / unit_s) * unit_s
+        });
         let runs = wanted.runs(excitation, duration_s, step_s);
         let samples: f64 = runs.iter().map(|run| run.count as f64).sum();
         if samples > MOST_SAMPLES as f64 {

@@ -1,7 +1,7 @@
 //! All that a scene gives: numbers, none of which is not finite.
 
 use crate::energy::EnergySeries;
-use crate::error::ImpactError;
+use crate::error::{ImpactError, finite};
 use crate::evaluator::convolve::Method;
 use crate::fields::probes::{ProbeFields, SectionFields};
 use crate::fields::quantity::Quantity;
@@ -142,9 +142,8 @@ impl Outcome {
 
 /// Passes on an outcome all numbers of which are finite; those of a contact are checked where it is solved.
 pub(crate) fn checked(outcome: Outcome) -> Result<Outcome, ImpactError> {
-    match &outcome.cause {
-        Cause::Contact { .. } => {}
-        Cause::Record(results) => of_record(results)?,
+    if let Cause::Record(results) = &outcome.cause {
+        of_record(results)?;
     }
     series(&outcome.series)?;
     if let Some(found) = &outcome.probes {
@@ -166,19 +165,6 @@ pub(crate) fn checked(outcome: Outcome) -> Result<Outcome, ImpactError> {
         fields("in the section", &found.quantities, values, &found.errors)?;
     }
     Ok(outcome)
-}
-
-fn finite(
-    quantity: impl Fn() -> String,
-    numbers: impl IntoIterator<Item = f64>,
-) -> Result<(), ImpactError> {
-    match numbers.into_iter().find(|x| !x.is_finite()) {
-        None => Ok(()),
-        Some(value) => Err(ImpactError::NotFinite {
-            quantity: quantity(),
-            value,
-        }),
-    }
 }
 
 fn of_record(results: &RecordResults) -> Result<(), ImpactError> {

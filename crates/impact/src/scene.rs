@@ -110,11 +110,10 @@ impl Scene {
     /// Rates of the displacement that are asked for: velocity, acceleration.
     #[must_use]
     pub fn rates(&self) -> usize {
-        let has = |derivative| {
-            let of = |q: &Quantity| q.rate().is_some_and(|(own, _)| own == derivative);
-            usize::from(self.quantities.iter().any(of))
-        };
-        has(Derivative::First) + has(Derivative::Second)
+        let own = || self.quantities.iter().filter_map(|one| one.rate());
+        let asked = |derivative: &Derivative| own().any(|(own, _)| own == *derivative);
+        let rates = [Derivative::First, Derivative::Second];
+        rates.iter().filter(|rate| asked(rate)).count()
     }
 
     /// Points at which fields are asked for.

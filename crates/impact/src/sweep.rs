@@ -1,6 +1,5 @@
 //! Many contacts, without histories: what a sweep computes. Where a scene has probes, their peaks come with it.
 
-use crate::error::ImpactError;
 use crate::fields::probes::{ProbePeaks, peaks_at_probes};
 use crate::impact::solve;
 use crate::kernels::source::KernelChoice;
@@ -50,28 +49,12 @@ pub fn observe(
     let (target, settings) = (&scene.target, &scene.settings);
     let collision = Collision::new(target, &strike.striker, strike.velocity_m_s);
     let run = solve(solver, target, &collision, settings).map_err(|error| error.to_string())?;
-    let peaks = peaks_at_probes(scene, kernels, run.excitation()).and_then(finite);
+    let peaks = peaks_at_probes(scene, kernels, run.excitation());
     Ok(Observed {
         model: run.solved.plan.model,
         results: run.results,
         peaks: Some(peaks.map_err(|error| error.to_string())),
     })
-}
-
-/// Passes on peaks that are numbers.
-fn finite(found: ProbePeaks) -> Result<ProbePeaks, ImpactError> {
-    match found
-        .peaks
-        .iter()
-        .flatten()
-        .find(|number| !number.is_finite())
-    {
-        None => Ok(found),
-        Some(&value) => Err(ImpactError::NotFinite {
-            quantity: "the peak of a field at a probe".to_owned(),
-            value,
-        }),
-    }
 }
 
 /// Rows from which it is told where all of them lie, at most.

@@ -62,7 +62,7 @@ pub(crate) struct Asked<'a> {
 pub(crate) struct Evaluator<'a> {
     pub(crate) asked: Asked<'a>,
     /// Of the fields, and of the velocities and accelerations where they are asked for.
-    forcings: Vec<(Derivative, Forcing<'a>)>,
+    forcings: Vec<Forcing<'a>>,
     /// The discs that may stand for the load, and the forces on them that a point has needed, of each forcing.
     choices: Vec<Discs>,
     forces: Vec<OnceLock<Vec<Vec<DiscForce>>>>,
@@ -70,13 +70,22 @@ pub(crate) struct Evaluator<'a> {
     past: Option<Past<'a>>,
 }
 
-/// All that was asked for at a point, in SI units: the six fields, then the quantities.
+/// One quantity over time, in SI units.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct AtPoint {
-    /// Samples of each.
-    pub(crate) values: Vec<Vec<f64>>,
-    /// Estimated absolute error of each.
-    pub(crate) errors: Vec<f64>,
+pub struct Trace {
+    /// Samples at the times of the output.
+    pub samples: Vec<f64>,
+    /// Estimated absolute error of every sample.
+    pub error: f64,
+}
+
+impl Trace {
+    /// The sample of the largest magnitude, with its sign.
+    #[must_use]
+    pub fn peak(&self) -> f64 {
+        let larger = |most: f64, &x: &f64| if x.abs() > most.abs() { x } else { most };
+        self.samples.iter().fold(0.0, larger)
+    }
 }
 
 /// Tolerances that a part of the past may have, which brings a part of the field.
@@ -112,17 +121,13 @@ impl<'a> Evaluator<'a> {
             choices.truncate(kept);
         }
         let mut derivatives = vec![Derivative::Field];
-        for quantity in asked.quantities {
-            if let Some((derivative, _)) = quantity.rate()
-                && !derivatives.contains(&derivative)
-            {
+        for (derivative, _) in asked.quantities.iter().filter_map(|one| one.rate()) {
+            if !derivatives.contains(&derivative) {
                 derivatives.push(derivative);
             }
         }
-        let forcing = |derivative| {
-            let of = Forcing::new(excitation, grid, asked.wanted, derivative, tolerance);
-            (derivative, of)
-        };
+        let forcing =
+            |derivative| Forcing::new(excitation, grid, asked.wanted, derivative, tolerance);
         let past = match (radius, excitation.record()) {
             (PressureRadius::Following { .. }, None) if computed => {
                 Some(Past::new(excitation, PART_OF_PAST * tolerance)?)
@@ -155,39 +160,39 @@ impl<'a> Evaluator<'a> {
         }
     }
 
-    /// All that is asked for at a point.
+    /// All that is asked for at a point: the six fields, then the quantities.
     ///
     /// # Errors
     /// [`ImpactError`] for a point outside the half-space or the table.
-    pub(crate) fn at(&self, r_m: f64, z_m: f64) -> Result<AtPoint, ImpactError> {
+    pub(crate) fn at(&self, r_m: f64, z_m: f64) -> Result<Vec<Trace>, ImpactError> {
         let sums = self.sums([r_m, z_m])?;
         let mut found = sums[0].clone();
-        for &quantity in self.asked.quantities {
-            let (values, error) = match quantity.rate() {
-                Some((derivative, component)) => {
-                    let place = self.forcings.iter().position(|(own, _)| *own == derivative);
-                    let sum = &sums[place.unwrap_or(0)];
-                    (sum.values[component].clone(), sum.errors[component])
-                }
-                None => self.of_stresses(quantity, &sums[0]),
+        found.extend(self.asked.quantities.iter().map(|&quantity| {
+            let Some((derivative, component)) = quantity.rate() else {
+                return self.of_stresses(quantity, &sums[0]);
             };
-            found.values.push(values);
-            found.errors.push(error);
-        }
+            let place = self
+                .forcings
+                .iter()
+                .position(|own| own.derivative == derivative);
+            sums[place.unwrap_or(0)][component].clone()
+        }));
         (self.asked.watch)();
         Ok(found)
     }
 
-    fn of_stresses(&self, quantity: Quantity, fields: &AtPoint) -> (Vec<f64>, f64) {
+    fn of_stresses(&self, quantity: Quantity, fields: &[Trace]) -> Trace {
         let (stresses, elastic) = ([2, 3, 4, 5], self.asked.elastic);
-        let of = |i: usize| quantity.of(stresses.map(|f| fields.values[f][i]), elastic);
-        let error = quantity.error(stresses.map(|f| fields.errors[f]), elastic);
-        ((0..fields.values[2].len()).map(of).collect(), error)
+        let of = |i: usize| quantity.of(stresses.map(|f| fields[f].samples[i]), elastic);
+        Trace {
+            samples: (0..fields[2].samples.len()).map(of).collect(),
+            error: quantity.error(stresses.map(|f| fields[f].error), elastic),
+        }
     }
 
     /// Values and errors of each forcing, under the first choice of discs that leaves little open, or under the one before
     /// where a choice leaves more: the kernels of small discs lose digits far away.
-    fn sums(&self, place_m: [f64; 2]) -> Result<Vec<AtPoint>, ImpactError> {
+    fn sums(&self, place_m: [f64; 2]) -> Result<Vec<Vec<Trace>>, ImpactError> {
         let serving = self.serving(place_m);
         let mut best = self.under(place_m, serving[0], None)?;
         let open = |sums: &[Sum<'_>]| sums.iter().map(|sum| sum.open.len()).sum::<usize>();
@@ -267,14 +272,11 @@ impl<'a> Evaluator<'a> {
         let cells: Vec<Cells> = (discs.radii.iter().enumerate())
             .map(of)
             .collect::<Result<_, _>>()?;
-        let forces = self.forces[choice].get_or_init(|| {
-            let of = |(_, forcing): &(_, Forcing<'_>)| forcing.on_discs(discs);
-            self.forcings.iter().map(of).collect()
-        });
-        let sums = self.forcings.iter().zip(forces).map(|(of, forces)| {
-            let of = (of.0, &of.1);
-            Sum::new(of, discs, forces, place_m, &cells)
-        });
+        let on_discs = |forcing: &Forcing<'_>| forcing.on_discs(discs);
+        let forces =
+            self.forces[choice].get_or_init(|| self.forcings.iter().map(on_discs).collect());
+        let sums = (self.forcings.iter().zip(forces))
+            .map(|(forcing, forces)| Sum::new(forcing, discs, forces, place_m, &cells));
         Ok((sums.collect::<Result<_, _>>()?, cells))
     }
 
@@ -294,7 +296,7 @@ impl<'a> Evaluator<'a> {
             disc_radius_m,
         };
         let rates = self.forcings.len() > 1;
-        let differences = self.forcings.iter().map(|(_, of)| of.differences);
+        let differences = self.forcings.iter().map(|forcing| forcing.differences);
         let plan = CellPlan {
             step: grid.step_s / (over * units.time_s()),
             count: grid.longest() + differences.max().unwrap_or(0) + BEYOND,

@@ -137,11 +137,10 @@ impl Quantity {
                 self.of([rr, tt, zz, rz], [modulus, shear])
             }
             Self::VonMises => von_mises([rr + tt, tt + zz, zz + rr, rz]),
-            Self::Principal1 | Self::Principal2 | Self::Principal3 => {
+            Self::MaxShear | Self::Principal1 | Self::Principal2 | Self::Principal3 => {
                 principal([rr, tt, zz, rz])[0]
             }
             Self::Tresca => 2.0 * principal([rr, tt, zz, rz])[0],
-            Self::MaxShear => principal([rr, tt, zz, rz])[0],
             Self::VelocityR | Self::VelocityZ | Self::AccelerationR | Self::AccelerationZ => {
                 f64::NAN
             }

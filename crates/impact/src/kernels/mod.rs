@@ -35,25 +35,16 @@ pub struct Cells {
 }
 
 impl Cells {
-    /// Total variation of the step response: the largest response to a force that is nowhere above one.
-    #[must_use]
-    pub fn variation(&self) -> Six {
-        self.steps(0.0, |sum, step| sum + step)
-    }
-
-    /// Largest change of the step response from one cell to the next.
-    #[must_use]
-    pub fn largest_step(&self) -> Six {
-        self.steps(0.0, f64::max)
-    }
-
-    /// The changes of the step response from cell to cell, folded.
-    fn steps(&self, none: f64, fold: impl Fn(f64, f64) -> f64) -> Six {
+    /// Of each field's step response the total variation, which is the largest response to a force that is nowhere above
+    /// one, and the largest change from one cell to the next.
+    pub(crate) fn steps(&self) -> [[f64; 2]; 6] {
         let averages = &self.moments.averages;
         std::array::from_fn(|f| {
-            let first = averages.first().map_or(0.0, |cell| cell[f]);
+            let first = self.static_part[f] + averages.first().map_or(0.0, |cell| cell[f]);
             let steps = averages.windows(2).map(|c| (c[1][f] - c[0][f]).abs());
-            steps.fold(fold(none, (self.static_part[f] + first).abs()), &fold)
+            steps.fold([first.abs(); 2], |[sum, most], step| {
+                [sum + step, most.max(step)]
+            })
         })
     }
 }
@@ -70,11 +61,8 @@ impl KernelSource {
     /// # Errors
     /// [`DomainError`] for a tolerance outside its range.
     pub fn direct(medium: &Medium, tolerance: f64) -> Result<Self, DomainError> {
-        Ok(Self::Direct(Arc::new(Kernel::new(
-            medium,
-            Profile::Hertz,
-            tolerance,
-        )?)))
+        let kernel = Kernel::new(medium, Profile::Hertz, tolerance)?;
+        Ok(Self::Direct(Arc::new(kernel)))
     }
 
     /// Step in r0/c1 not longer than `wanted`, unless the table has none so short.
@@ -115,10 +103,15 @@ impl KernelSource {
         let CellPlan {
             step, count, pulse, ..
         } = wanted;
-        let Place { r, z, .. } = place;
+        let Place {
+            r,
+            z,
+            disc_radius_m,
+        } = place;
+        let [r_m, z_m] = [r, z].map(|x| x * disc_radius_m);
         let (static_part, moments, error, trace) = match self {
             Self::Direct(kernel) => {
-                let domain = |source| place.domain(source);
+                let domain = |source| ImpactError::OutsideBlock { r_m, z_m, source };
                 let rise = |length: f64| pulse.rise(length, wanted.rates);
                 let part = if wanted.rates { 0.004 } else { 1.0 };
                 let tolerance = part * TRACE * wanted.tolerance;
@@ -139,7 +132,12 @@ impl KernelSource {
                 (static_part, moments, error, Some(trace))
             }
             Self::Table(table) => {
-                let outside = |source| place.outside(source);
+                let outside = |source| ImpactError::OutsideTable {
+                    r_m,
+                    z_m,
+                    disc_radius_m,
+                    source,
+                };
                 let found = table.moments(poisson_ratio, r, z, step, count);
                 let (static_part, moments) = found.map_err(outside)?;
                 let error = table_error(table, poisson_ratio, [r, z], pulse).map_err(outside)?;
@@ -165,25 +163,6 @@ pub struct Place {
     pub z: f64,
     /// Unit of length in m.
     pub disc_radius_m: f64,
-}
-
-impl Place {
-    pub(crate) fn outside(self, source: LookupError) -> ImpactError {
-        ImpactError::OutsideTable {
-            r_m: self.r * self.disc_radius_m,
-            z_m: self.z * self.disc_radius_m,
-            disc_radius_m: self.disc_radius_m,
-            source,
-        }
-    }
-
-    pub(crate) fn domain(self, source: DomainError) -> ImpactError {
-        ImpactError::OutsideBlock {
-            r_m: self.r * self.disc_radius_m,
-            z_m: self.z * self.disc_radius_m,
-            source,
-        }
-    }
 }
 
 /// Which cells a convolution needs; lengths of time in r0/c1.
@@ -236,7 +215,7 @@ impl Pulse {
 ///
 /// # Errors
 /// [`LookupError`] outside the table.
-pub fn table_error(
+pub(crate) fn table_error(
     table: &Table,
     poisson_ratio: f64,
     [r, z]: [f64; 2],

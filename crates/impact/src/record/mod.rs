@@ -139,17 +139,6 @@ impl ForceRecord {
         })
     }
 
-    /// The same record with other rows, which are known to be good.
-    pub(crate) fn with_rows(&self, time_s: Vec<f64>, force_n: Vec<f64>) -> Self {
-        Self {
-            time_s,
-            force_n,
-            file: self.file.clone(),
-            reading: self.reading.clone(),
-            treated: self.treated,
-        }
-    }
-
     /// Times of the samples in s.
     #[must_use]
     pub fn time_s(&self) -> &[f64] {
@@ -165,18 +154,14 @@ impl ForceRecord {
     /// The force at a time: linear between samples, zero outside.
     #[must_use]
     pub fn at(&self, time_s: f64) -> f64 {
-        let after = self.time_s.partition_point(|&t| t <= time_s);
-        if after == 0 {
+        let [start_s, end_s] = self.span_s();
+        if time_s == end_s {
+            return self.force_n[self.force_n.len() - 1];
+        }
+        if !(start_s..end_s).contains(&time_s) {
             return 0.0;
         }
-        if after == self.time_s.len() {
-            let last = after - 1;
-            return if time_s == self.time_s[last] {
-                self.force_n[last]
-            } else {
-                0.0
-            };
-        }
+        let after = self.time_s.partition_point(|&t| t <= time_s);
         let (t0, t1) = (self.time_s[after - 1], self.time_s[after]);
         let fraction = (time_s - t0) / (t1 - t0);
         self.force_n[after - 1] + fraction * (self.force_n[after] - self.force_n[after - 1])
@@ -219,13 +204,15 @@ impl ForceRecord {
     /// Time in s and force in N of the largest sample; zeros where none is positive.
     #[must_use]
     pub fn peak(&self) -> (f64, f64) {
-        let mut peak = (0.0, 0.0);
-        for (&t, &p) in self.time_s.iter().zip(&self.force_n) {
-            if p > peak.1 {
-                peak = (t, p);
-            }
-        }
-        peak
+        let rows = self
+            .time_s
+            .iter()
+            .copied()
+            .zip(self.force_n.iter().copied());
+        rows.fold(
+            (0.0, 0.0),
+            |peak, row| if row.1 > peak.1 { row } else { peak },
+        )
     }
 
     /// int P dt in N s.
