@@ -171,8 +171,7 @@ impl Collision {
     }
 
     /// K = (4/3) E* sqrt(R) in N/m^(3/2), (37).
-    #[must_use]
-    pub fn stiffness_n_m32(&self) -> f64 {
+    pub(crate) fn stiffness_n_m32(&self) -> f64 {
         4.0 / 3.0 * self.effective_modulus_pa * self.tip_radius_m.sqrt()
     }
 
@@ -193,8 +192,7 @@ impl Collision {
     }
 
     /// Kinetic energy before, in J.
-    #[must_use]
-    pub fn energy_j(&self) -> f64 {
+    pub(crate) fn energy_j(&self) -> f64 {
         0.5 * self.mass_kg * self.velocity_m_s * self.velocity_m_s
     }
 

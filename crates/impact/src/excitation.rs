@@ -387,14 +387,12 @@ impl Excitation {
     }
 
     /// When the force begins, in s: zero for a contact, the last row before a record leaves zero.
-    #[must_use]
-    pub fn start_s(&self) -> f64 {
+    pub(crate) fn start_s(&self) -> f64 {
         self.record().map_or(0.0, ForceRecord::start_s)
     }
 
     /// Wave speeds of the half-space.
-    #[must_use]
-    pub fn speeds(&self) -> WaveSpeeds {
+    pub(crate) fn speeds(&self) -> WaveSpeeds {
         WaveSpeeds::new(&self.medium, self.units.longitudinal_speed_m_s)
     }
 
@@ -422,8 +420,7 @@ impl Excitation {
     }
 
     /// Length in s of a pulse that is as steep as the force: its duration for a contact.
-    #[must_use]
-    pub fn pulse_s(&self) -> f64 {
+    pub(crate) fn pulse_s(&self) -> f64 {
         match &self.force {
             Force::Contact(contact) => contact.duration_s,
             Force::Record(record) => record.pulse_s(),
@@ -441,8 +438,7 @@ impl Excitation {
 
     /// Deflection of the disc in m under the force sampled a step apart, with a share of its static part; `base_n` is the
     /// force long before.
-    #[must_use]
-    pub fn deflection_m(
+    pub(crate) fn deflection_m(
         &self,
         deflection: Deflection,
         share: StaticShare,

@@ -10,23 +10,22 @@ const MOST_SAMPLES: usize = 4_000_000;
 
 /// What the times of the output depend on beside the excitation.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Wanted {
+pub(crate) struct Wanted {
     /// Relative tolerance on the results.
-    pub tolerance: f64,
+    pub(crate) tolerance: f64,
     /// Largest step in s, if one is asked for.
-    pub step_s: Option<f64>,
+    pub(crate) step_s: Option<f64>,
     /// Time in s to be covered, if one is asked for.
-    pub duration_s: Option<f64>,
+    pub(crate) duration_s: Option<f64>,
     /// Frames of a section, at least one sample each.
-    pub frames: Option<usize>,
+    pub(crate) frames: Option<usize>,
     /// Distance in m of the farthest point from the load's centre, where there are points.
-    pub farthest_m: Option<f64>,
+    pub(crate) farthest_m: Option<f64>,
 }
 
 impl Wanted {
     /// What a scene asks.
-    #[must_use]
-    pub fn of(scene: &Scene) -> Self {
+    pub(crate) fn of(scene: &Scene) -> Self {
         Self {
             tolerance: scene.settings.tolerance,
             step_s: scene.settings.step_s,
@@ -37,8 +36,7 @@ impl Wanted {
     }
 
     /// Samples that will be needed, before the step is rounded.
-    #[must_use]
-    pub fn cells(&self, excitation: &Excitation) -> f64 {
+    pub(crate) fn cells(&self, excitation: &Excitation) -> f64 {
         let (duration_s, step_s) = self.duration_and_step_s(excitation);
         let runs = self.runs(excitation, duration_s, step_s);
         runs.iter().map(|run| run.count as f64).sum()
@@ -133,11 +131,11 @@ const SETTLED: f64 = 20.0;
 
 /// Times of the output: samples a step apart, in one run from 0 or, where a record is quiet for long, in several.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Grid {
+pub(crate) struct Grid {
     /// Step in s.
-    pub step_s: f64,
+    pub(crate) step_s: f64,
     /// Consecutive samples, in the order of time.
-    pub runs: Vec<Run>,
+    pub(crate) runs: Vec<Run>,
     /// Largest step in s that was wanted.
     pub(crate) wanted_s: f64,
     /// Time in s after which fields are taken as static between runs.
@@ -146,7 +144,7 @@ pub struct Grid {
 
 impl Grid {
     /// The times for what is wanted of an excitation, on steps that the source of the kernels can give.
-    pub fn new(
+    pub(crate) fn new(
         wanted: &Wanted,
         excitation: &Excitation,
         source: Option<&KernelSource>,
@@ -175,8 +173,7 @@ impl Grid {
     }
 
     /// Number of samples.
-    #[must_use]
-    pub fn count(&self) -> usize {
+    pub(crate) fn count(&self) -> usize {
         self.runs.iter().map(|run| run.count).sum()
     }
 
@@ -196,7 +193,7 @@ impl Grid {
     }
 
     /// Times of all samples in s.
-    pub fn times_s(&self) -> impl Iterator<Item = f64> + '_ {
+    pub(crate) fn times_s(&self) -> impl Iterator<Item = f64> + '_ {
         self.runs
             .iter()
             .flat_map(|run| (0..run.count).map(|i| run.start_s + i as f64 * self.step_s))

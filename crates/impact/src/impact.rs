@@ -120,14 +120,12 @@ impl Impact {
         let collision = Collision::new(&self.half_space, &self.striker, self.velocity_m_s);
         let mut solver = Solver::new(&Exact);
         let mut run = solve(&mut solver, &self.half_space, &collision, settings)?;
-        let Run {
-            solved, results, ..
-        } = &run;
-        let (block, striker, plan) = (&self.half_space, &self.striker, &solved.plan);
-        let mut warnings = warnings(block, striker, &collision, settings, plan, results);
-        warnings.extend(self.would_yield(&mut solver, &collision, results));
-        warnings.extend(self.counted_twice(&mut solver, &collision, solved, results));
-        run.warnings = warnings;
+        let (block, striker) = (&self.half_space, &self.striker);
+        let (plan, results) = (&run.solved.plan, &run.results);
+        let mut found = warnings(block, striker, &collision, settings, plan, results);
+        found.extend(self.would_yield(&mut solver, &collision, results));
+        found.extend(self.counted_twice(&mut solver, &collision, &run));
+        run.warnings = found;
         Ok(run)
     }
 
@@ -163,10 +161,9 @@ impl Impact {
         &self,
         solver: &mut Solver<'_, Exact>,
         collision: &Collision,
-        solved: &Solved,
-        results: &Results,
+        run: &Run,
     ) -> Option<String> {
-        let (_, on_disc) = solved.plan.model.row();
+        let (_, on_disc) = run.solved.plan.model.row();
         if !on_disc || self.settings.static_share != StaticShare::Full {
             return None;
         }
@@ -176,7 +173,7 @@ impl Impact {
         };
         let free = solver.solve(collision, &following).ok()?;
         let force_n = free.summary.peak_force * collision.units().force_n;
-        let change = results.peak_force_n / force_n - 1.0;
+        let change = run.peak_force_n / force_n - 1.0;
         (change.abs() > NOTABLE).then(|| {
             format!(
                 "the full static share counts the static deflection of the half-space twice, in Hertz's law and in the disc: the peak force is {:+.0} % off that of a contact that follows the load, {force_n:.4e} N",

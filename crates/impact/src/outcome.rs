@@ -129,15 +129,6 @@ impl Outcome {
             Cause::Record(_) => None,
         }
     }
-
-    /// Largest force in N.
-    #[must_use]
-    pub fn peak_force_n(&self) -> f64 {
-        match &self.cause {
-            Cause::Contact { results, .. } => results.peak_force_n,
-            Cause::Record(results) => results.peak_force_n,
-        }
-    }
 }
 
 /// Passes on an outcome all numbers of which are finite; those of a contact are checked where it is solved.
@@ -185,23 +176,19 @@ fn of_record(results: &RecordResults) -> Result<(), ImpactError> {
 
 fn series(series: &Series) -> Result<(), ImpactError> {
     let (striker, energy) = (series.striker.as_ref(), series.energy.as_ref());
+    let kinetic_j = energy.and_then(|e| e.kinetic_j.as_ref());
+    let plastic_j = energy.and_then(|e| e.plastic_j.as_ref());
     for (name, samples) in [
         ("the time", Some(&series.time_s)),
         ("the force", Some(&series.force_n)),
         ("the deflection", Some(&series.deflection_m)),
         ("the displacement", striker.map(|s| &s.displacement_m)),
         ("the velocity", striker.map(|s| &s.velocity_m_s)),
-        (
-            "the kinetic energy",
-            energy.and_then(|e| e.kinetic_j.as_ref()),
-        ),
+        ("the kinetic energy", kinetic_j),
         ("the work", energy.and_then(|e| e.work_j.as_ref())),
         ("the stored energy", energy.map(|e| &e.stored_j)),
         ("the radiated energy", energy.map(|e| &e.radiated_j)),
-        (
-            "the plastic work",
-            energy.and_then(|e| e.plastic_j.as_ref()),
-        ),
+        ("the plastic work", plastic_j),
     ] {
         let samples = samples.into_iter().flatten().copied();
         finite(|| format!("{name} of a sample"), samples)?;
@@ -219,9 +206,9 @@ fn fields<V: IntoIterator<Item = f64>>(
     let more = quantities.iter().map(|quantity| quantity.name());
     let names = FIELD_NAMES.into_iter().chain(more);
     for ((name, values), errors) in names.zip(values).zip(errors) {
-        finite(|| format!("{name} {place}"), values)?;
-        let of_error = || format!("the error of {name} {place}");
-        finite(of_error, errors.iter().copied())?;
+        let name = format!("{name} {place}");
+        finite(|| name.clone(), values)?;
+        finite(|| format!("the error of {name}"), errors.iter().copied())?;
     }
     Ok(())
 }

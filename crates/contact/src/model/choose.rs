@@ -90,8 +90,7 @@ const LARGEST_MEMORY: f64 = 0.3;
 
 impl Groups {
     /// l = (5/2) c int p'^2 of the quasi-static impact.
-    #[must_use]
-    pub fn first_order_loss(&self) -> f64 {
+    pub(crate) fn first_order_loss(&self) -> f64 {
         match self.family {
             Family::Full => quasi_static(self.coupling).1 * self.lag,
             Family::Growing | Family::Dynamic | Family::Yielding => LOSS * self.lag,
@@ -100,8 +99,7 @@ impl Groups {
 
     /// What the first order of radiation leaves out: the largest relative error of peak force, contact time, restitution and
     /// displacement, and that of the loss 1 - e^2.
-    #[must_use]
-    pub fn beyond_radiation(&self) -> [f64; 2] {
+    pub(crate) fn beyond_radiation(&self) -> [f64; 2] {
         let (l, t) = (self.first_order_loss(), self.memory);
         if l > LARGEST_LOSS || t > LARGEST_MEMORY {
             return [1.0; 2];

@@ -45,6 +45,8 @@ pub(crate) struct Forcing<'a> {
     pub(crate) runs: Vec<Run>,
     /// Of each run the samples that the outputs need, ascending.
     pub(crate) needed: Vec<Vec<usize>>,
+    /// Their times, of all runs.
+    pub(crate) times_s: Vec<f64>,
     /// The first that each output is made of, among those of all runs.
     pub(crate) outputs: Vec<usize>,
     /// The cell from which on the runs leave out what earlier ones have changed for good, and the sum of these changes.
@@ -134,23 +136,23 @@ impl<'a> Forcing<'a> {
             (Derivative::Second, Some(_)) => (Reading::Force, 2),
         };
         let (mut runs, mut needed) = (Vec::new(), Vec::new());
-        let (mut outputs, mut first, mut before) = (Vec::new(), 0, 0);
+        let (mut outputs, mut times_s, mut first) = (Vec::new(), Vec::new(), 0);
         for run in &grid.runs {
             let own = first..first + run.count;
             first = own.end;
-            let inside = wanted
-                .iter()
-                .filter(|n| own.contains(n))
-                .map(|n| n - own.start);
+            let inside = wanted.iter().filter(|n| own.contains(n));
+            let inside = inside.map(|n| n - own.start);
             let with_next = inside.clone().flat_map(|n| n..=n + differences);
             let mut samples: Vec<usize> = with_next.collect();
             samples.sort_unstable();
             samples.dedup();
+            let before = times_s.len();
             outputs.extend(inside.map(|n| before + samples.partition_point(|&m| m < n)));
-            before += samples.len();
+            let start_s = run.start_s - 0.5 * differences as f64 * grid.step_s;
+            times_s.extend(samples.iter().map(|&n| start_s + n as f64 * grid.step_s));
             needed.push(samples);
             runs.push(Run {
-                start_s: run.start_s - 0.5 * differences as f64 * grid.step_s,
+                start_s,
                 base_n: run.base_n,
                 count: run.count + differences,
             });
@@ -164,6 +166,7 @@ impl<'a> Forcing<'a> {
             tolerance,
             runs,
             needed,
+            times_s,
             outputs,
             left_out: match derivative {
                 Derivative::Field => grid.left_out(),
@@ -211,12 +214,6 @@ impl<'a> Forcing<'a> {
         [cells.start - 1, cells.end - 1].map(|n| run.start_s + n as f64 * self.step_s)
     }
 
-    /// Times of the samples of a run.
-    fn times_s(&self, run: &Run) -> impl Iterator<Item = f64> {
-        let (start_s, step_s) = (run.start_s, self.step_s);
-        (0..run.count).map(move |n| start_s + n as f64 * step_s)
-    }
-
     /// Forces on the discs of a choice.
     pub(crate) fn on_discs(&self, discs: &Discs) -> Vec<DiscForce> {
         let nodes = |run| self.excitation.cell_nodes(run, self.step_s);
@@ -248,7 +245,8 @@ impl<'a> Forcing<'a> {
         let (run, needed) = (&self.runs[i], &self.needed[i]);
         let radius = self.excitation.radius();
         let both = |t: f64| self.on_disc(discs, k, t);
-        let samples: Vec<[f64; 2]> = self.times_s(run).map(both).collect();
+        let sample = |n: usize| both(run.start_s + n as f64 * self.step_s);
+        let samples: Vec<[f64; 2]> = (0..run.count).map(sample).collect();
         let in_cells: Vec<[f64; 2]> = if discs.radii.len() == 1 && self.reading == Reading::Force {
             nodes.forces().map(|force| [force, 0.0]).collect()
         } else {
@@ -291,19 +289,17 @@ impl<'a> Forcing<'a> {
             }),
             PressureRadius::Following { .. } => Some(of(1, 1e-3)),
         };
-        let zones = match self.excitation.record() {
-            Some(_) => Vec::new(),
-            None => {
-                let span_s = |cells: &Range<usize>| self.span_s(run, cells);
-                let counts = (run.count, self.tolerance * largest(rises));
-                let spans = self.excitation.smooth_s();
-                zones(&spans, &span_s, &own.projection, counts, both)
-            }
-        };
+        let mut run_zones = Vec::new();
+        if self.excitation.record().is_none() {
+            let span_s = |cells: &Range<usize>| self.span_s(run, cells);
+            let counts = (run.count, self.tolerance * largest(rises));
+            let spans = self.excitation.smooth_s();
+            run_zones = zones(&spans, &span_s, &own.projection, counts, both);
+        }
         force.runs.push(RunForce {
             force: own,
             last,
-            zones,
+            zones: run_zones,
         });
     }
 

@@ -7,7 +7,7 @@ use super::ends::open;
 use super::forcing::{DiscForce, Forcing, Reading};
 use super::past::Past;
 use crate::error::ImpactError;
-use crate::excitation::{Excitation, PressureRadius, Run};
+use crate::excitation::{Excitation, PressureRadius};
 use crate::fields::quantity::Derivative;
 use crate::kernels::Cells;
 use crate::record::stretch::largest;
@@ -21,7 +21,6 @@ pub(crate) struct Sum<'a> {
     forces: &'a [DiscForce],
     place_m: [f64; 2],
     /// At the samples that the forcing needs, of all runs.
-    times_s: Vec<f64>,
     values: [Vec<f64>; 6],
     errors: Six,
     /// What the discs may leave of each sample.
@@ -75,11 +74,8 @@ impl<'a> Sum<'a> {
         place_m: [f64; 2],
         cells: &[Cells],
     ) -> Result<Self, ImpactError> {
-        let runs = forcing.runs.iter().zip(&forcing.needed);
-        let time_s = |(run, n): (&Run, &usize)| run.start_s + *n as f64 * forcing.step_s;
-        let times = runs.flat_map(|(run, needed)| needed.iter().map(move |n| time_s((run, n))));
-        let times_s: Vec<f64> = times.collect();
-        let blank = || std::array::from_fn(|_| vec![0.0; times_s.len()]);
+        let samples = forcing.times_s.len();
+        let blank = || std::array::from_fn(|_| vec![0.0; samples]);
         let mut sum = Self {
             forcing,
             discs,
@@ -89,9 +85,8 @@ impl<'a> Sum<'a> {
             errors: Six::default(),
             left: blank(),
             rough: blank(),
-            integrated: vec![false; times_s.len()],
+            integrated: vec![false; samples],
             open: Vec::new(),
-            times_s,
         };
         for (k, cells) in cells.iter().enumerate() {
             sum.add_disc(k, cells);
@@ -172,7 +167,7 @@ impl<'a> Sum<'a> {
         /// Part of the force over which the static field is differenced: a smooth function of it.
         const PART: f64 = 1e-4;
         let excitation = self.forcing.excitation;
-        for (i, &time_s) in self.times_s.iter().enumerate() {
+        for (i, &time_s) in self.forcing.times_s.iter().enumerate() {
             let of = |one| static_si(excitation, self.place_m, [one]);
             let fixed = self.forcing.try_sum(time_s, PART, of)?;
             for (samples, value) in self.values.iter_mut().zip(fixed) {
@@ -185,7 +180,12 @@ impl<'a> Sum<'a> {
     /// Sets to zero what the sum leaves before the first wave from the largest disc has arrived.
     fn still_before_arrival(&mut self) {
         let first_s = self.forcing.excitation.arrivals_s(self.place_m)[0];
-        let still = self.times_s.iter().filter(|&&t| t < first_s).count();
+        let still = self
+            .forcing
+            .times_s
+            .iter()
+            .filter(|&&t| t < first_s)
+            .count();
         for samples in [&mut self.values, &mut self.left, &mut self.rough] {
             samples.iter_mut().for_each(|own| own[..still].fill(0.0));
         }
@@ -247,11 +247,13 @@ impl<'a> Sum<'a> {
     fn not_resolved(&self, left: &[Vec<f64>; 6], part: f64) -> Vec<usize> {
         let allowed = self.allowed();
         let each = |i: usize| over(&allowed, |f| left[f][i]);
-        let each: Vec<f64> = (0..self.times_s.len()).map(each).collect();
+        let each: Vec<f64> = (0..self.forcing.times_s.len()).map(each).collect();
         let reach = beside(self.forcing.excitation, self.forcing.step_s)
             * if self.is_under() { BESIDE_UNDER } else { 1 };
         let off = |i: usize| {
-            let steps = |j: usize| (self.times_s[i] - self.times_s[j]).abs() / self.forcing.step_s;
+            let steps = |j: usize| {
+                (self.forcing.times_s[i] - self.forcing.times_s[j]).abs() / self.forcing.step_s
+            };
             let near = |&j: &usize| steps(j) < reach as f64 + 0.5;
             let next = (i.saturating_sub(reach)..(i + reach + 1).min(each.len())).filter(near);
             (i, next.fold(each[i], |most, j| most.max(part * each[j])))
@@ -334,7 +336,7 @@ impl<'a> Sum<'a> {
                 continue;
             };
             let past_s = self.forcing.span_s(&self.forcing.runs[run], &part);
-            let exact = zone.by_trace(self.times_s[i], past_s, (trace, unit_s));
+            let exact = zone.by_trace(self.forcing.times_s[i], past_s, (trace, unit_s));
             let mut by_cells = own.by_cells(n, &part, &cells.moments);
             if self.discs.omitted.is_some() {
                 // some radii away the last is known at the samples alone
@@ -373,7 +375,7 @@ impl<'a> Sum<'a> {
         cells: &[Cells],
         (allowed, whole): (&[f64], &mut usize),
     ) -> Result<(), ImpactError> {
-        let time_s = self.times_s[i];
+        let time_s = self.forcing.times_s[i];
         let (run, _) = self.in_run(i);
         let grid = &self.forcing.runs[run];
         let span_s = |cells: &Range<usize>| self.forcing.span_s(grid, cells);

@@ -68,8 +68,7 @@ impl KernelSource {
     /// Step in r0/c1 not longer than `wanted`, unless the table has none so short.
     ///
     /// Powers of two also without a table, so that both sources give the same samples.
-    #[must_use]
-    pub fn step(&self, poisson_ratio: f64, wanted: f64) -> f64 {
+    pub(crate) fn step(&self, poisson_ratio: f64, wanted: f64) -> f64 {
         match self {
             Self::Direct(_) => wanted.log2().floor().exp2(),
             Self::Table(table) => {
@@ -82,8 +81,7 @@ impl KernelSource {
     }
 
     /// Largest r and z in radii at which its values are sure: beyond, computed ones lose digits.
-    #[must_use]
-    pub fn reach(&self) -> [f64; 2] {
+    pub(crate) fn reach(&self) -> [f64; 2] {
         match self {
             Self::Direct(_) => [FARTHEST; 2],
             Self::Table(table) => [table.r_max(), table.z_max()],

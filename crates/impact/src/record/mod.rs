@@ -195,15 +195,13 @@ impl ForceRecord {
     }
 
     /// The last time in s before the force leaves zero.
-    #[must_use]
-    pub fn start_s(&self) -> f64 {
+    pub(crate) fn start_s(&self) -> f64 {
         let first = self.force_n.iter().position(|&force| force != 0.0);
         first.map_or(self.time_s[0], |i| self.time_s[i.saturating_sub(1)])
     }
 
     /// Time in s and force in N of the largest sample; zeros where none is positive.
-    #[must_use]
-    pub fn peak(&self) -> (f64, f64) {
+    pub(crate) fn peak(&self) -> (f64, f64) {
         let rows = self
             .time_s
             .iter()
@@ -224,8 +222,7 @@ impl ForceRecord {
 
     /// Length in s of a pulse sin^4(pi t/T) of the same largest force and the same largest slope, at most the time
     /// from the first to the last sample.
-    #[must_use]
-    pub fn pulse_s(&self) -> f64 {
+    pub(crate) fn pulse_s(&self) -> f64 {
         let pairs = self.time_s.windows(2).zip(self.force_n.windows(2));
         let steepest = pairs.fold(0.0_f64, |most, (t, p)| {
             most.max((p[1] - p[0]).abs() / (t[1] - t[0]))
