@@ -42,12 +42,10 @@ pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) ->
     }
     let (word, allowed) = (word.to_lowercase(), (word.chars().count() / 3).max(2));
     let distance = |candidate: &str| strsim::levenshtein(&word, &candidate.to_lowercase());
-    candidates
-        .into_iter()
-        .map(|candidate| (distance(candidate), candidate))
-        .filter(|&(distance, _)| distance <= allowed)
-        .min()
-        .map(|(_, candidate)| candidate.to_owned())
+    let all = candidates.into_iter();
+    let near = all.map(|candidate| (distance(candidate), candidate));
+    let nearest = near.filter(|&(distance, _)| distance <= allowed).min();
+    nearest.map(|(_, candidate)| candidate.to_owned())
 }
 
 #[cfg(test)]

@@ -10,7 +10,7 @@ use crate::evaluator::sum::most_whole;
 use crate::excitation::{Excitation, PressureRadius};
 use crate::grid::{Grid, Wanted};
 use crate::kernels::KernelSource;
-use crate::scene::{Scene, Section};
+use crate::scene::{Probe, Scene, Section};
 
 /// What any output takes, the opening of a table, and a byte of what is decoded of it.
 const OUTPUT_S: f64 = 1.4e-2;
@@ -66,28 +66,25 @@ pub(crate) fn fields_s(scene: &Scene, excitation: &Excitation, samples: f64) -> 
     let discs = Discs::computed(radius, tolerance)[0].radii.len() as f64;
     let kernels = KERNELS + KERNELS_A_DIGIT * digits;
     let more = if rates > 0.0 { WITH_RATES } else { 1.0 };
-    let (small, of_rates) = if following {
-        (SMALL_DISC, FOLLOWING_RATES)
-    } else {
-        (1.0, 1.0)
+    let [small, of_rates] = match following {
+        true => [SMALL_DISC, FOLLOWING_RATES],
+        false => [1.0; 2],
     };
     let trace_s = kernels * more * small * KERNEL_S + samples * CELL_S;
     let points_s = sum(&|wanted| {
-        let past_s = if following {
-            let open = OPEN * digits.powi(2) * wanted / samples;
-            open * KERNELS_OF_OPEN * SMALL_DISC * KERNEL_S
-        } else {
-            0.0
+        let open = OPEN * digits.powi(2) * wanted / samples;
+        let past_s = match following {
+            true => open * KERNELS_OF_OPEN * SMALL_DISC * KERNEL_S,
+            false => 0.0,
         };
         let each = discs * convolved_s(wanted) + past_s;
         discs * trace_s + each * (1.0 + of_rates * rates)
     });
     let step_s = Wanted::of(scene).duration_and_step_s(excitation).1;
     let whole = most_whole(excitation, step_s, tolerance) as f64;
-    let points = if following {
-        points_beside(scene, excitation.units().disc_radius_m)
-    } else {
-        0.0
+    let points = match radius {
+        PressureRadius::Following { largest_m, .. } => points_beside(scene, largest_m),
+        PressureRadius::Fixed(_) => 0.0,
     };
     let beside_s = points * whole * KERNELS_OF_WHOLE * digits.powi(2) * SMALL_DISC * KERNEL_S;
     [OUTPUT_S + points_s + beside_s, looked_up_s]
@@ -96,9 +93,8 @@ pub(crate) fn fields_s(scene: &Scene, excitation: &Excitation, samples: f64) -> 
 /// Points of a scene that are beside a contact of a radius.
 fn points_beside(scene: &Scene, radius_m: f64) -> f64 {
     let [far_m, deep_m] = BESIDE.map(|radii| radii * radius_m);
-    let probes = (scene.probes.iter())
-        .filter(|probe| probe.r_m < far_m && probe.z_m < deep_m)
-        .count();
+    let beside = |probe: &&Probe| probe.r_m < far_m && probe.z_m < deep_m;
+    let probes = scene.probes.iter().filter(beside).count();
     let section = scene.section.map_or(0.0, |s| {
         let part = (far_m / s.r_max_m).min(1.0) * (deep_m / s.z_max_m).min(1.0);
         (s.points[0] * s.points[1]) as f64 * part
@@ -236,10 +232,9 @@ impl Forecast {
             let wanted = if scene.peaks { samples } else { *frames as f64 };
             section = kept + r * wanted * 2.0 * at_frame;
         }
-        let cells = if scene.points() > 0 {
-            threads * CELL
-        } else {
-            0.0
+        let cells = match scene.points() {
+            0 => 0.0,
+            _ => threads * CELL,
         };
         Self {
             points: scene.points(),

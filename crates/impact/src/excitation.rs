@@ -143,11 +143,9 @@ impl Excitation {
         relative_error: f64,
     ) -> Result<Self, DomainError> {
         let samples = Resampler::new(history);
-        let spans = samples.breaks.chunks_exact(2);
+        let span_s = |span: &[f64]| [0, 1].map(|i| span[i] * units.time_s);
         let contact = Contact {
-            contacts_s: spans
-                .map(|span| [0, 1].map(|i| span[i] * units.time_s))
-                .collect(),
+            contacts_s: samples.breaks.chunks_exact(2).map(span_s).collect(),
             kinks_s: samples.kinks().iter().map(|t| t * units.time_s).collect(),
             samples,
             units,
@@ -352,12 +350,10 @@ impl Excitation {
         if low <= 0.0 {
             for _ in 0..60 {
                 let middle = 0.5 * (zero + full);
-                let end = if at(middle) > 0.0 {
-                    &mut full
-                } else {
-                    &mut zero
-                };
-                *end = middle;
+                match at(middle) > 0.0 {
+                    true => full = middle,
+                    false => zero = middle,
+                }
             }
         }
         let (length, first) = (end - zero, nodes.len());
@@ -451,8 +447,8 @@ impl Excitation {
         let static_m_per_n = response.static_compliance() * self.units.displacement_m_per_n();
         let factor = share.factor();
         let above_n: Vec<f64> = force_n.iter().map(|p| p - base_n).collect();
-        (0..force_n.len())
-            .map(|n| static_m_per_n * (factor * force_n[n] - weights.delayed(&above_n[..=n])))
-            .collect()
+        let of = |n: usize| factor * force_n[n] - weights.delayed(&above_n[..=n]);
+        let all = (0..force_n.len()).map(|n| static_m_per_n * of(n));
+        all.collect()
     }
 }

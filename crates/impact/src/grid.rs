@@ -180,11 +180,9 @@ impl Grid {
     /// The cell from which on runs leave out what an earlier one has changed for good, and the sum of these changes in N.
     pub(crate) fn left_out(&self) -> (usize, f64) {
         let cell = (self.settling_s / self.step_s) as usize;
-        let changes = self
-            .runs
-            .windows(2)
-            .map(|r| (r[1].base_n - r[0].base_n).abs());
-        (cell.min(self.longest().saturating_sub(1)), changes.sum())
+        let pairs = self.runs.windows(2);
+        let changed_n = pairs.map(|r| (r[1].base_n - r[0].base_n).abs()).sum();
+        (cell.min(self.longest().saturating_sub(1)), changed_n)
     }
 
     /// Samples of the longest run.

@@ -140,19 +140,15 @@ pub(crate) fn checked(outcome: Outcome) -> Result<Outcome, ImpactError> {
     if let Some(found) = &outcome.probes {
         let arrivals = found.arrival_s.iter().flat_map(|[p, s, _]| [*p, *s]);
         finite(|| "an arrival at a probe".to_owned(), arrivals)?;
-        let values = found
-            .values
-            .iter()
-            .map(|rows| rows.iter().flatten().copied());
+        let values = found.values.iter();
+        let values = values.map(|rows| rows.iter().flatten().copied());
         fields("at a probe", &found.quantities, values, &found.errors)?;
     }
     if let Some(found) = &outcome.section {
         let arrivals = found.arrival_s[..2].iter().flatten().copied();
         finite(|| "an arrival in the section".to_owned(), arrivals)?;
-        let values = found
-            .values
-            .iter()
-            .map(|own| own.iter().copied().map(f64::from));
+        let values = found.values.iter();
+        let values = values.map(|own| own.iter().copied().map(f64::from));
         fields("in the section", &found.quantities, values, &found.errors)?;
     }
     Ok(outcome)

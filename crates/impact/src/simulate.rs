@@ -234,10 +234,9 @@ impl Computed {
         }
         if let Some(section) = &scene.section {
             let at = frames(section, all.len());
-            let (wanted, shown) = if scene.peaks {
-                (&all, at.clone())
-            } else {
-                (&at, (0..at.len()).collect())
+            let (wanted, shown) = match scene.peaks {
+                true => (&all, at.clone()),
+                false => (&at, (0..at.len()).collect()),
             };
             let evaluator = evaluator(wanted)?;
             self.section = Some(on_section(&evaluator, (section, &shown), scene.peaks)?);

@@ -67,15 +67,12 @@ pub fn outcomes<M: Default, E>(
     row: impl Fn(usize, &mut M) -> Result<(Collision, Settings), E>,
 ) -> Outcomes {
     // equidistributed along every axis, whose strides it does not follow
-    let golden = (0..SAMPLE).map(|k| (k as f64 * 0.618_033_988_749_895).fract());
-    let sample: Vec<usize> = if rows <= SAMPLE {
-        (0..rows).collect()
-    } else {
-        golden.map(|part| (part * rows as f64) as usize).collect()
+    let golden = |k: usize| (k as f64 * 0.618_033_988_749_895).fract();
+    let index = |k: usize| match rows <= SAMPLE {
+        true => k,
+        false => (golden(k) * rows as f64) as usize,
     };
     let mut memory = M::default();
-    let some = sample
-        .into_iter()
-        .filter_map(|index| row(index, &mut memory).ok());
+    let some = (0..rows.min(SAMPLE)).filter_map(|k| row(index(k), &mut memory).ok());
     Solver::new(responses).outcomes(rows, some)
 }

@@ -112,13 +112,9 @@ impl Springs {
 
     /// y at the turning point.
     fn top(&self) -> f64 {
-        let energy = |y: f64| {
-            (
-                self.stored(y) - 0.4 * self.energy,
-                y.powi(4) * (2.0 + 3.0 * self.coupling * y),
-            )
-        };
-        find_root(energy, 0.0, 1.0)
+        let missing = |y: f64| self.stored(y) - 0.4 * self.energy;
+        let slope = |y: f64| y.powi(4) * (2.0 + 3.0 * self.coupling * y);
+        find_root(|y| (missing(y), slope(y)), 0.0, 1.0)
     }
 
     /// The place y = top (1 - x^2), where velocity and the rate of d both vanish as x, and the time over `width` of x.
@@ -157,10 +153,8 @@ impl Springs {
 pub fn expected_contact_time(coupling: f64) -> f64 {
     let spring = Springs::still(coupling);
     let top = spring.top();
-    2.0 * GAUSS_4
-        .iter()
-        .map(|&(x, weight)| spring.passing(top, x, weight).1)
-        .sum::<f64>()
+    let times = GAUSS_4.map(|(x, weight)| spring.passing(top, x, weight).1);
+    2.0 * times.iter().sum::<f64>()
 }
 
 #[cfg(test)]

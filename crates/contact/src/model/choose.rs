@@ -213,10 +213,9 @@ impl Plan {
 
     /// c of the radiated loss, zero where the model has none.
     pub(crate) fn damping(&self) -> f64 {
-        if self.model.row().0 == Rung::Radiation {
-            self.groups.lag
-        } else {
-            0.0
+        match self.model.row() {
+            (Rung::Radiation, _) => self.groups.lag,
+            _ => 0.0,
         }
     }
 
@@ -231,11 +230,9 @@ impl Plan {
             return Err(ContactError::LossTooLarge { loss });
         }
         let left_out = self.groups.beyond_radiation()[0].min(1.0);
-        let (_, on_disc) = self.model.row();
-        let summary = if on_disc {
-            quasi_static_radiation(coupling, lag)
-        } else {
-            radiation(lag)
+        let summary = match self.model.row() {
+            (_, true) => quasi_static_radiation(coupling, lag),
+            (_, false) => radiation(lag),
         };
         // what the next rung adds
         let radiated = if lag > 0.0 { 0.0 } else { 0.5 * loss };
@@ -291,10 +288,9 @@ impl Plan {
         let (first, tolerance) = (0.5 * self.groups.first_order_loss(), accuracy.tolerance);
         let change = format!("radiation changes the results by {first:.1e}");
         let (radiating, [second, loss]) = self.groups.without_memory();
-        let rung = if radiating == Rung::AreaDashpot {
-            "the area dashpot"
-        } else {
-            "its first order"
+        let rung = match radiating {
+            Rung::AreaDashpot => "the area dashpot",
+            _ => "its first order",
         };
         match (chosen, accuracy.loss) {
             (Rung::QuasiStatic, _) => {
@@ -330,10 +326,8 @@ pub(crate) fn disc_radius_m(settings: &Settings, collision: &Collision) -> f64 {
 /// Radius of the disc that loads the half-space in m where the model fixes it; none for a contact that follows the load.
 #[must_use]
 pub fn fixed_disc_m(model: Model, settings: &Settings, collision: &Collision) -> Option<f64> {
-    if model.row().1 {
-        return Some(disc_radius_m(settings, collision));
-    }
-    settings.disc_radius_m
+    let of_tip = model.row().1.then_some(collision.tip_radius_m);
+    settings.disc_radius_m.or(of_tip)
 }
 
 /// The groups of the family that the settings state.

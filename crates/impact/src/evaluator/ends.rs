@@ -185,9 +185,8 @@ impl Part {
 static RULE: LazyLock<Vec<(f64, f64)>> = LazyLock::new(|| {
     const NODES: usize = 10;
     let angles = gauss::rule(NODES).on(0.0, PI);
-    angles
-        .map(|(angle, weight)| (-angle.cos(), weight * angle.sin()))
-        .collect()
+    let nodes = angles.map(|(angle, weight)| (-angle.cos(), weight * angle.sin()));
+    nodes.collect()
 });
 
 impl Zone {

@@ -198,13 +198,11 @@ impl<'a> Forcing<'a> {
         part: f64,
         of: impl Fn(Pressed) -> Result<[f64; N], E>,
     ) -> Result<[f64; N], E> {
-        let [one, other] = self
-            .excitation
-            .pressures(time_s)
-            .map(|one| match self.reading {
-                Reading::Force => of(one),
-                Reading::Rate => one.rate_of(part, &of),
-            });
+        let read = |one: Pressed| match self.reading {
+            Reading::Force => of(one),
+            Reading::Rate => one.rate_of(part, &of),
+        };
+        let [one, other] = self.excitation.pressures(time_s).map(read);
         let (one, other) = (one?, other?);
         Ok(std::array::from_fn(|i| one[i] + other[i]))
     }
@@ -340,9 +338,8 @@ impl<'a> Forcing<'a> {
         let excitation = self.excitation;
         let lag_s = excitation.units().time_s() / excitation.medium().rayleigh_speed();
         let steps = lag_s / self.step_s;
-        let values: Vec<f64> = (-1..=run.count as isize)
-            .map(|n| over(run.start_s + n as f64 * self.step_s))
-            .collect();
+        let at = |n: isize| over(run.start_s + n as f64 * self.step_s);
+        let values: Vec<f64> = (-1..=run.count as isize).map(at).collect();
         let second = values.windows(3).map(|v| v[2] - 2.0 * v[1] + v[0]);
         second.map(|bend| count * steps * steps * bend).collect()
     }

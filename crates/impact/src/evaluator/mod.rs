@@ -110,12 +110,9 @@ impl<'a> Evaluator<'a> {
         } = asked;
         let computed = matches!(source, KernelSource::Direct(_));
         let radius = excitation.radius();
-        let mut choices = if computed {
-            Discs::computed(radius, tolerance)
-        } else {
-            Discs::looked_up(radius)
-        };
+        let mut choices = Discs::looked_up(radius);
         if computed {
+            choices = Discs::computed(radius, tolerance);
             let held = |discs: &&Discs| discs.radii.len() * grid.count() <= MOST_HELD;
             let kept = choices.iter().take_while(held).count().max(1);
             choices.truncate(kept);
@@ -153,10 +150,9 @@ impl<'a> Evaluator<'a> {
     pub(crate) fn method(&self) -> Method {
         let forces = self.forces.iter().filter_map(OnceLock::get);
         let mut runs = forces.flatten().flatten().flat_map(|force| &force.runs);
-        if runs.any(|run| run.force.convolver.method() == Method::Transform) {
-            Method::Transform
-        } else {
-            Method::Direct
+        match runs.any(|run| run.force.convolver.method() == Method::Transform) {
+            true => Method::Transform,
+            false => Method::Direct,
         }
     }
 
@@ -171,10 +167,8 @@ impl<'a> Evaluator<'a> {
             let Some((derivative, component)) = quantity.rate() else {
                 return self.of_stresses(quantity, &sums[0]);
             };
-            let place = self
-                .forcings
-                .iter()
-                .position(|own| own.derivative == derivative);
+            let mut derivatives = self.forcings.iter().map(|own| own.derivative);
+            let place = derivatives.position(|own| own == derivative);
             sums[place.unwrap_or(0)][component].clone()
         }));
         (self.asked.watch)();
@@ -214,9 +208,8 @@ impl<'a> Evaluator<'a> {
             best = next;
         }
         let (sums, cells) = best;
-        sums.into_iter()
-            .map(|sum| sum.resolved(self.past.as_ref(), &cells))
-            .collect()
+        let resolved = |sum: Sum<'_>| sum.resolved(self.past.as_ref(), &cells);
+        sums.into_iter().map(resolved).collect()
     }
 
     /// The choices of discs that the source serves at a point in largest radii; where there is none, the last or, of
@@ -269,9 +262,8 @@ impl<'a> Evaluator<'a> {
                 None => self.cells(place_m, over, discs.largest_share(k)),
             }
         };
-        let cells: Vec<Cells> = (discs.radii.iter().enumerate())
-            .map(of)
-            .collect::<Result<_, _>>()?;
+        let cells = discs.radii.iter().enumerate().map(of);
+        let cells: Vec<Cells> = cells.collect::<Result<_, _>>()?;
         let on_discs = |forcing: &Forcing<'_>| forcing.on_discs(discs);
         let forces =
             self.forces[choice].get_or_init(|| self.forcings.iter().map(on_discs).collect());

@@ -180,12 +180,8 @@ impl<'a> Sum<'a> {
     /// Sets to zero what the sum leaves before the first wave from the largest disc has arrived.
     fn still_before_arrival(&mut self) {
         let first_s = self.forcing.excitation.arrivals_s(self.place_m)[0];
-        let still = self
-            .forcing
-            .times_s
-            .iter()
-            .filter(|&&t| t < first_s)
-            .count();
+        let early = self.forcing.times_s.iter().filter(|&&t| t < first_s);
+        let still = early.count();
         for samples in [&mut self.values, &mut self.left, &mut self.rough] {
             samples.iter_mut().for_each(|own| own[..still].fill(0.0));
         }
@@ -230,9 +226,8 @@ impl<'a> Sum<'a> {
         let peaks = self.values.each_ref().map(|samples| largest(samples));
         let kinds = [&peaks[..2], &peaks[2..]].map(largest);
         let least = |f: usize| SMALL * kinds[usize::from(f >= 2)];
-        (0..self.components())
-            .map(|f| part * peaks[f].max(least(f)))
-            .collect()
+        let allowed = |f: usize| part * peaks[f].max(least(f));
+        (0..self.components()).map(allowed).collect()
     }
 
     /// The most that is left of a sample over what is allowed, but for as many as may be integrated as a whole.

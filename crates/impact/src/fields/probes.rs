@@ -76,16 +76,11 @@ impl Peaks {
 
 /// The first sample of the largest magnitude, with its sign, and its time; zeros without samples.
 fn peak(time_s: &[f64], samples: &[f64]) -> [f64; 2] {
-    let all = samples
-        .iter()
-        .zip(time_s)
-        .map(|(&value, &time_s)| [value, time_s]);
-    let larger = |most: [f64; 2], one: [f64; 2]| {
-        if one[0].abs() > most[0].abs() {
-            one
-        } else {
-            most
-        }
+    let all = samples.iter().zip(time_s);
+    let all = all.map(|(&value, &time_s)| [value, time_s]);
+    let larger = |most: [f64; 2], one: [f64; 2]| match one[0].abs() > most[0].abs() {
+        true => one,
+        false => most,
     };
     all.reduce(larger).unwrap_or_default()
 }
@@ -111,10 +106,8 @@ pub(crate) fn at_probes(
     block: &HalfSpace,
     probes: &[Probe],
 ) -> Result<ProbeFields, ImpactError> {
-    let found: Vec<Vec<Trace>> = probes
-        .par_iter()
-        .map(|probe| evaluator.at(probe.r_m, probe.z_m))
-        .collect::<Result<_, _>>()?;
+    let found = (probes.par_iter()).map(|probe| evaluator.at(probe.r_m, probe.z_m));
+    let found: Vec<Vec<Trace>> = found.collect::<Result<_, _>>()?;
     let quantities = evaluator.asked.quantities.to_vec();
     let count = 6 + quantities.len();
     let mut fields = ProbeFields {
@@ -177,11 +170,8 @@ pub(crate) fn on_section(
     };
     for row in 0..fields.z_m.len() {
         let z_m = fields.z_m[row];
-        let found: Vec<Vec<Trace>> = fields
-            .r_m
-            .par_iter()
-            .map(|&r_m| evaluator.at(r_m, z_m))
-            .collect::<Result<_, _>>()?;
+        let found = fields.r_m.par_iter().map(|&r_m| evaluator.at(r_m, z_m));
+        let found: Vec<Vec<Trace>> = found.collect::<Result<_, _>>()?;
         for (column, found) in found.into_iter().enumerate() {
             let place_m = [fields.r_m[column], z_m];
             let arrivals = evaluator.asked.excitation.arrivals_s(place_m);

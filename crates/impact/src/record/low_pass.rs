@@ -55,12 +55,10 @@ pub(crate) fn allowed_hz(time_s: &[f64]) -> [f64; 2] {
     let least = low;
     while high > 1.001 * low {
         let middle = (low * high).sqrt();
-        let end = if rows(middle) <= most {
-            &mut low
-        } else {
-            &mut high
-        };
-        *end = middle;
+        match rows(middle) <= most {
+            true => low = middle,
+            false => high = middle,
+        }
     }
     [least, low]
 }
@@ -162,10 +160,9 @@ impl Rows {
         backwards: bool,
     ) -> f64 {
         let width = self.time_s[i + 1] - self.time_s[i];
-        let [a, b] = if self.of_record.contains(&i) {
-            [self.force_n[i], self.force_n[i + 1]]
-        } else {
-            [0.0; 2]
+        let [a, b] = match self.of_record.contains(&i) {
+            true => [self.force_n[i], self.force_n[i + 1]],
+            false => [0.0; 2],
         };
         for (state, pole) in state.iter_mut().zip(poles) {
             let (decay, first, second) = functions(pole * width);

@@ -170,11 +170,10 @@ impl ForceRecord {
     /// Nodes in the cell of `step_s` from `from_s`, two between neighbouring samples: their sums are exact.
     pub(crate) fn nodes(&self, from_s: f64, step_s: f64, nodes: &mut Vec<Node>) {
         let to_s = from_s + step_s;
-        let inside = self.time_s.partition_point(|&t| t <= from_s)
-            ..self.time_s.partition_point(|&t| t < to_s);
-        let corners = self.time_s[inside]
-            .iter()
-            .map(|&t| (t - from_s) / step_s - 0.5);
+        let begin = self.time_s.partition_point(|&t| t <= from_s);
+        let end = self.time_s.partition_point(|&t| t < to_s);
+        let corners = self.time_s[begin..end].iter();
+        let corners = corners.map(|&t| (t - from_s) / step_s - 0.5);
         let mut before = -0.5;
         for corner in corners.chain([0.5]) {
             for (x, weight) in gauss::rule(2).on(before, corner) {
@@ -202,15 +201,11 @@ impl ForceRecord {
 
     /// Time in s and force in N of the largest sample; zeros where none is positive.
     pub(crate) fn peak(&self) -> (f64, f64) {
-        let rows = self
-            .time_s
-            .iter()
-            .copied()
-            .zip(self.force_n.iter().copied());
-        rows.fold(
-            (0.0, 0.0),
-            |peak, row| if row.1 > peak.1 { row } else { peak },
-        )
+        let rows = self.time_s.iter().zip(&self.force_n);
+        rows.fold((0.0, 0.0), |peak, (&t, &p)| match p > peak.1 {
+            true => (t, p),
+            false => peak,
+        })
     }
 
     /// int P dt in N s.
