@@ -88,18 +88,17 @@ impl Resampler {
         if let Some(solved) = &self.pieces {
             return solved.state(time);
         }
+        let (d, v, h) = (&self.displacement, &self.velocity, self.step);
         let Some((cell, x)) = self.place(time) else {
-            let last = self.displacement.len() - 1;
-            let velocity = self.velocity[last];
+            let last = d.len() - 1;
             return Instant {
-                displacement: self.displacement[last] + velocity * (time - last as f64 * self.step),
-                velocity,
+                displacement: d[last] + v[last] * (time - last as f64 * h),
+                velocity: v[last],
                 ..Instant::default()
             };
         };
         let jet = self.indentation(cell, x);
         let [force, rate, second_rate] = pressed_by(jet);
-        let (d, v, h) = (&self.displacement, &self.velocity, self.step);
         let displacement = hermite([d[cell], h * v[cell]], [d[cell + 1], h * v[cell + 1]], x);
         let slope = |i: usize| {
             let u = self.indentation[i][0].max(0.0);
@@ -127,10 +126,8 @@ impl Resampler {
         let [u0, a, bend0] = self.indentation[cell];
         let [u1, slope1, bend1] = self.indentation[cell + 1];
         let b = 0.5 * bend0;
-        let rise = u1 - u0 - a - b;
-        let tilt = slope1 - a - bend0;
         let turn = 0.5 * (bend1 - bend0);
-        let [c, d, e] = quintic(rise, tilt, turn);
+        let [c, d, e] = quintic(u1 - u0 - a - b, slope1 - a - bend0, turn);
         let per = 1.0 / self.step;
         [
             u0 + x * (a + x * (b + x * (c + x * (d + x * e)))),

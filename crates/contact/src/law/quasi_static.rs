@@ -121,10 +121,9 @@ impl Springs {
     fn passing(&self, top: f64, x: f64, width: f64) -> (f64, f64) {
         let y = top * (1.0 - x * x);
         let v = self.velocity(y);
-        let time = if v > 0.0 {
-            width * self.rate(y) * 2.0 * top * x / v
-        } else {
-            0.0
+        let time = match v > 0.0 {
+            true => width * self.rate(y) * 2.0 * top * x / v,
+            false => 0.0,
         };
         (y, time)
     }

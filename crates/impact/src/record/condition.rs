@@ -36,10 +36,8 @@ impl ForceRecord {
     ) -> Result<Self, TreatmentError> {
         let mut done = Treated {
             baseline_s,
-            baseline_n: 0.0,
             low_pass_hz,
-            removed_rms_n: 0.0,
-            before_zero_n_s: 0.0,
+            ..Treated::default()
         };
         let mut record = self;
         if let Some(baseline_s) = baseline_s {

@@ -27,6 +27,7 @@ const MOST_ROWS: f64 = 4e6;
 const ROUNDING: f64 = 1e-12;
 
 /// A force by rows, zero outside.
+#[derive(Default)]
 pub(crate) struct Rows {
     /// Times in s.
     pub(crate) time_s: Vec<f64>,
@@ -100,12 +101,7 @@ impl Rows {
     fn new(time_s: &[f64], force_n: &[f64], cutoff_hz: f64) -> Self {
         let (reach_s, step_s) = (REACH / cutoff_hz, 1.0 / (ROWS * cutoff_hz));
         let (start_s, end_s) = (time_s[0], time_s[time_s.len() - 1]);
-        let mut rows = Self {
-            time_s: Vec::with_capacity(time_s.len()),
-            force_n: Vec::with_capacity(time_s.len()),
-            before_zero_n_s: 0.0,
-            of_record: 0..0,
-        };
+        let mut rows = Self::default();
         rows.between([(start_s - reach_s).max(0.0), start_s], [0.0; 2], step_s);
         rows.of_record.start = rows.time_s.len();
         for (t, p) in time_s.windows(2).zip(force_n.windows(2)) {

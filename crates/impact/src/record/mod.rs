@@ -40,7 +40,7 @@ pub struct ForceRecord {
 }
 
 /// What was done to a record, with what it came to.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Treated {
     /// Length of the first part in s, the mean of which was taken away from all of it.
     pub baseline_s: Option<f64>,
