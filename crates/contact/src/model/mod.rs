@@ -177,36 +177,29 @@ impl Settings {
     /// The first two settings that exclude each other, if there are any.
     #[must_use]
     pub fn conflict(&self) -> Option<Conflict> {
-        if self.scheme == Scheme::Explicit {
-            if self.static_share == StaticShare::Dynamic {
-                return Some(Conflict::ExplicitDynamic);
-            }
-            if !matches!(self.model, Model::Wave | Model::Auto) {
-                return Some(Conflict::ExplicitModel(self.model));
-            }
-        }
-        if self.model == Model::Growing && self.disc_radius_m.is_some() {
-            return Some(Conflict::GrowingDisc);
-        }
-        let (law, model) = (self.plasticity, self.model);
+        let (law, model, disc) = (self.plasticity, self.model, self.disc_radius_m.is_some());
+        let explicit = self.scheme == Scheme::Explicit;
+        let dynamic = self.static_share == StaticShare::Dynamic;
+        let marched = matches!(model, Model::Wave | Model::Auto);
         let takes_pressure = matches!(law, Plasticity::Thornton | Plasticity::Recovery);
-        if self.yield_pressure_pa.is_some() && !takes_pressure {
-            return Some(Conflict::PlasticPressure(law));
-        }
-        if law == Plasticity::None {
-            return None;
-        }
-        if self.disc_radius_m.is_some() {
-            return Some(Conflict::PlasticDisc);
-        }
-        let none = match model.row() {
+        let pressure = self.yield_pressure_pa.is_some();
+        let yields = law != Plasticity::None;
+        let is_elastic = match model.row() {
             (Rung::QuasiStatic | Rung::AreaDashpot, on_disc) => on_disc,
-            (Rung::FullMemory, on_disc) => {
-                on_disc && model != Model::Auto
-                    || model == Model::Growing && law == Plasticity::JacksonGreen
-            }
+            (Rung::FullMemory, true) => model != Model::Auto,
+            (Rung::FullMemory, false) => law == Plasticity::JacksonGreen,
             (Rung::Radiation, _) => true,
         };
-        (none || self.scheme == Scheme::Explicit).then_some(Conflict::PlasticModel(law, model))
+        let without = yields && (is_elastic || explicit);
+        let conflicts = [
+            (explicit && dynamic, Conflict::ExplicitDynamic),
+            (explicit && !marched, Conflict::ExplicitModel(model)),
+            (model == Model::Growing && disc, Conflict::GrowingDisc),
+            (pressure && !takes_pressure, Conflict::PlasticPressure(law)),
+            (yields && disc, Conflict::PlasticDisc),
+            (without, Conflict::PlasticModel(law, model)),
+        ];
+        let found = conflicts.into_iter().find(|(holds, _)| *holds);
+        found.map(|(_, conflict)| conflict)
     }
 }

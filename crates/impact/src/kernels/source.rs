@@ -64,8 +64,8 @@ impl Tables for lookup::TableFile {
 #[derive(Debug)]
 pub struct Shared {
     tables: Arc<dyn Tables>,
-    known: Mutex<HashMap<u64, Known>>,
-    fault: Mutex<Option<String>>,
+    /// What is known of each ratio, and why a part could not be read.
+    seen: Mutex<(HashMap<u64, Known>, Option<String>)>,
 }
 
 /// What is known of a ratio: why there is no table, and the part that was loaded with the places that it was loaded for.
@@ -79,18 +79,15 @@ impl Shared {
     /// Of some tables; nothing is loaded yet.
     #[must_use]
     pub fn new(tables: Arc<dyn Tables>) -> Self {
-        Self {
-            tables,
-            known: Mutex::default(),
-            fault: Mutex::default(),
-        }
+        let seen = Mutex::default();
+        Self { tables, seen }
     }
 
     /// Why a part could not be read, where that has happened: what was computed since may lack it.
     #[must_use]
     pub fn fault(&self) -> Option<String> {
-        let fault = self.fault.lock().unwrap_or_else(PoisonError::into_inner);
-        fault.clone()
+        let seen = self.seen.lock().unwrap_or_else(PoisonError::into_inner);
+        seen.1.clone()
     }
 
     /// What `read` finds with what is known of a ratio; where that fails, the reason is kept.
@@ -99,7 +96,8 @@ impl Shared {
         poisson_ratio: f64,
         read: impl FnOnce(&mut Known) -> Result<T, AnyError>,
     ) -> Result<T, AnyError> {
-        let mut all = self.known.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut seen = self.seen.lock().unwrap_or_else(PoisonError::into_inner);
+        let (all, fault) = &mut *seen;
         let found = || {
             let known = match all.entry(poisson_ratio.to_bits()) {
                 Entry::Occupied(known) => known.into_mut(),
@@ -111,7 +109,6 @@ impl Shared {
             read(known)
         };
         found().inspect_err(|error| {
-            let mut fault = self.fault.lock().unwrap_or_else(PoisonError::into_inner);
             fault.get_or_insert(error.to_string());
         })
     }
