@@ -33,7 +33,7 @@ use crate::error::ImpactError;
 use crate::excitation::{Excitation, PressureRadius};
 use crate::fields::quantity::{Derivative, Quantity};
 use crate::grid::Grid;
-use crate::kernels::{CellPlan, Cells, KernelSource, Place};
+use crate::kernels::{CellPlan, Cells, KernelSource};
 use convolve::Method;
 use discs::Discs;
 use forcing::{DiscForce, Forcing};
@@ -273,20 +273,16 @@ impl<'a> Evaluator<'a> {
     }
 
     /// The kernels of a disc of a radius `over` the largest that bears a share of the load, as far as the outputs need them.
-    fn cells(&self, [r_m, z_m]: [f64; 2], over: f64, share: f64) -> Result<Cells, ImpactError> {
+    fn cells(&self, place_m: [f64; 2], over: f64, share: f64) -> Result<Cells, ImpactError> {
         let Asked {
             excitation,
             source,
             grid,
             ..
         } = self.asked;
-        let units = excitation.units();
+        let (ratio, units) = (excitation.medium().poisson_ratio(), excitation.units());
         let disc_radius_m = over * units.disc_radius_m;
-        let place = Place {
-            r: r_m / disc_radius_m,
-            z: z_m / disc_radius_m,
-            disc_radius_m,
-        };
+        let place = place_m.map(|x| x / disc_radius_m);
         let rates = self.forcings.len() > 1;
         let differences = self.forcings.iter().map(|forcing| forcing.differences);
         let plan = CellPlan {
@@ -296,6 +292,6 @@ impl<'a> Evaluator<'a> {
             rates,
             tolerance: self.asked.tolerance / share.min(1.0),
         };
-        source.cells(excitation.medium().poisson_ratio(), place, plan)
+        source.cells(ratio, place, disc_radius_m, plan)
     }
 }

@@ -88,24 +88,20 @@ impl KernelSource {
         }
     }
 
-    /// The cells at (r, z).
+    /// The cells at (r, z) in radii of a disc, whose radius in m is for messages.
     ///
     /// # Errors
     /// [`ImpactError`] for a point outside the half-space or the table.
     pub fn cells(
         &self,
         poisson_ratio: f64,
-        place: Place,
+        [r, z]: [f64; 2],
+        disc_radius_m: f64,
         wanted: CellPlan,
     ) -> Result<Cells, ImpactError> {
         let CellPlan {
             step, count, pulse, ..
         } = wanted;
-        let Place {
-            r,
-            z,
-            disc_radius_m,
-        } = place;
         let [r_m, z_m] = [r, z].map(|x| x * disc_radius_m);
         let (static_part, moments, error, trace) = match self {
             Self::Direct(kernel) => {
@@ -150,17 +146,6 @@ impl KernelSource {
             trace,
         })
     }
-}
-
-/// A point in kernel units, with its unit for messages.
-#[derive(Debug, Clone, Copy)]
-pub struct Place {
-    /// Distance from the axis in disc radii.
-    pub r: f64,
-    /// Depth in disc radii.
-    pub z: f64,
-    /// Unit of length in m.
-    pub disc_radius_m: f64,
 }
 
 /// Which cells a convolution needs; lengths of time in r0/c1.

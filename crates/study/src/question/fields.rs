@@ -17,9 +17,9 @@ use crate::scenes::Density;
 use fault::AnyError;
 use halfspace::gauss::Rule;
 use halfspace::{Arrivals, FIELDS, Kernel, Medium, Profile, Six};
+use impact::KernelSource;
 use impact::convolve::{Convolver, Method};
 use impact::kernels::{CellPlan, Pulse};
-use impact::{KernelSource, Place};
 use lookup::{PulseSum, Smoothness, Stencil};
 use std::f64::consts::PI;
 use tabulator::{Axis, PointPlan};
@@ -118,11 +118,6 @@ fn exact_cells(
             let force = pulse.force(width);
             let convolver = Convolver::new(&force);
             let run = || {
-                let place = Place {
-                    r,
-                    z,
-                    disc_radius_m: 1.0,
-                };
                 let plan = CellPlan {
                     step: width,
                     count: force.len() + lookup::BEYOND,
@@ -130,7 +125,7 @@ fn exact_cells(
                     rates: false,
                     tolerance,
                 };
-                let cells = source.cells(medium.poisson_ratio(), place, plan)?;
+                let cells = source.cells(medium.poisson_ratio(), [r, z], 1.0, plan)?;
                 let of_force = match smoothness {
                     Linear => &cells.moments.averages,
                     Smooth => &cells.smooth,

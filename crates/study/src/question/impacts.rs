@@ -12,7 +12,7 @@ use fault::AnyError;
 use halfspace::{FIELDS, Medium, Six};
 use impact::convolve::Convolver;
 use impact::kernels::{CellPlan, Pulse};
-use impact::{Excitation, HalfSpace, Impact, KernelSource, Material, Place, Striker};
+use impact::{Excitation, HalfSpace, Impact, KernelSource, Material, Striker};
 use lookup::Table;
 use std::sync::Arc;
 
@@ -155,18 +155,13 @@ impl Probed {
         let run = self.impact.clone().to_tolerance(1e-6).solve()?;
         let excitation = run.excitation();
         let units = *excitation.units();
-        let [r_m, z_m] = self.place_m;
         let step_s = width * units.time_s();
         let end_s = self.end_s(excitation);
         let count = (end_s / step_s).ceil() as usize;
         let force: Vec<f64> = (0..count)
             .map(|n| excitation.force_n(n as f64 * step_s))
             .collect();
-        let place = Place {
-            r: r_m / units.disc_radius_m,
-            z: z_m / units.disc_radius_m,
-            disc_radius_m: units.disc_radius_m,
-        };
+        let place = self.place_m.map(|x| x / units.disc_radius_m);
         let plan = CellPlan {
             step: width,
             count: count + lookup::BEYOND,
@@ -175,7 +170,7 @@ impl Probed {
             tolerance: 1e-8,
         };
         let source = KernelSource::direct(excitation.medium(), 1e-8)?;
-        let cells = source.cells(POISSON_RATIO, place, plan)?;
+        let cells = source.cells(POISSON_RATIO, place, units.disc_radius_m, plan)?;
         let found = Convolver::new(&force).fields(&cells.static_part, &cells.smooth);
         let scale = [units.displacement_m_per_n(), units.stress_pa_per_n()];
         let at = |n: usize| std::array::from_fn(|f| scale[usize::from(f >= 2)] * found[f][n]);
