@@ -210,22 +210,15 @@ impl Zone {
 /// Of a front that passes within a cell it is of the order of the cell's average, of a smooth kernel of that of its third
 /// difference.
 pub(crate) fn open(moments: &Moments) -> Vec<Six> {
-    let Moments {
-        averages,
-        first,
-        second,
-    } = moments;
-    let count = averages.len();
+    let averages = &moments.averages;
+    let (first, second, last) = (&moments.first, &moments.second, averages.len() - 1);
     let of = |j: usize| -> Six {
-        let [before, after] = [
-            averages[j.saturating_sub(1)],
-            averages[(j + 1).min(count - 1)],
-        ];
+        let [before, after] = [j.saturating_sub(1), (j + 1).min(last)].map(|j| averages[j]);
         std::array::from_fn(|f| {
             let bend = 180.0 * second[j][f] - 0.5 * (after[f] - 2.0 * averages[j][f] + before[f]);
             let tilt = 12.0 * first[j][f] - 0.5 * (after[f] - before[f]);
             bend.abs().max(tilt.abs()) / 3.0
         })
     };
-    (0..count).map(of).collect()
+    (0..=last).map(of).collect()
 }

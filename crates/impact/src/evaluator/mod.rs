@@ -101,14 +101,8 @@ const MOST_HELD: usize = 1 << 24;
 impl<'a> Evaluator<'a> {
     /// Of all that is asked.
     pub(crate) fn new(asked: Asked<'a>) -> Result<Self, ImpactError> {
-        let Asked {
-            excitation,
-            source,
-            grid,
-            tolerance,
-            ..
-        } = asked;
-        let computed = matches!(source, KernelSource::Direct(_));
+        let (excitation, grid, tolerance) = (asked.excitation, asked.grid, asked.tolerance);
+        let computed = matches!(asked.source, KernelSource::Direct(_));
         let radius = excitation.radius();
         let mut choices = Discs::looked_up(radius);
         if computed {
@@ -125,11 +119,11 @@ impl<'a> Evaluator<'a> {
         }
         let forcing =
             |derivative| Forcing::new(excitation, grid, asked.wanted, derivative, tolerance);
-        let past = match (radius, excitation.record()) {
-            (PressureRadius::Following { .. }, None) if computed => {
+        let past = match radius {
+            PressureRadius::Following { .. } if computed => {
                 Some(Past::new(excitation, PART_OF_PAST * tolerance)?)
             }
-            (_, _) => None,
+            _ => None,
         };
         Ok(Self {
             forcings: derivatives.into_iter().map(forcing).collect(),
@@ -274,12 +268,7 @@ impl<'a> Evaluator<'a> {
 
     /// The kernels of a disc of a radius `over` the largest that bears a share of the load, as far as the outputs need them.
     fn cells(&self, place_m: [f64; 2], over: f64, share: f64) -> Result<Cells, ImpactError> {
-        let Asked {
-            excitation,
-            source,
-            grid,
-            ..
-        } = self.asked;
+        let (excitation, grid) = (self.asked.excitation, self.asked.grid);
         let (ratio, units) = (excitation.medium().poisson_ratio(), excitation.units());
         let disc_radius_m = over * units.disc_radius_m;
         let place = place_m.map(|x| x / disc_radius_m);
@@ -292,6 +281,7 @@ impl<'a> Evaluator<'a> {
             rates,
             tolerance: self.asked.tolerance / share.min(1.0),
         };
+        let source = self.asked.source;
         source.cells(ratio, place, disc_radius_m, plan)
     }
 }

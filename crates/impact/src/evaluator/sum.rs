@@ -196,13 +196,8 @@ impl<'a> Sum<'a> {
     fn whole(&self) -> usize {
         match self.forcing.derivative {
             Derivative::Field => {
-                let Forcing {
-                    excitation,
-                    step_s,
-                    tolerance,
-                    ..
-                } = *self.forcing;
-                most_whole(excitation, step_s, tolerance)
+                let own = self.forcing;
+                most_whole(own.excitation, own.step_s, own.tolerance)
             }
             Derivative::First | Derivative::Second => MOST_WHOLE[1],
         }

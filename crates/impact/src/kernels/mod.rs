@@ -99,9 +99,7 @@ impl KernelSource {
         disc_radius_m: f64,
         wanted: CellPlan,
     ) -> Result<Cells, ImpactError> {
-        let CellPlan {
-            step, count, pulse, ..
-        } = wanted;
+        let (step, count, pulse) = (wanted.step, wanted.count, wanted.pulse);
         let [r_m, z_m] = [r, z].map(|x| x * disc_radius_m);
         let (static_part, moments, error, trace) = match self {
             Self::Direct(kernel) => {
