@@ -14,9 +14,17 @@ pub trait Choice: Copy + PartialEq + 'static {
     }
 }
 
-/// Makes an enum a [`Choice`] from one list of all its values with their names, in the order of documents.
+/// Makes an enum, or one that there is, a [`Choice`] from one list of all its values with their names, in the order of
+/// documents.
 #[macro_export]
 macro_rules! choice {
+    ($(#[$of:meta])* $reach:vis enum $choice:ident { $($(#[$each:meta])* $value:ident = $name:literal,)+ }) => {
+        $(#[$of])*
+        $reach enum $choice {
+            $($(#[$each])* $value,)+
+        }
+        $crate::choice!($choice: $($value = $name),+);
+    };
     ($choice:ty: $($value:ident = $name:literal),+) => {
         impl $crate::Choice for $choice {
             const ALL: &'static [Self] = &[$(Self::$value),+];
