@@ -129,8 +129,7 @@ pub struct Motion {
 }
 
 impl Excitation {
-    /// Of a contact: its history in collision units, its duration in s and its relative error; `radius` is that of the
-    /// pressure.
+    /// Of a contact: its history in collision units, and its duration in s; `radius` is that of the pressure.
     ///
     /// # Errors
     /// [`DomainError`] for a Poisson's ratio outside the physics.
@@ -139,9 +138,9 @@ impl Excitation {
         radius: PressureRadius,
         history: History,
         units: CollisionUnits,
-        contact_time_s: f64,
-        relative_error: f64,
+        duration_s: f64,
     ) -> Result<Self, DomainError> {
+        let relative_error = history.error;
         let samples = Resampler::new(history);
         let span_s = |span: &[f64]| [0, 1].map(|i| span[i] * units.time_s);
         let contact = Contact {
@@ -149,7 +148,7 @@ impl Excitation {
             kinks_s: samples.kinks().iter().map(|t| t * units.time_s).collect(),
             samples,
             units,
-            duration_s: contact_time_s,
+            duration_s,
         };
         let force = Force::Contact(Box::new(contact));
         Self::new(half_space, radius, force, relative_error)

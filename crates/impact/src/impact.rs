@@ -78,15 +78,8 @@ pub(crate) fn solve<S: Responses>(
             largest_n: results.peak_force_n,
         },
     };
-    let error = history.error;
-    let excitation = Excitation::of_contact(
-        half_space,
-        radius,
-        history,
-        collision.units(),
-        results.contact_time_s,
-        error,
-    )?;
+    let (units, duration_s) = (collision.units(), results.contact_time_s);
+    let excitation = Excitation::of_contact(half_space, radius, history, units, duration_s)?;
     Ok(Run {
         solved,
         results,

@@ -79,7 +79,7 @@ pub(crate) fn contact(poisson_ratio: f64, duration: f64) -> Excitation {
         tolerance: 1e-10,
         ..Settings::default()
     };
-    let (_, history) = Solver::new(&Exact)
+    let (_, mut history) = Solver::new(&Exact)
         .solve_with_history(&Collision::new(&steel, &ball, 1.0), &settings)
         .unwrap();
     let units = CollisionUnits {
@@ -87,7 +87,8 @@ pub(crate) fn contact(poisson_ratio: f64, duration: f64) -> Excitation {
         time_s: duration / HERTZ,
         force_n: 1.0,
     };
-    Excitation::of_contact(&half_space, radius, history, units, duration, 0.0).unwrap()
+    history.error = 0.0;
+    Excitation::of_contact(&half_space, radius, history, units, duration).unwrap()
 }
 
 /// The grid that would be chosen for all of a contact's waves to a distance.
