@@ -98,16 +98,13 @@ impl Resampler {
             };
         };
         let jet = self.indentation(cell, x);
-        let [force, rate, second_rate] = pressed_by(jet);
         let displacement = hermite([d[cell], h * v[cell]], [d[cell + 1], h * v[cell + 1]], x);
         let slope = |i: usize| {
             let u = self.indentation[i][0].max(0.0);
             -INVERSE_MASS * h * u * u.sqrt()
         };
         Instant {
-            force,
-            rate,
-            second_rate,
+            force: pressed_by(jet)[0],
             displacement,
             velocity: hermite([v[cell], slope(cell)], [v[cell + 1], slope(cell + 1)], x),
             deflection: displacement - jet[0],
