@@ -387,7 +387,8 @@ impl Excitation {
     }
 
     /// Wave speeds of the half-space.
-    pub(crate) fn speeds(&self) -> WaveSpeeds {
+    #[must_use]
+    pub fn speeds(&self) -> WaveSpeeds {
         WaveSpeeds::new(&self.medium, self.units.longitudinal_speed_m_s)
     }
 
