@@ -74,18 +74,16 @@ impl Collision {
     /// [`ContactError::OutOfRange`], [`ContactError::TooFast`], and a Poisson's ratio outside the physics.
     pub fn check(&self) -> Result<(), ContactError> {
         let outside = |quantity, value| Err(ContactError::OutOfRange { quantity, value });
+        let (plane_pa, speed_m_s) = (
+            self.target_plane_modulus_pa,
+            self.target_longitudinal_speed_m_s,
+        );
         for (quantity, value) in [
             ("mass_kg", self.mass_kg),
             ("tip_radius_m", self.tip_radius_m),
             ("the effective modulus in Pa", self.effective_modulus_pa),
-            (
-                "the half-space's plane modulus in Pa",
-                self.target_plane_modulus_pa,
-            ),
-            (
-                "the half-space's wave speed in m/s",
-                self.target_longitudinal_speed_m_s,
-            ),
+            ("the half-space's plane modulus in Pa", plane_pa),
+            ("the half-space's wave speed in m/s", speed_m_s),
         ] {
             if !(PHYSICAL[0]..=PHYSICAL[1]).contains(&value) {
                 return outside(quantity, value);
@@ -94,9 +92,9 @@ impl Collision {
         let velocity_m_s = self.velocity_m_s;
         // Rayleigh's wave has at least 0.68 of the shear wave's speed: the root is only looked for where it matters
         let nu = self.target_poisson_ratio;
-        let shear = self.target_longitudinal_speed_m_s * ((0.5 - nu) / (1.0 - nu)).sqrt();
+        let shear = speed_m_s * ((0.5 - nu) / (1.0 - nu)).sqrt();
         if velocity_m_s >= 0.5 * shear {
-            let limit_m_s = Medium::new(nu)?.rayleigh_speed() * self.target_longitudinal_speed_m_s;
+            let limit_m_s = Medium::new(nu)?.rayleigh_speed() * speed_m_s;
             if velocity_m_s >= limit_m_s {
                 return Err(ContactError::TooFast {
                     velocity_m_s,
@@ -171,8 +169,7 @@ impl Collision {
     }
 
     /// K = (4/3) E* sqrt(R) in N/m^(3/2), (37).
-    #[must_use]
-    pub fn stiffness_n_m32(&self) -> f64 {
+    pub(crate) fn stiffness_n_m32(&self) -> f64 {
         4.0 / 3.0 * self.effective_modulus_pa * self.tip_radius_m.sqrt()
     }
 
@@ -193,8 +190,7 @@ impl Collision {
     }
 
     /// Kinetic energy before, in J.
-    #[must_use]
-    pub fn energy_j(&self) -> f64 {
+    pub(crate) fn energy_j(&self) -> f64 {
         0.5 * self.mass_kg * self.velocity_m_s * self.velocity_m_s
     }
 
@@ -230,12 +226,10 @@ impl Collision {
     /// Static compliance of a disc over Hertz's, and r0/c1, in collision units.
     #[must_use]
     pub fn disc_groups(&self, static_compliance: f64, disc_radius_m: f64) -> (f64, f64) {
-        let units = self.units();
-        let kernel = self.kernel_units(disc_radius_m);
-        (
-            static_compliance * kernel.displacement_m_per_n() * units.force_n / units.length_m,
-            kernel.time_s() / units.time_s,
-        )
+        let (units, kernel) = (self.units(), self.kernel_units(disc_radius_m));
+        let compliance = static_compliance * kernel.displacement_m_per_n();
+        let coupling = compliance * units.force_n / units.length_m;
+        (coupling, kernel.time_s() / units.time_s)
     }
 
     /// The groups of an impact whose contact radius follows the load.

@@ -10,6 +10,7 @@ use crate::disc::response::DiscResponse;
 use crate::disc::weights::Weights;
 use crate::resample::Resampler;
 use halfspace::Deflection;
+use std::borrow::Cow;
 
 /// Samples over a contact with which the work on a memory of several steps is taken.
 const SAMPLES: f64 = 256.0;
@@ -35,23 +36,19 @@ pub(crate) fn radiated<R: DiscResponse>(
     if let Some(work) = history.work_on(mean, coupling, impact.wave_time) {
         return work;
     }
-    let fine;
     let step = history.step.min(duration / SAMPLES);
-    let force = if step < history.step {
+    let mut force = Cow::from(&history.force);
+    if step < history.step {
         let samples = Resampler::new(history.clone());
         let last = (samples.end() / step).ceil() as usize + 1;
-        fine = (0..=last)
-            .map(|i| samples.at(i as f64 * step).force)
-            .collect::<Vec<f64>>();
-        &fine
-    } else {
-        &history.force
-    };
+        force = (0..=last)
+            .map(|i| samples.force(i as f64 * step)[0])
+            .collect();
+    }
     let weights = Weights::of(impact, mean, step);
-    let deflection: Vec<f64> = (0..force.len())
-        .map(|n| -coupling * weights.delayed(&force[..=n]))
-        .collect();
-    work(force, &deflection)
+    let deflected = |n: usize| -coupling * weights.delayed(&force[..=n]);
+    let deflection: Vec<f64> = (0..force.len()).map(deflected).collect();
+    work(&force, &deflection)
 }
 
 /// int p dw over each cell.
@@ -87,11 +84,10 @@ pub(crate) fn work(force: &[f64], deflection: &[f64]) -> f64 {
 pub fn work_until_j(force_n: &[f64], deflection_m: &[f64]) -> Vec<f64> {
     let mut sum = 0.0;
     let first = force_n.first().map(|_| 0.0);
-    first
-        .into_iter()
-        .chain(cells(force_n, deflection_m).map(|cell| {
-            sum += cell;
-            sum
-        }))
-        .collect()
+    let all = first.into_iter().chain(cells(force_n, deflection_m));
+    let until = all.map(|cell| {
+        sum += cell;
+        sum
+    });
+    until.collect()
 }

@@ -14,9 +14,17 @@ pub trait Choice: Copy + PartialEq + 'static {
     }
 }
 
-/// Makes an enum a [`Choice`] from one list of all its values with their names, in the order of documents.
+/// Makes an enum, or one that there is, a [`Choice`] from one list of all its values with their names, in the order of
+/// documents.
 #[macro_export]
 macro_rules! choice {
+    ($(#[$of:meta])* $reach:vis enum $choice:ident { $($(#[$each:meta])* $value:ident = $name:literal,)+ }) => {
+        $(#[$of])*
+        $reach enum $choice {
+            $($(#[$each])* $value,)+
+        }
+        $crate::choice!($choice: $($value = $name),+);
+    };
     ($choice:ty: $($value:ident = $name:literal),+) => {
         impl $crate::Choice for $choice {
             const ALL: &'static [Self] = &[$(Self::$value),+];
@@ -42,12 +50,10 @@ pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) ->
     }
     let (word, allowed) = (word.to_lowercase(), (word.chars().count() / 3).max(2));
     let distance = |candidate: &str| strsim::levenshtein(&word, &candidate.to_lowercase());
-    candidates
-        .into_iter()
-        .map(|candidate| (distance(candidate), candidate))
-        .filter(|&(distance, _)| distance <= allowed)
-        .min()
-        .map(|(_, candidate)| candidate.to_owned())
+    let all = candidates.into_iter();
+    let near = all.map(|candidate| (distance(candidate), candidate));
+    let nearest = near.filter(|&(distance, _)| distance <= allowed).min();
+    nearest.map(|(_, candidate)| candidate.to_owned())
 }
 
 #[cfg(test)]

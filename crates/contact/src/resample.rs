@@ -14,7 +14,7 @@ use std::sync::Arc;
 #[derive(Debug, Clone, Default)]
 pub struct Resampler {
     /// The contact itself; samples where it was not solved by pieces.
-    pieces: Option<Arc<SolvedContact>>,
+    pub pieces: Option<Arc<SolvedContact>>,
     step: f64,
     /// Indentation with its slope and curvature over a step, at each sample.
     indentation: Vec<[f64; 3]>,
@@ -98,27 +98,23 @@ impl Resampler {
         if let Some(solved) = &self.pieces {
             return solved.state(time);
         }
+        let (d, v, h) = (&self.displacement, &self.velocity, self.step);
         let Some((cell, x)) = self.place(time) else {
-            let last = self.displacement.len() - 1;
-            let velocity = self.velocity[last];
+            let last = d.len() - 1;
             return Instant {
-                displacement: self.displacement[last] + velocity * (time - last as f64 * self.step),
-                velocity,
+                displacement: d[last] + v[last] * (time - last as f64 * h),
+                velocity: v[last],
                 ..Instant::default()
             };
         };
         let jet = self.indentation(cell, x);
-        let [force, rate, second_rate] = pressed_by(jet);
-        let (d, v, h) = (&self.displacement, &self.velocity, self.step);
         let displacement = hermite([d[cell], h * v[cell]], [d[cell + 1], h * v[cell + 1]], x);
         let slope = |i: usize| {
             let u = self.indentation[i][0].max(0.0);
             -INVERSE_MASS * h * u * u.sqrt()
         };
         Instant {
-            force,
-            rate,
-            second_rate,
+            force: pressed_by(jet)[0],
             displacement,
             velocity: hermite([v[cell], slope(cell)], [v[cell + 1], slope(cell + 1)], x),
             deflection: displacement - jet[0],

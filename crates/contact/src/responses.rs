@@ -102,12 +102,10 @@ impl Tabulated {
             let mut cache = cache.write().unwrap_or_else(PoisonError::into_inner);
             Ok(Arc::clone(cache.entry(nu.to_bits()).or_insert(made)))
         };
-        match self.neighbours(ratio) {
-            None => exact(ratio),
-            Some((near, far, fraction)) => {
-                Ok(Arc::new(between(exact(near)?, exact(far)?, fraction)))
-            }
-        }
+        let Some((near, far, fraction)) = self.neighbours(ratio) else {
+            return exact(ratio);
+        };
+        Ok(Arc::new(between(exact(near)?, exact(far)?, fraction)))
     }
 }
 
@@ -115,13 +113,11 @@ impl Responses for Tabulated {
     type Disc = ResponseTable;
 
     fn disc(&self, ratio: f64, deflection: Deflection) -> Result<Arc<ResponseTable>, DomainError> {
+        let tables = &self.tables[deflection as usize];
         let table = |medium: &Medium| ResponseTable::new(&SurfaceResponse::new(medium, deflection));
-        self.at(
-            &self.tables[deflection as usize],
-            ratio,
-            table,
-            |near, far, fraction| ResponseTable::between(&near, &far, fraction),
-        )
+        self.at(tables, ratio, table, |near, far, fraction| {
+            ResponseTable::between(&near, &far, fraction)
+        })
     }
 
     fn waves(&self, ratio: f64) -> Result<Arc<PunchWaves>, DomainError> {

@@ -121,9 +121,7 @@ impl Results {
         // by two routes that share nothing but the force: what the striker keeps follows from its momentum, what the
         // half-space takes from the work on the deflection that lags behind
         let rebound = (1.0 - INVERSE_MASS * s.impulse).powi(2);
-        let steps = solved
-            .step
-            .map_or(0.0, |step| (s.contact_time / step).ceil());
+        let steps = |step: f64| (s.contact_time / step).ceil() as usize;
         Self {
             peak_force_n,
             peak_force_time_s: s.peak_force_time * units.time_s,
@@ -147,7 +145,7 @@ impl Results {
             ),
             plastic: Plastic::new(collision, settings, solved, &units),
             contacts: s.contacts,
-            march_steps: steps as usize,
+            march_steps: solved.step.map_or(0, steps),
             march_step_s: solved.step.map_or(0.0, |step| step * units.time_s),
             relative_error_estimate: solved.error,
         }
@@ -159,6 +157,7 @@ impl Results {
     /// [`ContactError::NotFinite`], [`ContactError::Unreliable`].
     #[inline]
     pub fn checked(self) -> Result<Self, ContactError> {
+        let plastic = &self.plastic;
         let numbers = [
             ("peak force", self.peak_force_n),
             ("time of the peak force", self.peak_force_time_s),
@@ -175,11 +174,8 @@ impl Results {
             ("contact radius", self.contact_radius_m),
             ("disc's radius", self.disc_radius_m),
             ("mean pressure", self.loading.mean_pressure_pa),
-            ("plastic work", self.plastic.plastic_work_j.unwrap_or(0.0)),
-            (
-                "yield velocity",
-                self.plastic.yield_velocity_m_s.unwrap_or(0.0),
-            ),
+            ("plastic work", plastic.plastic_work_j.unwrap_or(0.0)),
+            ("yield velocity", plastic.yield_velocity_m_s.unwrap_or(0.0)),
             ("march's step", self.march_step_s),
             ("error estimate", self.relative_error_estimate),
         ];

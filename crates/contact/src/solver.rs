@@ -120,8 +120,8 @@ impl<'a, S: Responses> Solver<'a, S> {
     /// Where a contact lies among those that have series.
     fn place(&mut self, collision: &Collision, settings: &Settings) -> Option<Place> {
         collision.check().ok()?;
-        let disc = self.disc(collision.target_poisson_ratio, settings.deflection);
-        let disc = disc.ok()?;
+        let ratio = collision.target_poisson_ratio;
+        let disc = self.disc(ratio, settings.deflection).ok()?;
         let yielding = collision.yielding(settings).ok()?.filter(Yielding::begins);
         let plan = plan(settings, collision, &**disc, yielding.is_some());
         if let Some(yielding) = yielding {
@@ -244,9 +244,8 @@ impl<'a, S: Responses> Solver<'a, S> {
             self.radiated = Some(radiated);
             return Ok(plan.solved(None, Found::unmarched(summary, error), None));
         }
-        let step = settings
-            .step_s
-            .map(|step_s| step_s / collision.units().time_s);
+        let in_times = |step_s: f64| step_s / collision.units().time_s;
+        let step = settings.step_s.map(in_times);
         let is_disc = matches!(plan.groups.family, Family::Full | Family::Dynamic);
         let is_wave = matches!(settings.model, Model::Wave | Model::Auto);
         if is_disc && is_wave && settings.scheme == Scheme::Implicit {

@@ -68,10 +68,6 @@ impl Estimates {
 pub struct Instant {
     /// Contact force.
     pub force: f64,
-    /// Its rate.
-    pub rate: f64,
-    /// The rate's rate; zero at the very ends of a contact, where it has no bound.
-    pub second_rate: f64,
     /// Displacement of the striker.
     pub displacement: f64,
     /// Velocity of the striker.

@@ -135,31 +135,20 @@ pub fn warnings(
             ));
         }
     }
-    of_the_materials(
-        [&striker.material, half_space.material()],
-        collision,
-        results,
-        &mut found,
-    );
+    of_the_materials(collision, results, &mut found);
     of_the_bodies(half_space, striker, results.contact_time_s, &mut found);
     found.extend(doubts(half_space, striker));
     of_the_model(settings, plan, results, &mut found);
     found
 }
 
-fn of_the_materials(
-    materials: [&Material; 2],
-    collision: &Collision,
-    results: &Results,
-    found: &mut Vec<String>,
-) {
+fn of_the_materials(collision: &Collision, results: &Results, found: &mut Vec<String>) {
     let loading = &results.loading;
     let stress = loading.mean_pressure_pa;
     let mut borne = Vec::new();
-    let bodies = ["striker", "target"].into_iter().zip(materials);
-    for ((body, material), strength) in bodies.zip(&collision.strengths) {
+    for (body, strength) in ["striker", "target"].into_iter().zip(&collision.strengths) {
         let onset = strength.yield_pressure_pa.filter(|&onset| stress > onset);
-        if let (Some(onset), Some(limit)) = (onset, material.yield_strength_pa) {
+        if let (Some(onset), Some(limit)) = (onset, strength.yield_strength_pa) {
             borne.push(format!(
                 "{:.2} times the yield strength of the {body}, {limit:.4e} Pa (yielding begins at {:.2} times)",
                 stress / limit,
@@ -167,8 +156,8 @@ fn of_the_materials(
             ));
         }
         // what is brittle bears more pressure than tension, until it cracks
-        let brittle = material.fracture_toughness_pa_sqrt_m.is_some();
-        let tensile = material.tensile_strength_pa.filter(|_| !brittle);
+        let brittle = strength.fracture_toughness_pa_sqrt_m.is_some();
+        let tensile = strength.tensile_strength_pa.filter(|_| !brittle);
         if let Some(limit) = tensile.filter(|&limit| stress > limit) {
             borne.push(format!(
                 "{:.2} times the tensile strength of the {body}, {limit:.4e} Pa",
@@ -210,18 +199,13 @@ fn of_the_bodies(
             ));
         }
     }
-    let echo = WaveSpeeds::of(half_space)
-        .ok()
-        .and_then(|speeds| speeds.first_echo_s(half_space, [0.0; 2], 0.0));
+    let speeds = WaveSpeeds::of(half_space).ok();
+    let echo = speeds.and_then(|speeds| speeds.first_echo_s(half_space, [0.0; 2], 0.0));
     if let Some(echo) = echo.filter(|&echo| echo < contact_time_s) {
-        let faces = [
-            ("thickness_m", half_space.thickness_m),
-            ("radius_m", half_space.radius_m),
-        ];
-        let named = faces
-            .into_iter()
-            .filter_map(|(key, size)| Some((key, size?)));
-        let nearest = named.reduce(|one, other| if other.1 < one.1 { other } else { one });
+        let deep = half_space.thickness_m.map(|size| ("thickness_m", size));
+        let wide = half_space.radius_m.map(|size| ("radius_m", size));
+        let faces = deep.into_iter().chain(wide);
+        let nearest = faces.reduce(|one, other| if other.1 < one.1 { other } else { one });
         let (key, size) = nearest.unwrap_or(("thickness_m", 0.0));
         found.push(format!(
             "the echo from {key} = {size:.3e} m returns after {echo:.3e} s, before the contact ends at {contact_time_s:.3e} s: the block is not a half-space"

@@ -6,12 +6,11 @@
 use crate::error::ImpactError;
 use crate::evaluator::convolve::{direct_ns, transform_ns};
 use crate::evaluator::discs::Discs;
-use crate::evaluator::sum::{beside, most_whole};
+use crate::evaluator::sum::most_whole;
 use crate::excitation::{Excitation, PressureRadius};
-use crate::fields::quantity::Derivative;
 use crate::grid::{Grid, Wanted};
 use crate::kernels::KernelSource;
-use crate::scene::{Scene, Section};
+use crate::scene::{Probe, Scene, Section};
 
 /// What any output takes, the opening of a table, and a byte of what is decoded of it.
 const OUTPUT_S: f64 = 1.4e-2;
@@ -43,93 +42,64 @@ const KERNELS_OF_WHOLE: f64 = 20.0;
 /// What the rates of a contact that follows its load take beside its fields.
 const FOLLOWING_RATES: f64 = 2.0;
 
-/// What the fields of a scene depend on.
-pub(crate) struct Cost<'a> {
-    excitation: &'a Excitation,
-    points: [f64; 2],
-    /// Those of them that are beside the contact.
-    beside: f64,
-    /// Samples at a probe and at a point of the section.
-    wanted: [f64; 2],
-    cells: f64,
-    step_s: f64,
-    tolerance: f64,
-    rates: f64,
+/// Seconds of one thread that the fields of a scene take whose output has so many samples: with kernels that are computed,
+/// and with those of a table that is in memory.
+pub(crate) fn fields_s(scene: &Scene, excitation: &Excitation, samples: f64) -> [f64; 2] {
+    let (radius, tolerance) = (excitation.radius(), scene.settings.tolerance);
+    let (rates, digits) = (scene.rates() as f64, -tolerance.log10());
+    let frames = match &scene.section {
+        Some(Section { frames, .. }) if !scene.peaks => (*frames as f64).min(samples),
+        Some(_) | None => samples,
+    };
+    // of so many samples at a probe and at a point of the section
+    let sum = |of_point: &dyn Fn(f64) -> f64| {
+        let probes = scene.probes.len();
+        let section = scene.points() - probes;
+        probes as f64 * of_point(samples) + section as f64 * of_point(frames)
+    };
+    let convolved_s =
+        |wanted: f64| 1e-9 * direct_ns(wanted, samples).min(transform_ns(2.0 * samples));
+    let discs = Discs::looked_up(radius)[0].radii.len() as f64;
+    let looked_up_s =
+        sum(&|wanted| discs * (samples * LOOKED_UP_S + (1.0 + rates) * convolved_s(wanted)));
+    let following = matches!(radius, PressureRadius::Following { .. });
+    let discs = Discs::computed(radius, tolerance)[0].radii.len() as f64;
+    let kernels = KERNELS + KERNELS_A_DIGIT * digits;
+    let more = if rates > 0.0 { WITH_RATES } else { 1.0 };
+    let [small, of_rates] = match following {
+        true => [SMALL_DISC, FOLLOWING_RATES],
+        false => [1.0; 2],
+    };
+    let trace_s = kernels * more * small * KERNEL_S + samples * CELL_S;
+    let points_s = sum(&|wanted| {
+        let open = OPEN * digits.powi(2) * wanted / samples;
+        let past_s = match following {
+            true => open * KERNELS_OF_OPEN * SMALL_DISC * KERNEL_S,
+            false => 0.0,
+        };
+        let each = discs * convolved_s(wanted) + past_s;
+        discs * trace_s + each * (1.0 + of_rates * rates)
+    });
+    let step_s = Wanted::of(scene).duration_and_step_s(excitation).1;
+    let whole = most_whole(excitation, step_s, tolerance) as f64;
+    let points = match radius {
+        PressureRadius::Following { largest_m, .. } => points_beside(scene, largest_m),
+        PressureRadius::Fixed(_) => 0.0,
+    };
+    let beside_s = points * whole * KERNELS_OF_WHOLE * digits.powi(2) * SMALL_DISC * KERNEL_S;
+    [OUTPUT_S + points_s + beside_s, looked_up_s]
 }
 
-impl<'a> Cost<'a> {
-    /// Of a scene whose output has so many samples.
-    pub(crate) fn new(scene: &Scene, excitation: &'a Excitation, samples: f64) -> Self {
-        let frames = match &scene.section {
-            Some(Section { frames, .. }) if !scene.peaks => *frames as f64,
-            Some(_) | None => samples,
-        };
-        let probes = scene.probes.len();
-        let radius_m = excitation.units().disc_radius_m;
-        let [far_m, deep_m] = BESIDE.map(|radii| radii * radius_m);
-        let beside = |r_m: f64, z_m: f64| (far_m / r_m).min(1.0) * (deep_m / z_m).min(1.0);
-        let probes_beside = (scene.probes.iter())
-            .filter(|probe| probe.r_m < far_m && probe.z_m < deep_m)
-            .count();
-        let section_beside = scene.section.map_or(0.0, |s| {
-            (s.points[0] * s.points[1]) as f64 * beside(s.r_max_m, s.z_max_m)
-        });
-        Self {
-            excitation,
-            points: [probes, scene.points() - probes].map(|n| n as f64),
-            beside: probes_beside as f64 + section_beside,
-            wanted: [samples, frames.min(samples)],
-            cells: samples,
-            step_s: Wanted::of(scene).duration_and_step_s(excitation).1,
-            tolerance: scene.settings.tolerance,
-            rates: scene.rates() as f64,
-        }
-    }
-
-    /// Seconds of one thread with kernels that are computed.
-    pub(crate) fn computed_s(&self) -> f64 {
-        let radius = self.excitation.radius();
-        let following = matches!(radius, PressureRadius::Following { .. });
-        let discs = Discs::computed(radius, self.tolerance)[0].radii.len() as f64;
-        let digits = -self.tolerance.log10();
-        let kernels = KERNELS + KERNELS_A_DIGIT * digits;
-        let more = if self.rates > 0.0 { WITH_RATES } else { 1.0 };
-        let small = if following { SMALL_DISC } else { 1.0 };
-        let trace_s = kernels * more * small * KERNEL_S + self.cells * CELL_S;
-        let points_s = self.sum(|wanted| {
-            let past_s = if following {
-                let open = OPEN * digits.powi(2) * wanted / self.cells;
-                open * KERNELS_OF_OPEN * SMALL_DISC * KERNEL_S
-            } else {
-                0.0
-            };
-            let each = discs * self.convolved_s(wanted) + past_s;
-            let rates = if following { FOLLOWING_RATES } else { 1.0 };
-            discs * trace_s + each * (1.0 + rates * self.rates)
-        });
-        let near = beside(self.excitation, self.step_s);
-        let whole = most_whole(Derivative::Field, self.tolerance, near) as f64;
-        let points = if following { self.beside } else { 0.0 };
-        let beside_s = points * whole * KERNELS_OF_WHOLE * digits.powi(2) * SMALL_DISC * KERNEL_S;
-        OUTPUT_S + points_s + beside_s
-    }
-
-    /// The same with kernels that are looked up in a table that is in memory.
-    pub(crate) fn looked_up_s(&self) -> f64 {
-        let discs = Discs::looked_up(self.excitation.radius())[0].radii.len() as f64;
-        self.sum(|wanted| {
-            discs * (self.cells * LOOKED_UP_S + (1.0 + self.rates) * self.convolved_s(wanted))
-        })
-    }
-
-    fn convolved_s(&self, wanted: f64) -> f64 {
-        1e-9 * direct_ns(wanted, self.cells).min(transform_ns(2.0 * self.cells))
-    }
-
-    fn sum(&self, of_point: impl Fn(f64) -> f64) -> f64 {
-        let each = self.points.iter().zip(self.wanted);
-        each.map(|(points, wanted)| points * of_point(wanted)).sum()
-    }
+/// Points of a scene that are beside a contact of a radius.
+fn points_beside(scene: &Scene, radius_m: f64) -> f64 {
+    let [far_m, deep_m] = BESIDE.map(|radii| radii * radius_m);
+    let beside = |probe: &&Probe| probe.r_m < far_m && probe.z_m < deep_m;
+    let probes = scene.probes.iter().filter(beside).count();
+    let section = scene.section.map_or(0.0, |s| {
+        let part = (far_m / s.r_max_m).min(1.0) * (deep_m / s.z_max_m).min(1.0);
+        (s.points[0] * s.points[1]) as f64 * part
+    });
+    probes as f64 + section
 }
 
 /// Threads that have something to do among points; one point does not start the others.
@@ -233,13 +203,13 @@ impl Forecast {
                 samples,
             });
         }
-        let cost = Cost::new(scene, excitation, samples);
+        let [computed_s, looked_up_s] = fields_s(scene, excitation, samples);
         let (loaded_s, fields_s) = match source {
             None => (0.0, 0.0),
-            Some(KernelSource::Direct(_)) => (0.0, cost.computed_s()),
+            Some(KernelSource::Direct(_)) => (0.0, computed_s),
             Some(KernelSource::Table(table)) => {
                 let decoded = table.decoded_bytes() as f64;
-                (TABLE_S + DECODED_S * decoded, cost.looked_up_s())
+                (TABLE_S + DECODED_S * decoded, looked_up_s)
             }
         };
         Ok(Self {
@@ -262,10 +232,9 @@ impl Forecast {
             let wanted = if scene.peaks { samples } else { *frames as f64 };
             section = kept + r * wanted * 2.0 * at_frame;
         }
-        let cells = if scene.points() > 0 {
-            threads * CELL
-        } else {
-            0.0
+        let cells = match scene.points() {
+            0 => 0.0,
+            _ => threads * CELL,
         };
         Self {
             points: scene.points(),

@@ -49,9 +49,8 @@ impl EnergySeries {
         };
         let kinetic_j = Some(time_s.iter().map(kinetic).collect());
         if let Some(yielded) = excitation.yielded() {
-            let energies = time_s
-                .iter()
-                .filter_map(|t| yielded.energies(t / units.time_s));
+            let energies = |t: &f64| yielded.energies(t / units.time_s);
+            let energies = time_s.iter().filter_map(energies);
             let energies: Vec<[f64; 3]> = energies.map(|e| e.map(|e| initial_j * e)).collect();
             let [stored_j, plastic_j, radiated_j] =
                 [0, 1, 2].map(|i| energies.iter().map(|e| e[i]).collect());
@@ -83,17 +82,15 @@ impl EnergySeries {
             // Hertz's law holds all of it
             Family::Growing | Family::Dynamic | Family::Yielding => 0.0,
         };
-        let stored = |t: f64| {
+        let stored = |&t: &f64| {
             let p = excitation.force_n(t);
             initial_j * (p / units.force_n).powf(5.0 / 3.0) + 0.5 * static_m_per_n * p * p
         };
+        let radiated = |&t: &f64| between(&work_j, t / step_s);
         Some(Self {
             kinetic_j,
-            stored_j: time_s.iter().map(|&t| stored(t)).collect(),
-            radiated_j: time_s
-                .iter()
-                .map(|&t| between(&work_j, t / step_s))
-                .collect(),
+            stored_j: time_s.iter().map(stored).collect(),
+            radiated_j: time_s.iter().map(radiated).collect(),
             ..Self::default()
         })
     }

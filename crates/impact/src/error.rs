@@ -125,6 +125,20 @@ pub enum ImpactError {
     },
 }
 
+/// Refuses numbers that are not finite.
+pub(crate) fn finite(
+    quantity: impl Fn() -> String,
+    numbers: impl IntoIterator<Item = f64>,
+) -> Result<(), ImpactError> {
+    match numbers.into_iter().find(|x| !x.is_finite()) {
+        None => Ok(()),
+        Some(value) => Err(ImpactError::NotFinite {
+            quantity: quantity(),
+            value,
+        }),
+    }
+}
+
 impl Fault for ImpactError {
     fn culprit(&self) -> Culprit<'_> {
         let culprit = Culprit::of(Class::Impact);

@@ -8,12 +8,11 @@
 use crate::evaluator::nodes::{CellNodes, Node};
 use crate::kernels::Pulse;
 use crate::record::ForceRecord;
-use contact::Weights;
-use contact::{CollisionUnits, KernelUnits};
-use contact::{HalfSpace, History, StaticShare, WaveSpeeds};
-use contact::{Instant, Resampler, SolvedContact};
+use contact::{
+    CollisionUnits, HalfSpace, History, KernelUnits, Resampler, SolvedContact, StaticShare,
+    WaveSpeeds, Weights,
+};
 use halfspace::{Deflection, DomainError, Medium, SurfaceResponse, gauss};
-use std::sync::Arc;
 
 /// Consecutive samples.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -33,7 +32,8 @@ pub struct Excitation {
     units: KernelUnits,
     force: Force,
     radius: PressureRadius,
-    relative_error: f64,
+    /// Estimated relative error of the force.
+    pub(crate) relative_error: f64,
 }
 
 /// Radius of Hertz's pressure under a force.
@@ -100,20 +100,21 @@ impl Pressed {
 /// A force history, and the motion that goes with it where a striker has made it.
 #[derive(Debug, Clone)]
 enum Force {
-    /// Of a contact: its samples, their units, and its duration in s.
-    Contact {
-        samples: Box<Resampler>,
-        units: CollisionUnits,
-        contact_time_s: f64,
-        /// When each contact begins and ends, in s.
-        contacts_s: Vec<[f64; 2]>,
-        /// When its rate jumps within one, in s.
-        kinks_s: Vec<f64>,
-        /// The contact itself where it has yielded.
-        yielded: Option<Arc<SolvedContact>>,
-    },
-    /// Of a record.
+    Contact(Box<Contact>),
     Record(ForceRecord),
+}
+
+/// A force history that a striker has made.
+#[derive(Debug, Clone)]
+struct Contact {
+    samples: Resampler,
+    units: CollisionUnits,
+    /// Duration of the first contact in s.
+    duration_s: f64,
+    /// When each contact begins and ends, in s.
+    contacts_s: Vec<[f64; 2]>,
+    /// When its rate jumps within one, in s.
+    kinks_s: Vec<f64>,
 }
 
 /// The striker at one instant, in SI units.
@@ -128,8 +129,7 @@ pub struct Motion {
 }
 
 impl Excitation {
-    /// Of a contact: its history in collision units, its duration in s and its relative error; `radius` is that of the
-    /// pressure.
+    /// Of a contact: its history in collision units, and its duration in s; `radius` is that of the pressure.
     ///
     /// # Errors
     /// [`DomainError`] for a Poisson's ratio outside the physics.
@@ -138,22 +138,19 @@ impl Excitation {
         radius: PressureRadius,
         history: History,
         units: CollisionUnits,
-        contact_time_s: f64,
-        relative_error: f64,
+        duration_s: f64,
     ) -> Result<Self, DomainError> {
-        let yielded = history.pieces.clone().filter(|one| one.flow.is_some());
-        let samples = Box::new(Resampler::new(history));
-        let spans = samples.breaks.chunks_exact(2);
-        let force = Force::Contact {
-            contacts_s: spans
-                .map(|span| [0, 1].map(|i| span[i] * units.time_s))
-                .collect(),
+        let relative_error = history.error;
+        let samples = Resampler::new(history);
+        let span_s = |span: &[f64]| [0, 1].map(|i| span[i] * units.time_s);
+        let contact = Contact {
+            contacts_s: samples.breaks.chunks_exact(2).map(span_s).collect(),
             kinks_s: samples.kinks().iter().map(|t| t * units.time_s).collect(),
             samples,
             units,
-            contact_time_s,
-            yielded,
+            duration_s,
         };
+        let force = Force::Contact(Box::new(contact));
         Self::new(half_space, radius, force, relative_error)
     }
 
@@ -216,26 +213,36 @@ impl Excitation {
         &self.units
     }
 
-    /// Estimated relative error of the force.
+    /// The contact that has made it; none of a record.
+    fn contact(&self) -> Option<&Contact> {
+        match &self.force {
+            Force::Contact(contact) => Some(contact),
+            Force::Record(_) => None,
+        }
+    }
+
+    /// The record that it is, if it is one.
     #[must_use]
-    pub fn relative_error(&self) -> f64 {
-        self.relative_error
+    pub fn record(&self) -> Option<&ForceRecord> {
+        match &self.force {
+            Force::Contact(_) => None,
+            Force::Record(record) => Some(record),
+        }
     }
 
     /// The contact in collision units where it has yielded.
     pub(crate) fn yielded(&self) -> Option<&SolvedContact> {
-        match &self.force {
-            Force::Contact { yielded, .. } => yielded.as_deref(),
-            Force::Record(_) => None,
-        }
+        let pieces = self.contact()?.samples.pieces.as_deref();
+        pieces.filter(|one| one.flow.is_some())
     }
 
     /// The force at a time, in N.
     #[must_use]
     pub fn force_n(&self, time_s: f64) -> f64 {
         match &self.force {
-            Force::Contact { samples, units, .. } => {
-                samples.force_alone(time_s / units.time_s) * units.force_n
+            Force::Contact(contact) => {
+                let units = &contact.units;
+                contact.samples.force_alone(time_s / units.time_s) * units.force_n
             }
             Force::Record(record) => record.at(time_s),
         }
@@ -257,9 +264,8 @@ impl Excitation {
         if force_n <= 0.0 {
             return [Pressed::default(); 2];
         }
-        if let Force::Contact { yielded, units, .. } = &self.force
-            && let Some(own) = yielded.as_deref()
-            && let Some(found) = own.pressures(time_s / units.time_s)
+        if let (Some(yielded), Some(Contact { units, .. })) = (self.yielded(), self.contact())
+            && let Some(found) = yielded.pressures(time_s / units.time_s)
         {
             return found.map(|[part, part_rate, square, square_rate]| Pressed {
                 force_n: part * force_n,
@@ -277,10 +283,7 @@ impl Excitation {
 
     /// When each contact begins and ends, in s; none of a record.
     pub(crate) fn contacts_s(&self) -> &[[f64; 2]] {
-        match &self.force {
-            Force::Contact { contacts_s, .. } => contacts_s,
-            Force::Record(_) => &[],
-        }
+        self.contact().map_or(&[], |contact| &contact.contacts_s)
     }
 
     /// Spans in s on which the force of contacts is smooth.
@@ -298,17 +301,15 @@ impl Excitation {
 
     /// When the rate of a contact's force jumps between its beginning and its end, in s.
     pub(crate) fn kinks_s(&self) -> &[f64] {
-        match &self.force {
-            Force::Contact { kinks_s, .. } => kinks_s,
-            Force::Record(_) => &[],
-        }
+        self.contact().map_or(&[], |contact| &contact.kinks_s)
     }
 
     /// The force in N and its rate in N/s at a time; NaN for that of a record, which jumps.
     pub(crate) fn force_and_rate(&self, time_s: f64) -> [f64; 2] {
         match &self.force {
-            Force::Contact { samples, units, .. } => {
-                let [force, rate, _] = samples.force(time_s / units.time_s);
+            Force::Contact(contact) => {
+                let units = &contact.units;
+                let [force, rate, _] = contact.samples.force(time_s / units.time_s);
                 [force * units.force_n, rate * units.force_n / units.time_s]
             }
             Force::Record(record) => [record.at(time_s), f64::NAN],
@@ -320,7 +321,7 @@ impl Excitation {
         let start_s = |cell: usize| run.start_s + cell as f64 * step_s;
         CellNodes::new(run.count.saturating_sub(1), |cell, nodes| {
             match &self.force {
-                Force::Contact { .. } => self.contact_nodes(start_s(cell), step_s, nodes),
+                Force::Contact(_) => self.contact_nodes(start_s(cell), step_s, nodes),
                 Force::Record(record) => record.nodes(start_s(cell), step_s, nodes),
             }
         })
@@ -354,10 +355,9 @@ impl Excitation {
         if low <= 0.0 {
             for _ in 0..60 {
                 let middle = 0.5 * (zero + full);
-                if at(middle) > 0.0 {
-                    full = middle;
-                } else {
-                    zero = middle;
+                match at(middle) > 0.0 {
+                    true => full = middle,
+                    false => zero = middle,
                 }
             }
         }
@@ -378,40 +378,18 @@ impl Excitation {
     /// The striker at a time; none for a record.
     #[must_use]
     pub fn motion(&self, time_s: f64) -> Option<Motion> {
-        match &self.force {
-            Force::Contact { samples, units, .. } => {
-                let Instant {
-                    displacement,
-                    velocity,
-                    deflection,
-                    ..
-                } = samples.at(time_s / units.time_s);
-                Some(Motion {
-                    displacement_m: displacement * units.length_m,
-                    velocity_m_s: velocity * units.velocity_m_s(),
-                    deflection_m: deflection * units.length_m,
-                })
-            }
-            Force::Record(_) => None,
-        }
-    }
-
-    /// The record that it is, if it is one.
-    #[must_use]
-    pub fn record(&self) -> Option<&ForceRecord> {
-        match &self.force {
-            Force::Contact { .. } => None,
-            Force::Record(record) => Some(record),
-        }
+        let Contact { samples, units, .. } = self.contact()?;
+        let now = samples.at(time_s / units.time_s);
+        Some(Motion {
+            displacement_m: now.displacement * units.length_m,
+            velocity_m_s: now.velocity * units.velocity_m_s(),
+            deflection_m: now.deflection * units.length_m,
+        })
     }
 
     /// When the force begins, in s: zero for a contact, the last row before a record leaves zero.
-    #[must_use]
-    pub fn start_s(&self) -> f64 {
-        match &self.force {
-            Force::Contact { .. } => 0.0,
-            Force::Record(record) => record.start_s(),
-        }
+    pub(crate) fn start_s(&self) -> f64 {
+        self.record().map_or(0.0, ForceRecord::start_s)
     }
 
     /// Wave speeds of the half-space.
@@ -432,24 +410,21 @@ impl Excitation {
     #[must_use]
     pub fn end_s(&self) -> f64 {
         match &self.force {
-            Force::Contact { contact_time_s, .. } => *contact_time_s,
+            Force::Contact(contact) => contact.duration_s,
             Force::Record(record) => record.span_s()[1],
         }
     }
 
     /// When the last contact has ended in s, and the units of the collision; none for a record.
     pub(crate) fn contacts(&self) -> Option<(f64, &CollisionUnits)> {
-        match &self.force {
-            Force::Contact { samples, units, .. } => Some((samples.end() * units.time_s, units)),
-            Force::Record(_) => None,
-        }
+        let Contact { samples, units, .. } = self.contact()?;
+        Some((samples.end() * units.time_s, units))
     }
 
     /// Length in s of a pulse that is as steep as the force: its duration for a contact.
-    #[must_use]
-    pub fn pulse_s(&self) -> f64 {
+    pub(crate) fn pulse_s(&self) -> f64 {
         match &self.force {
-            Force::Contact { contact_time_s, .. } => *contact_time_s,
+            Force::Contact(contact) => contact.duration_s,
             Force::Record(record) => record.pulse_s(),
         }
     }
@@ -458,15 +433,14 @@ impl Excitation {
     pub(crate) fn pulse(&self, over: f64) -> Pulse {
         let length = self.pulse_s() / (over * self.units.time_s());
         match self.force {
-            Force::Contact { .. } => Pulse::Contact(length),
+            Force::Contact(_) => Pulse::Contact(length),
             Force::Record(_) => Pulse::Smooth(length),
         }
     }
 
     /// Deflection of the disc in m under the force sampled a step apart, with a share of its static part; `base_n` is the
     /// force long before.
-    #[must_use]
-    pub fn deflection_m(
+    pub(crate) fn deflection_m(
         &self,
         deflection: Deflection,
         share: StaticShare,
@@ -479,8 +453,8 @@ impl Excitation {
         let static_m_per_n = response.static_compliance() * self.units.displacement_m_per_n();
         let factor = share.factor();
         let above_n: Vec<f64> = force_n.iter().map(|p| p - base_n).collect();
-        (0..force_n.len())
-            .map(|n| static_m_per_n * (factor * force_n[n] - weights.delayed(&above_n[..=n])))
-            .collect()
+        let of = |n: usize| factor * force_n[n] - weights.delayed(&above_n[..=n]);
+        let all = (0..force_n.len()).map(|n| static_m_per_n * of(n));
+        all.collect()
     }
 }

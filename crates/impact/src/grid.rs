@@ -10,23 +10,22 @@ const MOST_SAMPLES: usize = 4_000_000;
 
 /// What the times of the output depend on beside the excitation.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Wanted {
+pub(crate) struct Wanted {
     /// Relative tolerance on the results.
-    pub tolerance: f64,
+    pub(crate) tolerance: f64,
     /// Largest step in s, if one is asked for.
-    pub step_s: Option<f64>,
+    pub(crate) step_s: Option<f64>,
     /// Time in s to be covered, if one is asked for.
-    pub duration_s: Option<f64>,
+    pub(crate) duration_s: Option<f64>,
     /// Frames of a section, at least one sample each.
-    pub frames: Option<usize>,
+    pub(crate) frames: Option<usize>,
     /// Distance in m of the farthest point from the load's centre, where there are points.
-    pub farthest_m: Option<f64>,
+    pub(crate) farthest_m: Option<f64>,
 }
 
 impl Wanted {
     /// What a scene asks.
-    #[must_use]
-    pub fn of(scene: &Scene) -> Self {
+    pub(crate) fn of(scene: &Scene) -> Self {
         Self {
             tolerance: scene.settings.tolerance,
             step_s: scene.settings.step_s,
@@ -37,8 +36,7 @@ impl Wanted {
     }
 
     /// Samples that will be needed, before the step is rounded.
-    #[must_use]
-    pub fn cells(&self, excitation: &Excitation) -> f64 {
+    pub(crate) fn cells(&self, excitation: &Excitation) -> f64 {
         let (duration_s, step_s) = self.duration_and_step_s(excitation);
         let runs = self.runs(excitation, duration_s, step_s);
         runs.iter().map(|run| run.count as f64).sum()
@@ -46,22 +44,24 @@ impl Wanted {
 
     /// Duration and largest step in s.
     pub(crate) fn duration_and_step_s(&self, excitation: &Excitation) -> (f64, f64) {
-        let duration_s = self
-            .duration_s
-            .unwrap_or_else(|| 1.1 * excitation.end_s() + self.passing_s(excitation));
-        let mut step_s = self
-            .step_s
-            .unwrap_or_else(|| self.fitting_step_s(excitation));
+        let passed_s = || 1.1 * excitation.end_s() + self.passing_s(excitation);
+        let duration_s = self.duration_s.unwrap_or_else(passed_s);
+        let fitting_s = || self.fitting_step_s(excitation);
+        let mut step_s = self.step_s.unwrap_or_else(fitting_s);
         if let Some(frames) = self.frames {
             step_s = step_s.min(duration_s / (frames as f64 - 1.0).max(1.0));
         }
         (duration_s, step_s)
     }
 
-    /// A step in s that the tolerance asks for.
+    /// A step in s that the tolerance asks for: over a contact the force is followed to third order between samples, but for
+    /// its ends, where the power 3/2 is integrated.
     fn fitting_step_s(&self, excitation: &Excitation) -> f64 {
         match excitation.record() {
-            None => excitation.pulse_s() / self.samples_of_contact(),
+            None => {
+                let samples = (1.5 / self.tolerance.sqrt()).clamp(100.0, 10_000.0);
+                excitation.pulse_s() / samples
+            }
             Some(record) => {
                 let stretches = record.stretches(self.settling_s(excitation), self.tolerance);
                 let unit_s = excitation.units().time_s();
@@ -70,19 +70,11 @@ impl Wanted {
         }
     }
 
-    /// Samples over a contact: between them the force is followed to third order, but for its ends, where the power 3/2
-    /// is integrated.
-    fn samples_of_contact(&self) -> f64 {
-        (1.5 / self.tolerance.sqrt()).clamp(100.0, 10_000.0)
-    }
-
     /// Time in s that the last Rayleigh wave takes to pass the farthest point.
     fn passing_s(&self, excitation: &Excitation) -> f64 {
-        let units = excitation.units();
-        let slowest = excitation.medium().rayleigh_speed() * units.longitudinal_speed_m_s;
-        1.05 * self.farthest_m.map_or(0.0, |distance_m| {
-            (distance_m + units.disc_radius_m) / slowest
-        })
+        let radius_m = excitation.units().disc_radius_m;
+        let travel = |distance_m: f64| (distance_m + radius_m) / excitation.speeds().rayleigh;
+        1.05 * self.farthest_m.map_or(0.0, travel)
     }
 
     /// Time in s after which the fields of a force that has come to rest are taken as static.
@@ -90,9 +82,8 @@ impl Wanted {
     /// What is left of the remainder then is left out: up to 2e-4 of the peak was seen after a lasting change of force,
     /// far less after a pulse. The errors of the fields count it.
     fn settling_s(&self, excitation: &Excitation) -> f64 {
-        let units = excitation.units();
-        let slowest = excitation.medium().rayleigh_speed() * units.longitudinal_speed_m_s;
-        SETTLED * (self.passing_s(excitation) + units.disc_radius_m / slowest)
+        let crossing_s = excitation.units().disc_radius_m / excitation.speeds().rayleigh;
+        SETTLED * (self.passing_s(excitation) + crossing_s)
     }
 
     /// The runs of samples: where a record is quiet for long there are none.
@@ -140,11 +131,11 @@ const SETTLED: f64 = 20.0;
 
 /// Times of the output: samples a step apart, in one run from 0 or, where a record is quiet for long, in several.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Grid {
+pub(crate) struct Grid {
     /// Step in s.
-    pub step_s: f64,
+    pub(crate) step_s: f64,
     /// Consecutive samples, in the order of time.
-    pub runs: Vec<Run>,
+    pub(crate) runs: Vec<Run>,
     /// Largest step in s that was wanted.
     pub(crate) wanted_s: f64,
     /// Time in s after which fields are taken as static between runs.
@@ -153,20 +144,17 @@ pub struct Grid {
 
 impl Grid {
     /// The times for what is wanted of an excitation, on steps that the source of the kernels can give.
-    pub fn new(
+    pub(crate) fn new(
         wanted: &Wanted,
         excitation: &Excitation,
         source: Option<&KernelSource>,
     ) -> Result<Self, ImpactError> {
         let (duration_s, wanted_s) = wanted.duration_and_step_s(excitation);
         let unit_s = excitation.units().time_s();
-        let step_s = match source {
-            Some(source) => {
-                let ratio = excitation.medium().poisson_ratio();
-                source.step(ratio, wanted_s / unit_s) * unit_s
-            }
-            None => wanted_s,
-        };
+        let ratio = excitation.medium().poisson_ratio();
+        let step_s = source.map_or(wanted_s, |source| {
+            source.step(ratio, wanted_s / unit_s) * unit_s
+        });
         let runs = wanted.runs(excitation, duration_s, step_s);
         let samples: f64 = runs.iter().map(|run| run.count as f64).sum();
         if samples > MOST_SAMPLES as f64 {
@@ -185,19 +173,16 @@ impl Grid {
     }
 
     /// Number of samples.
-    #[must_use]
-    pub fn count(&self) -> usize {
+    pub(crate) fn count(&self) -> usize {
         self.runs.iter().map(|run| run.count).sum()
     }
 
     /// The cell from which on runs leave out what an earlier one has changed for good, and the sum of these changes in N.
     pub(crate) fn left_out(&self) -> (usize, f64) {
         let cell = (self.settling_s / self.step_s) as usize;
-        let changes = self
-            .runs
-            .windows(2)
-            .map(|r| (r[1].base_n - r[0].base_n).abs());
-        (cell.min(self.longest().saturating_sub(1)), changes.sum())
+        let pairs = self.runs.windows(2);
+        let changed_n = pairs.map(|r| (r[1].base_n - r[0].base_n).abs()).sum();
+        (cell.min(self.longest().saturating_sub(1)), changed_n)
     }
 
     /// Samples of the longest run.
@@ -206,7 +191,7 @@ impl Grid {
     }
 
     /// Times of all samples in s.
-    pub fn times_s(&self) -> impl Iterator<Item = f64> + '_ {
+    pub(crate) fn times_s(&self) -> impl Iterator<Item = f64> + '_ {
         self.runs
             .iter()
             .flat_map(|run| (0..run.count).map(|i| run.start_s + i as f64 * self.step_s))

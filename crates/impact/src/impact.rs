@@ -78,15 +78,8 @@ pub(crate) fn solve<S: Responses>(
             largest_n: results.peak_force_n,
         },
     };
-    let error = history.error;
-    let excitation = Excitation::of_contact(
-        half_space,
-        radius,
-        history,
-        collision.units(),
-        results.contact_time_s,
-        error,
-    )?;
+    let (units, duration_s) = (collision.units(), results.contact_time_s);
+    let excitation = Excitation::of_contact(half_space, radius, history, units, duration_s)?;
     Ok(Run {
         solved,
         results,
@@ -126,14 +119,12 @@ impl Impact {
         let collision = self.collision();
         let mut solver = Solver::new(&Exact);
         let mut run = solve(&mut solver, &self.half_space, &collision, settings)?;
-        let Run {
-            solved, results, ..
-        } = &run;
-        let (block, striker, plan) = (&self.half_space, &self.striker, &solved.plan);
-        let mut warnings = warnings(block, striker, &collision, settings, plan, results);
-        warnings.extend(self.would_yield(&mut solver, &collision, results));
-        warnings.extend(self.counted_twice(&mut solver, &collision, solved, results));
-        run.warnings = warnings;
+        let (block, striker) = (&self.half_space, &self.striker);
+        let (plan, results) = (&run.solved.plan, &run.results);
+        let mut found = warnings(block, striker, &collision, settings, plan, results);
+        found.extend(self.would_yield(&mut solver, &collision, results));
+        found.extend(self.counted_twice(&mut solver, &collision, &run));
+        run.warnings = found;
         Ok(run)
     }
 
@@ -169,10 +160,9 @@ impl Impact {
         &self,
         solver: &mut Solver<'_, Exact>,
         collision: &Collision,
-        solved: &Solved,
-        results: &Results,
+        run: &Run,
     ) -> Option<String> {
-        let (_, on_disc) = solved.plan.model.row();
+        let (_, on_disc) = run.solved.plan.model.row();
         if !on_disc || self.settings.static_share != StaticShare::Full {
             return None;
         }
@@ -182,7 +172,7 @@ impl Impact {
         };
         let free = solver.solve(collision, &following).ok()?;
         let force_n = free.summary.peak_force * collision.units().force_n;
-        let change = results.peak_force_n / force_n - 1.0;
+        let change = run.peak_force_n / force_n - 1.0;
         (change.abs() > NOTABLE).then(|| {
             format!(
                 "the full static share counts the static deflection of the half-space twice, in Hertz's law and in the disc: the peak force is {:+.0} % off that of a contact that follows the load, {force_n:.4e} N",

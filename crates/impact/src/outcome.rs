@@ -1,7 +1,7 @@
 //! All that a scene gives: numbers, none of which is not finite.
 
 use crate::energy::EnergySeries;
-use crate::error::ImpactError;
+use crate::error::{ImpactError, finite};
 use crate::evaluator::convolve::Method;
 use crate::fields::probes::{ProbeFields, SectionFields};
 use crate::fields::quantity::Quantity;
@@ -129,56 +129,29 @@ impl Outcome {
             Cause::Record(_) => None,
         }
     }
-
-    /// Largest force in N.
-    #[must_use]
-    pub fn peak_force_n(&self) -> f64 {
-        match &self.cause {
-            Cause::Contact { results, .. } => results.peak_force_n,
-            Cause::Record(results) => results.peak_force_n,
-        }
-    }
 }
 
 /// Passes on an outcome all numbers of which are finite; those of a contact are checked where it is solved.
 pub(crate) fn checked(outcome: Outcome) -> Result<Outcome, ImpactError> {
-    match &outcome.cause {
-        Cause::Contact { .. } => {}
-        Cause::Record(results) => of_record(results)?,
+    if let Cause::Record(results) = &outcome.cause {
+        of_record(results)?;
     }
     series(&outcome.series)?;
     if let Some(found) = &outcome.probes {
         let arrivals = found.arrival_s.iter().flat_map(|[p, s, _]| [*p, *s]);
         finite(|| "an arrival at a probe".to_owned(), arrivals)?;
-        let values = found
-            .values
-            .iter()
-            .map(|rows| rows.iter().flatten().copied());
+        let values = found.values.iter();
+        let values = values.map(|rows| rows.iter().flatten().copied());
         fields("at a probe", &found.quantities, values, &found.errors)?;
     }
     if let Some(found) = &outcome.section {
         let arrivals = found.arrival_s[..2].iter().flatten().copied();
         finite(|| "an arrival in the section".to_owned(), arrivals)?;
-        let values = found
-            .values
-            .iter()
-            .map(|own| own.iter().copied().map(f64::from));
+        let values = found.values.iter();
+        let values = values.map(|own| own.iter().copied().map(f64::from));
         fields("in the section", &found.quantities, values, &found.errors)?;
     }
     Ok(outcome)
-}
-
-fn finite(
-    quantity: impl Fn() -> String,
-    numbers: impl IntoIterator<Item = f64>,
-) -> Result<(), ImpactError> {
-    match numbers.into_iter().find(|x| !x.is_finite()) {
-        None => Ok(()),
-        Some(value) => Err(ImpactError::NotFinite {
-            quantity: quantity(),
-            value,
-        }),
-    }
 }
 
 fn of_record(results: &RecordResults) -> Result<(), ImpactError> {
@@ -199,23 +172,19 @@ fn of_record(results: &RecordResults) -> Result<(), ImpactError> {
 
 fn series(series: &Series) -> Result<(), ImpactError> {
     let (striker, energy) = (series.striker.as_ref(), series.energy.as_ref());
+    let kinetic_j = energy.and_then(|e| e.kinetic_j.as_ref());
+    let plastic_j = energy.and_then(|e| e.plastic_j.as_ref());
     for (name, samples) in [
         ("the time", Some(&series.time_s)),
         ("the force", Some(&series.force_n)),
         ("the deflection", Some(&series.deflection_m)),
         ("the displacement", striker.map(|s| &s.displacement_m)),
         ("the velocity", striker.map(|s| &s.velocity_m_s)),
-        (
-            "the kinetic energy",
-            energy.and_then(|e| e.kinetic_j.as_ref()),
-        ),
+        ("the kinetic energy", kinetic_j),
         ("the work", energy.and_then(|e| e.work_j.as_ref())),
         ("the stored energy", energy.map(|e| &e.stored_j)),
         ("the radiated energy", energy.map(|e| &e.radiated_j)),
-        (
-            "the plastic work",
-            energy.and_then(|e| e.plastic_j.as_ref()),
-        ),
+        ("the plastic work", plastic_j),
     ] {
         let samples = samples.into_iter().flatten().copied();
         finite(|| format!("{name} of a sample"), samples)?;
@@ -233,9 +202,9 @@ fn fields<V: IntoIterator<Item = f64>>(
     let more = quantities.iter().map(|quantity| quantity.name());
     let names = FIELD_NAMES.into_iter().chain(more);
     for ((name, values), errors) in names.zip(values).zip(errors) {
-        finite(|| format!("{name} {place}"), values)?;
-        let of_error = || format!("the error of {name} {place}");
-        finite(of_error, errors.iter().copied())?;
+        let name = format!("{name} {place}");
+        finite(|| name.clone(), values)?;
+        finite(|| format!("the error of {name}"), errors.iter().copied())?;
     }
     Ok(())
 }

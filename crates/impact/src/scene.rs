@@ -85,8 +85,7 @@ impl Scene {
     }
 
     /// Distance in m from the centre of the load to the farthest point that is asked for; zero without one.
-    #[must_use]
-    pub fn farthest_m(&self) -> f64 {
+    pub(crate) fn farthest_m(&self) -> f64 {
         let probes = self.probes.iter().map(|probe| probe.r_m.hypot(probe.z_m));
         let corner = self.section.iter().map(|s| s.r_max_m.hypot(s.z_max_m));
         probes.chain(corner).fold(0.0, f64::max)
@@ -108,13 +107,11 @@ impl Scene {
     }
 
     /// Rates of the displacement that are asked for: velocity, acceleration.
-    #[must_use]
-    pub fn rates(&self) -> usize {
-        let has = |derivative| {
-            let of = |q: &Quantity| q.rate().is_some_and(|(own, _)| own == derivative);
-            usize::from(self.quantities.iter().any(of))
-        };
-        has(Derivative::First) + has(Derivative::Second)
+    pub(crate) fn rates(&self) -> usize {
+        let own = || self.quantities.iter().filter_map(|one| one.rate());
+        let asked = |derivative: &Derivative| own().any(|(own, _)| own == *derivative);
+        let rates = [Derivative::First, Derivative::Second];
+        rates.iter().filter(|rate| asked(rate)).count()
     }
 
     /// Points at which fields are asked for.

@@ -5,8 +5,8 @@ use crate::energy::EnergySeries;
 use crate::error::ImpactError;
 use crate::evaluator::convolve::{Method, rises};
 use crate::evaluator::projection::Projection;
-use crate::evaluator::{self, Evaluator};
-use crate::excitation::Excitation;
+use crate::evaluator::{Asked, Evaluator};
+use crate::excitation::{Excitation, Run};
 use crate::fields::probes::{ProbeFields, SectionFields, at_probes, frames, on_section};
 use crate::grid::{Grid, Wanted};
 use crate::impact::Impact;
@@ -65,41 +65,34 @@ fn of_strike(
             },
         )?;
     let excitation = run.excitation();
-    let computed = Computed::new(scene, kernels, allowance, excitation)?;
-    let marched = (run.solved.plan.model, run.solved.scheme);
-    // Anew on the output's step: the march's own step may be coarser than the disc's memory.
-    let deflection_m = (marched == (Model::Wave, Some(Scheme::Implicit))).then(|| {
-        let settings = &scene.settings;
-        computed.disc_deflection_m(settings.deflection, settings.static_share)
-    });
+    let mut computed = Computed::new(scene, kernels, allowance, excitation)?;
+    let (plan, scheme) = (&run.solved.plan, run.solved.scheme);
+    let series = &mut computed.series;
     let mut striker = StrikerSeries::default();
-    let mut law_m = Vec::new();
-    for &time_s in &computed.time_s {
-        if let Some(motion) = excitation.motion(time_s) {
-            striker.displacement_m.push(motion.displacement_m);
-            striker.velocity_m_s.push(motion.velocity_m_s);
-            law_m.push(motion.deflection_m);
-        }
+    for motion in series.time_s.iter().filter_map(|&t| excitation.motion(t)) {
+        striker.displacement_m.push(motion.displacement_m);
+        striker.velocity_m_s.push(motion.velocity_m_s);
+        series.deflection_m.push(motion.deflection_m);
+    }
+    series.striker = Some(striker);
+    series.energy = EnergySeries::of_striker(excitation, plan, &series.time_s);
+    if (plan.model, scheme) == (Model::Wave, Some(Scheme::Implicit)) {
+        // anew on the output's step: the march's own step may be coarser than the disc's memory
+        let (disc, share) = (scene.settings.deflection, scene.settings.static_share);
+        computed.deflect_disc(excitation, disc, share);
     }
     let mut warnings = run.warnings.clone();
-    warnings.extend(computed.warnings());
+    warnings.append(&mut computed.warnings);
     if run.solved.flow.is_some() {
         warnings.extend(scene.beside(CLOSE * run.results.contact_radius_m));
     }
     let cause = Cause::Contact {
-        model: run.solved.plan.model,
-        scheme: run.solved.scheme,
-        reason: run.solved.plan.reason(&scene.settings),
+        model: plan.model,
+        scheme,
+        reason: plan.reason(&scene.settings),
         results: run.results,
     };
-    let plan = &run.solved.plan;
-    let energy = EnergySeries::of_striker(excitation, plan, &computed.time_s);
-    Ok(computed.outcome(
-        cause,
-        deflection_m.unwrap_or(law_m),
-        (Some(striker), energy),
-        warnings,
-    ))
+    Ok(computed.outcome(cause, warnings))
 }
 
 /// What longitudinal waves have to cross of a disc while a record lasts, over its radius: less of it is lost in rounding,
@@ -122,17 +115,18 @@ fn of_record(
             largest_m,
         });
     }
-    let computed = Computed::new(scene, kernels, allowance, &excitation)?;
-    let deflection_m = computed.disc_deflection_m(scene.settings.deflection, StaticShare::Full);
-    let energy = EnergySeries::of_record(&excitation, &computed.grid, &computed.force_n);
-    let mut warnings = computed.warnings();
+    let mut computed = Computed::new(scene, kernels, allowance, &excitation)?;
+    computed.deflect_disc(&excitation, scene.settings.deflection, StaticShare::Full);
+    let (grid, series) = (&computed.grid, &computed.series);
+    let energy = EnergySeries::of_record(&excitation, grid, &series.force_n);
+    let mut warnings = std::mem::take(&mut computed.warnings);
     warnings.extend(record.doubts());
-    let left_n = computed.left_n();
+    let left_n = left_n(&excitation, grid, &series.force_n);
     let relative_error = left_n / record.largest_n().max(f64::MIN_POSITIVE);
     if relative_error > scene.settings.tolerance {
         warnings.push(format!(
             "on the output's step of {:.3e} s, the cells miss the force by up to {left_n:.3e} N, {relative_error:.1e} of its largest: the errors of the fields count it, a smaller step_s lowers it",
-            computed.grid.step_s
+            grid.step_s
         ));
     }
     warnings.extend(record.lost_before_zero());
@@ -143,33 +137,35 @@ fn of_record(
     let cause = Cause::Record(RecordResults {
         peak_force_n,
         peak_force_time_s,
-        duration_s: record.span_s()[1] - record.span_s()[0],
+        duration_s: end_s - start_s,
         relative_error_estimate: relative_error,
         disc_radius_m: radius_m,
         impulse_n_s: record.impulse_n_s(),
-        peak_deflection_m: deflection_m.iter().copied().fold(0.0, f64::max),
+        peak_deflection_m: series.deflection_m.iter().copied().fold(0.0, f64::max),
         radiated_energy_j: energy.radiated_at_last_j(),
     });
-    Ok(computed.outcome(cause, deflection_m, (None, Some(energy)), warnings))
+    computed.series.energy = Some(energy);
+    Ok(computed.outcome(cause, warnings))
 }
 
 /// What follows from an excitation, whatever has caused it.
-struct Computed<'a> {
-    excitation: &'a Excitation,
+struct Computed {
     grid: Grid,
-    time_s: Vec<f64>,
-    force_n: Vec<f64>,
+    /// Times and force; the rest is for what has caused it to fill in.
+    series: Series,
     used: Option<FieldsUsed>,
     probes: Option<ProbeFields>,
     section: Option<SectionFields>,
+    /// What the user should know of the times of the output.
+    warnings: Vec<String>,
 }
 
-impl<'a> Computed<'a> {
+impl Computed {
     fn new(
         scene: &Scene,
         kernels: &KernelChoice,
         allowance: &Allowance<'_>,
-        excitation: &'a Excitation,
+        excitation: &Excitation,
     ) -> Result<Self, ImpactError> {
         let chosen = choose_source(scene, kernels, excitation)?;
         let source = chosen.as_ref().map(|(source, _)| source);
@@ -181,18 +177,27 @@ impl<'a> Computed<'a> {
             return Err(ImpactError::GivenUp { seconds });
         }
         let time_s: Vec<f64> = grid.times_s().collect();
-        let force_n = time_s.iter().map(|&t| excitation.force_n(t)).collect();
+        let mut warnings = Vec::new();
+        if grid.step_s > grid.wanted_s {
+            warnings.push(format!(
+                "the output's step is {:.3e} s, that of the table's cells, where {:.3e} s or less was wanted",
+                grid.step_s, grid.wanted_s
+            ));
+        }
         let mut computed = Self {
-            excitation,
             grid,
-            time_s,
-            force_n,
+            series: Series {
+                force_n: time_s.iter().map(|&t| excitation.force_n(t)).collect(),
+                time_s,
+                ..Series::default()
+            },
             used: None,
             probes: None,
             section: None,
+            warnings,
         };
         if let Some(chosen) = chosen {
-            computed.add_fields(scene, allowance, chosen)?;
+            computed.add_fields(scene, allowance, excitation, chosen)?;
         }
         Ok(computed)
     }
@@ -201,12 +206,13 @@ impl<'a> Computed<'a> {
         &mut self,
         scene: &Scene,
         allowance: &Allowance<'_>,
+        excitation: &Excitation,
         (source, reason): (KernelSource, String),
     ) -> Result<(), ImpactError> {
         let material = scene.target.material();
         let evaluator = |wanted| {
-            Evaluator::new(evaluator::Asked {
-                excitation: self.excitation,
+            Evaluator::new(Asked {
+                excitation,
                 source: &source,
                 grid: &self.grid,
                 wanted,
@@ -217,95 +223,68 @@ impl<'a> Computed<'a> {
             })
         };
         let mut convolution = Method::Direct;
-        let all: Vec<usize> = (0..self.force_n.len()).collect();
+        let all: Vec<usize> = (0..self.series.time_s.len()).collect();
         if !scene.probes.is_empty() {
             let evaluator = evaluator(&all)?;
-            self.probes = Some(at_probes(&evaluator, &scene.target, &scene.probes)?);
+            let found = at_probes(&evaluator, &scene.target, &scene.probes)?;
+            let end_s = self.series.time_s.last().copied().unwrap_or(0.0);
+            self.warnings.extend(found.echoes(end_s));
+            self.probes = Some(found);
             convolution = evaluator.method();
         }
         if let Some(section) = &scene.section {
-            let at = frames(section, self.force_n.len());
-            let (wanted, shown) = if scene.peaks {
-                (&all, at.clone())
-            } else {
-                (&at, (0..at.len()).collect())
+            let at = frames(section, all.len());
+            let (wanted, shown) = match scene.peaks {
+                true => (&all, at.clone()),
+                false => (&at, (0..at.len()).collect()),
             };
             let evaluator = evaluator(wanted)?;
             self.section = Some(on_section(&evaluator, (section, &shown), scene.peaks)?);
             convolution = evaluator.method();
         }
+        let table = match source {
+            KernelSource::Direct(_) => None,
+            KernelSource::Table(table) => {
+                Some([table.id(), table.format_version()].map(str::to_owned))
+            }
+        };
         self.used = Some(FieldsUsed {
-            table: match source {
-                KernelSource::Direct(_) => None,
-                KernelSource::Table(table) => {
-                    Some([table.id(), table.format_version()].map(str::to_owned))
-                }
-            },
+            table,
             reason,
             convolution,
         });
         Ok(())
     }
 
-    /// The most in N that the cells leave of the force.
-    fn left_n(&self) -> f64 {
-        let step_s = self.grid.step_s;
-        let parts = self.grid.split(&self.force_n).into_iter();
-        let left = parts.map(|(run, force_n)| {
-            let nodes = self.excitation.cell_nodes(&run, step_s);
-            let rises = rises(run.base_n, force_n);
-            let projection = Projection::new(force_n, &rises, &nodes, f64::INFINITY);
-            projection.left.most_n
-        });
-        left.fold(0.0, f64::max)
+    /// Takes the deflection of the disc of a fixed radius for that of the series.
+    fn deflect_disc(&mut self, excitation: &Excitation, disc: Deflection, share: StaticShare) {
+        let (grid, series) = (&self.grid, &mut self.series);
+        let of = |(run, force_n): (Run, &[f64])| {
+            excitation.deflection_m(disc, share, grid.step_s, run.base_n, force_n)
+        };
+        let runs = grid.split(&series.force_n).into_iter();
+        series.deflection_m = runs.flat_map(of).collect();
     }
 
-    /// What the user should know of the times of the output.
-    fn warnings(&self) -> Vec<String> {
-        let Grid {
-            step_s, wanted_s, ..
-        } = self.grid;
-        let coarse = (step_s > wanted_s).then(|| {
-            format!(
-                "the output's step is {step_s:.3e} s, that of the table's cells, where {wanted_s:.3e} s or less was wanted"
-            )
-        });
-        let end_s = self.time_s.last().copied().unwrap_or(0.0);
-        let echoes = self.probes.as_ref().and_then(|probes| probes.echoes(end_s));
-        coarse.into_iter().chain(echoes).collect()
-    }
-
-    fn disc_deflection_m(&self, deflection: Deflection, share: StaticShare) -> Vec<f64> {
-        let step_s = self.grid.step_s;
-        let parts = self.grid.split(&self.force_n).into_iter();
-        parts
-            .flat_map(|(run, force_n)| {
-                self.excitation
-                    .deflection_m(deflection, share, step_s, run.base_n, force_n)
-            })
-            .collect()
-    }
-
-    fn outcome(
-        self,
-        cause: Cause,
-        deflection_m: Vec<f64>,
-        (striker, energy): (Option<StrikerSeries>, Option<EnergySeries>),
-        warnings: Vec<String>,
-    ) -> Outcome {
+    fn outcome(self, cause: Cause, warnings: Vec<String>) -> Outcome {
         Outcome {
             cause,
             used: self.used,
-            series: Series {
-                time_s: self.time_s,
-                force_n: self.force_n,
-                deflection_m,
-                striker,
-                energy,
-            },
+            series: self.series,
             probes: self.probes,
             section: self.section,
             warnings,
         }
     }
+}
+
+/// The most in N that the cells leave of the force.
+fn left_n(excitation: &Excitation, grid: &Grid, force_n: &[f64]) -> f64 {
+    let left = grid.split(force_n).into_iter().map(|(run, force_n)| {
+        let nodes = excitation.cell_nodes(&run, grid.step_s);
+        let rises = rises(run.base_n, force_n);
+        let projection = Projection::new(force_n, &rises, &nodes, f64::INFINITY);
+        projection.left.most_n
+    });
+    left.fold(0.0, f64::max)
 }

@@ -1,6 +1,5 @@
 //! Many contacts, without histories: what a sweep computes. Where a scene has probes, their peaks come with it.
 
-use crate::error::ImpactError;
 use crate::fields::probes::{ProbePeaks, peaks_at_probes};
 use crate::impact::solve;
 use crate::kernels::source::KernelChoice;
@@ -50,28 +49,12 @@ pub fn observe(
     let (target, settings) = (&scene.target, &scene.settings);
     let collision = Collision::new(target, &strike.striker, strike.velocity_m_s);
     let run = solve(solver, target, &collision, settings).map_err(|error| error.to_string())?;
-    let peaks = peaks_at_probes(scene, kernels, run.excitation()).and_then(finite);
+    let peaks = peaks_at_probes(scene, kernels, run.excitation());
     Ok(Observed {
         model: run.solved.plan.model,
         results: run.results,
         peaks: Some(peaks.map_err(|error| error.to_string())),
     })
-}
-
-/// Passes on peaks that are numbers.
-fn finite(found: ProbePeaks) -> Result<ProbePeaks, ImpactError> {
-    match found
-        .peaks
-        .iter()
-        .flatten()
-        .find(|number| !number.is_finite())
-    {
-        None => Ok(found),
-        Some(&value) => Err(ImpactError::NotFinite {
-            quantity: "the peak of a field at a probe".to_owned(),
-            value,
-        }),
-    }
 }
 
 /// Rows from which it is told where all of them lie, at most.
@@ -84,15 +67,12 @@ pub fn outcomes<M: Default, E>(
     row: impl Fn(usize, &mut M) -> Result<(Collision, Settings), E>,
 ) -> Outcomes {
     // equidistributed along every axis, whose strides it does not follow
-    let golden = (0..SAMPLE).map(|k| (k as f64 * 0.618_033_988_749_895).fract());
-    let sample: Vec<usize> = if rows <= SAMPLE {
-        (0..rows).collect()
-    } else {
-        golden.map(|part| (part * rows as f64) as usize).collect()
+    let golden = |k: usize| (k as f64 * 0.618_033_988_749_895).fract();
+    let index = |k: usize| match rows <= SAMPLE {
+        true => k,
+        false => (golden(k) * rows as f64) as usize,
     };
     let mut memory = M::default();
-    let some = sample
-        .into_iter()
-        .filter_map(|index| row(index, &mut memory).ok());
+    let some = (0..rows.min(SAMPLE)).filter_map(|k| row(index(k), &mut memory).ok());
     Solver::new(responses).outcomes(rows, some)
 }

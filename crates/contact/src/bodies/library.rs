@@ -66,9 +66,8 @@ impl Library {
     pub fn search<'a>(&'a self, word: &str) -> impl Iterator<Item = &'a Material> {
         let word = word.to_lowercase();
         self.iter().filter(move |m| {
-            [&m.name, &m.group, &m.source]
-                .iter()
-                .any(|text| text.to_lowercase().contains(&word))
+            let mut texts = [&m.name, &m.group, &m.source].into_iter();
+            texts.any(|text| text.to_lowercase().contains(&word))
         })
     }
 

@@ -128,12 +128,8 @@ impl Striker {
             }
         };
         let has_mass = mass_kg > 0.0 && mass_kg < f64::INFINITY;
-        within(
-            quantity,
-            size_m,
-            "the sizes whose mass is in [1e-30, 1e30] kg",
-            has_mass,
-        )?;
+        let range = "the sizes whose mass is in [1e-30, 1e30] kg";
+        within(quantity, size_m, range, has_mass)?;
         let mut striker = Self::new(material, mass_kg, shape.tip_radius_m())?;
         striker.length_m = shape.length_m();
         striker.shape = Some(shape);

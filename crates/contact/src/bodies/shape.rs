@@ -52,8 +52,7 @@ impl Shape {
     /// ```
     ///
     /// NaN for a tip's radius R below half of the diameter d: no cap is as wide as the rod then.
-    #[must_use]
-    pub fn cap_m(&self) -> f64 {
+    pub(crate) fn cap_m(&self) -> f64 {
         match *self {
             Self::Ball { .. } => 0.0,
             Self::Rod { diameter_m, .. } => {
@@ -69,8 +68,7 @@ impl Shape {
     /// ball  pi d^3/6
     /// rod   pi a^2 (L - h) + pi h^2 (R - h/3),   a = d/2
     /// ```
-    #[must_use]
-    pub fn volume_m3(&self) -> f64 {
+    pub(crate) fn volume_m3(&self) -> f64 {
         match *self {
             Self::Ball { diameter_m } => PI / 6.0 * diameter_m.powi(3),
             Self::Rod {

@@ -7,9 +7,9 @@ use std::f64::consts::PI;
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Strength {
     poisson_ratio: f64,
-    yield_strength_pa: Option<f64>,
-    tensile_strength_pa: Option<f64>,
-    fracture_toughness_pa_sqrt_m: Option<f64>,
+    pub(crate) yield_strength_pa: Option<f64>,
+    pub(crate) tensile_strength_pa: Option<f64>,
+    pub(crate) fracture_toughness_pa_sqrt_m: Option<f64>,
     /// Mean pressure of the contact in Pa at which the body begins to yield; none without a yield strength.
     pub yield_pressure_pa: Option<f64>,
 }
@@ -42,8 +42,11 @@ impl Strength {
     /// first digit is to be trusted.
     /// Onsets scatter by a factor of two and more with the flaws of a surface; a polished one bears more, and in a rock
     /// with grains larger than the contact the law is a hint.
-    #[must_use]
-    pub fn cone_crack_force_n(&self, radius_m: f64, effective_modulus_pa: f64) -> Option<f64> {
+    pub(crate) fn cone_crack_force_n(
+        &self,
+        radius_m: f64,
+        effective_modulus_pa: f64,
+    ) -> Option<f64> {
         const AUERBACH: f64 = 8600.0;
         let toughness = self.fracture_toughness_pa_sqrt_m?;
         Some(AUERBACH * radius_m * toughness * toughness / effective_modulus_pa)

@@ -250,11 +250,8 @@ impl SolvedContact {
                 ..Instant::default()
             };
         };
-        let [force, rate, second_rate] = self.force(time);
         Instant {
-            force,
-            rate,
-            second_rate,
+            force: self.force(time)[0],
             displacement: piece.displacement.value(place),
             velocity: piece.velocity.value(place),
             deflection: deflected(piece, place),

@@ -85,10 +85,9 @@ fn tail([(t0, p0), (t1, p1)]: [(f64, f64); 2], end: f64) -> [f64; 2] {
     let power = (p0 / p1).ln() / (left0 / left1).ln();
     let sound = p1 > 0.0 && left1 > 0.0 && power > 0.0 && power < STEEPEST;
     let power = if sound { power } else { 1.5 };
-    let size = if left1 > 0.0 {
-        p1 / left1.powf(power)
-    } else {
-        0.0
+    let size = match left1 > 0.0 {
+        true => p1 / left1.powf(power),
+        false => 0.0,
     };
     [size, power]
 }
@@ -135,10 +134,9 @@ impl Course {
         let (mut low, mut high) = (0.0, step);
         for _ in 0..50 {
             let middle = 0.5 * (low + high);
-            if inside(advance(force, state, middle, false)) {
-                low = middle;
-            } else {
-                high = middle;
+            match inside(advance(force, state, middle, false)) {
+                true => low = middle,
+                false => high = middle,
             }
         }
         let (place, peak_force) = peak(&forces);

@@ -112,23 +112,18 @@ impl Springs {
 
     /// y at the turning point.
     fn top(&self) -> f64 {
-        let energy = |y: f64| {
-            [
-                self.stored(y) - 0.4 * self.energy,
-                y.powi(4) * (2.0 + 3.0 * self.coupling * y),
-            ]
-        };
-        find_root(energy, 0.0, 1.0)
+        let missing = |y: f64| self.stored(y) - 0.4 * self.energy;
+        let slope = |y: f64| y.powi(4) * (2.0 + 3.0 * self.coupling * y);
+        find_root(|y| [missing(y), slope(y)], 0.0, 1.0)
     }
 
     /// The place y = top (1 - x^2), where velocity and the rate of d both vanish as x, and the time over `width` of x.
     fn passing(&self, top: f64, x: f64, width: f64) -> (f64, f64) {
         let y = top * (1.0 - x * x);
         let v = self.velocity(y);
-        let time = if v > 0.0 {
-            width * self.rate(y) * 2.0 * top * x / v
-        } else {
-            0.0
+        let time = match v > 0.0 {
+            true => width * self.rate(y) * 2.0 * top * x / v,
+            false => 0.0,
         };
         (y, time)
     }
@@ -157,10 +152,8 @@ impl Springs {
 pub fn expected_contact_time(coupling: f64) -> f64 {
     let spring = Springs::still(coupling);
     let top = spring.top();
-    2.0 * GAUSS_4
-        .iter()
-        .map(|&(x, weight)| spring.passing(top, x, weight).1)
-        .sum::<f64>()
+    let times = GAUSS_4.map(|(x, weight)| spring.passing(top, x, weight).1);
+    2.0 * times.iter().sum::<f64>()
 }
 
 #[cfg(test)]

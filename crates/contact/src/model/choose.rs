@@ -90,7 +90,6 @@ const LARGEST_MEMORY: f64 = 0.3;
 
 impl Groups {
     /// l = (5/2) c int p'^2 of the quasi-static impact.
-    #[must_use]
     pub fn first_order_loss(&self) -> f64 {
         match self.family {
             Family::Full => quasi_static(self.coupling).1 * self.lag,
@@ -100,8 +99,7 @@ impl Groups {
 
     /// What the first order of radiation leaves out: the largest relative error of peak force, contact time, restitution and
     /// displacement, and that of the loss 1 - e^2.
-    #[must_use]
-    pub fn beyond_radiation(&self) -> [f64; 2] {
+    pub(crate) fn beyond_radiation(&self) -> [f64; 2] {
         let (l, t) = (self.first_order_loss(), self.memory);
         if l > LARGEST_LOSS || t > LARGEST_MEMORY {
             return [1.0; 2];
@@ -215,10 +213,9 @@ impl Plan {
 
     /// c of the radiated loss, zero where the model has none.
     pub(crate) fn damping(&self) -> f64 {
-        if self.model.row().0 == Rung::Radiation {
-            self.groups.lag
-        } else {
-            0.0
+        match self.model.row() {
+            (Rung::Radiation, _) => self.groups.lag,
+            _ => 0.0,
         }
     }
 
@@ -233,11 +230,9 @@ impl Plan {
             return Err(ContactError::LossTooLarge { loss });
         }
         let left_out = self.groups.beyond_radiation()[0].min(1.0);
-        let (_, on_disc) = self.model.row();
-        let summary = if on_disc {
-            quasi_static_radiation(coupling, lag)
-        } else {
-            radiation(lag)
+        let summary = match self.model.row() {
+            (_, true) => quasi_static_radiation(coupling, lag),
+            (_, false) => radiation(lag),
         };
         // what the next rung adds
         let radiated = if lag > 0.0 { 0.0 } else { 0.5 * loss };
@@ -293,10 +288,9 @@ impl Plan {
         let (first, tolerance) = (0.5 * self.groups.first_order_loss(), accuracy.tolerance);
         let change = format!("radiation changes the results by {first:.1e}");
         let (radiating, [second, loss]) = self.groups.without_memory();
-        let rung = if radiating == Rung::AreaDashpot {
-            "the area dashpot"
-        } else {
-            "its first order"
+        let rung = match radiating {
+            Rung::AreaDashpot => "the area dashpot",
+            _ => "its first order",
         };
         match (chosen, accuracy.loss) {
             (Rung::QuasiStatic, _) => {
@@ -332,10 +326,8 @@ pub(crate) fn disc_radius_m(settings: &Settings, collision: &Collision) -> f64 {
 /// Radius of the disc that loads the half-space in m where the model fixes it; none for a contact that follows the load.
 #[must_use]
 pub fn fixed_disc_m(model: Model, settings: &Settings, collision: &Collision) -> Option<f64> {
-    if model.row().1 {
-        return Some(disc_radius_m(settings, collision));
-    }
-    settings.disc_radius_m
+    let of_tip = model.row().1.then_some(collision.tip_radius_m);
+    settings.disc_radius_m.or(of_tip)
 }
 
 /// The groups of the family that the settings state.

@@ -7,30 +7,28 @@ pub(crate) mod choose;
 use crate::names::choice;
 use halfspace::Deflection;
 
-/// The contact model asked for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Model {
-    /// Closed form, no waves.
-    Hertz,
-    /// First-order radiated loss.
-    Radiation,
-    /// Radiation to the second order in the memory, with its third: a dashpot on the contact's area.
-    AreaDashpot,
-    /// Hertz's spring in series with the disc's static one, no waves.
-    QuasiStatic,
-    /// The same with the first-order radiated loss.
-    QuasiStaticRadiation,
-    /// Full retarded deflection of a disc of fixed radius: the paper.
-    Wave,
-    /// Contact radius that follows the load.
-    Growing,
-    /// The cheapest of these that meets the tolerance.
-    Auto,
+choice! {
+    /// The contact model asked for.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+    pub enum Model {
+        /// Closed form, no waves.
+        Hertz = "hertz",
+        /// First-order radiated loss.
+        Radiation = "radiation",
+        /// Hertz's spring in series with the disc's static one, no waves.
+        QuasiStatic = "quasi_static",
+        /// The same with the first-order radiated loss.
+        QuasiStaticRadiation = "quasi_static_radiation",
+        /// Full retarded deflection of a disc of fixed radius: the paper.
+        Wave = "wave",
+        /// Contact radius that follows the load.
+        Growing = "growing",
+        /// Radiation to the second order in the memory, with its third: a dashpot on the contact's area.
+        AreaDashpot = "area_dashpot",
+        /// The cheapest of these that meets the tolerance.
+        Auto = "auto",
+    }
 }
-
-choice!(Model: Hertz = "hertz", Radiation = "radiation", QuasiStatic = "quasi_static",
-    QuasiStaticRadiation = "quasi_static_radiation", Wave = "wave", Growing = "growing",
-    AreaDashpot = "area_dashpot", Auto = "auto");
 
 /// How much of the half-space's memory a model has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -63,42 +61,42 @@ impl Model {
     }
 }
 
-/// The marching scheme.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Scheme {
-    /// Product integration, any step.
-    Implicit,
-    /// The paper's (40)-(44).
-    Explicit,
+choice! {
+    /// The marching scheme.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+    pub enum Scheme {
+        /// Product integration, any step.
+        Implicit = "implicit",
+        /// The paper's (40)-(44).
+        Explicit = "explicit",
+    }
 }
 
-choice!(Scheme: Implicit = "implicit", Explicit = "explicit");
-
-/// How the softer body flows.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Plasticity {
-    /// It does not, however high the pressure.
-    None,
-    /// The pressure is cut at that of yield; unloading as Hertz's law of a flatter sphere.
-    Thornton,
-    /// The same loading, and the unloading that leaves no traction.
-    Recovery,
-    /// The fit of finite elements of Jackson and Green.
-    JacksonGreen,
+choice! {
+    /// How the softer body flows.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+    pub enum Plasticity {
+        /// It does not, however high the pressure.
+        None = "none",
+        /// The pressure is cut at that of yield; unloading as Hertz's law of a flatter sphere.
+        Thornton = "thornton",
+        /// The same loading, and the unloading that leaves no traction.
+        Recovery = "recovery",
+        /// The fit of finite elements of Jackson and Green.
+        JacksonGreen = "jackson_green",
+    }
 }
 
-choice!(Plasticity: None = "none", Thornton = "thornton", Recovery = "recovery", JacksonGreen = "jackson_green");
-
-/// Which part of the half-space's deflection is added to Hertz's indentation.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum StaticShare {
-    /// All of it: the paper, whose K already holds the static compliance of the half-space.
-    Full,
-    /// Only what differs from the static deflection: nothing is counted twice.
-    Dynamic,
+choice! {
+    /// Which part of the half-space's deflection is added to Hertz's indentation.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+    pub enum StaticShare {
+        /// All of it: the paper, whose K already holds the static compliance of the half-space.
+        Full = "full",
+        /// Only what differs from the static deflection: nothing is counted twice.
+        Dynamic = "dynamic",
+    }
 }
-
-choice!(StaticShare: Full = "full", Dynamic = "dynamic");
 
 choice!(Deflection: Centre = "centre", Mean = "mean");
 
@@ -177,36 +175,29 @@ impl Settings {
     /// The first two settings that exclude each other, if there are any.
     #[must_use]
     pub fn conflict(&self) -> Option<Conflict> {
-        if self.scheme == Scheme::Explicit {
-            if self.static_share == StaticShare::Dynamic {
-                return Some(Conflict::ExplicitDynamic);
-            }
-            if !matches!(self.model, Model::Wave | Model::Auto) {
-                return Some(Conflict::ExplicitModel(self.model));
-            }
-        }
-        if self.model == Model::Growing && self.disc_radius_m.is_some() {
-            return Some(Conflict::GrowingDisc);
-        }
-        let (law, model) = (self.plasticity, self.model);
+        let (law, model, disc) = (self.plasticity, self.model, self.disc_radius_m.is_some());
+        let explicit = self.scheme == Scheme::Explicit;
+        let dynamic = self.static_share == StaticShare::Dynamic;
+        let marched = matches!(model, Model::Wave | Model::Auto);
         let takes_pressure = matches!(law, Plasticity::Thornton | Plasticity::Recovery);
-        if self.yield_pressure_pa.is_some() && !takes_pressure {
-            return Some(Conflict::PlasticPressure(law));
-        }
-        if law == Plasticity::None {
-            return None;
-        }
-        if self.disc_radius_m.is_some() {
-            return Some(Conflict::PlasticDisc);
-        }
-        let none = match model.row() {
+        let pressure = self.yield_pressure_pa.is_some();
+        let yields = law != Plasticity::None;
+        let is_elastic = match model.row() {
             (Rung::QuasiStatic | Rung::AreaDashpot, on_disc) => on_disc,
-            (Rung::FullMemory, on_disc) => {
-                on_disc && model != Model::Auto
-                    || model == Model::Growing && law == Plasticity::JacksonGreen
-            }
+            (Rung::FullMemory, true) => model != Model::Auto,
+            (Rung::FullMemory, false) => law == Plasticity::JacksonGreen,
             (Rung::Radiation, _) => true,
         };
-        (none || self.scheme == Scheme::Explicit).then_some(Conflict::PlasticModel(law, model))
+        let without = yields && (is_elastic || explicit);
+        let conflicts = [
+            (explicit && dynamic, Conflict::ExplicitDynamic),
+            (explicit && !marched, Conflict::ExplicitModel(model)),
+            (model == Model::Growing && disc, Conflict::GrowingDisc),
+            (pressure && !takes_pressure, Conflict::PlasticPressure(law)),
+            (yields && disc, Conflict::PlasticDisc),
+            (without, Conflict::PlasticModel(law, model)),
+        ];
+        let found = conflicts.into_iter().find(|(holds, _)| *holds);
+        found.map(|(_, conflict)| conflict)
     }
 }

@@ -54,30 +54,24 @@ const COVERED: [f64; 4] = [0.0, 0.25, 0.5, 0.75];
 impl Discs {
     /// Those for kernels that are computed, the fewest first: some radii away from the load, and beside it or far away.
     pub(crate) fn computed(radius: PressureRadius, tolerance: f64) -> Vec<Self> {
-        let digits = (-tolerance.log10()).clamp(2.0, 8.0);
-        let count = |a_digit: f64| (a_digit * digits).round() as usize;
-        match radius {
-            PressureRadius::Fixed(_) => vec![Self::one()],
-            PressureRadius::Following { .. } => {
-                let apart = COUNTS_APART.into_iter().filter(|_| digits <= DIGITS_APART);
-                apart
-                    .map(Self::apart)
-                    .chain(A_DIGIT.map(|d| Self::following(count(d), 0.0)))
-                    .collect()
-            }
+        if let PressureRadius::Fixed(_) = radius {
+            return vec![Self::one()];
         }
+        let digits = (-tolerance.log10()).clamp(2.0, 8.0);
+        let apart = COUNTS_APART.into_iter().filter(|_| digits <= DIGITS_APART);
+        let beside = A_DIGIT.map(|a_digit| (a_digit * digits).round() as usize);
+        let beside = beside.map(|count| Self::following(count, 0.0));
+        apart.map(Self::apart).chain(beside).collect()
     }
 
     /// Those for kernels that are looked up, the smallest radii first.
     pub(crate) fn looked_up(radius: PressureRadius) -> Vec<Self> {
-        match radius {
-            PressureRadius::Fixed(_) => vec![Self::one()],
-            PressureRadius::Following { .. } => COVERED
-                .map(|smallest| Self::following(LOOKED_UP, smallest))
-                .into_iter()
-                .chain([Self::one()])
-                .collect(),
+        let mut choices = vec![Self::one()];
+        if let PressureRadius::Following { .. } = radius {
+            let smaller = COVERED.map(|smallest| Self::following(LOOKED_UP, smallest));
+            choices.splice(0..0, smaller);
         }
+        choices
     }
 
     /// The smallest radius over the largest.

@@ -34,8 +34,8 @@ pub(crate) struct Zone {
 /// A part of a zone on one side of a beginning or an end.
 struct Part {
     origin_s: f64,
-    /// Of time from the origin: after a beginning, or before an end.
-    forward: bool,
+    /// Of time from the origin: 1 after a beginning, -1 before an end.
+    sign: f64,
     /// Roots of the times in s from the origin between which it lies.
     roots: [f64; 2],
     /// dF/dx as Chebyshev series in x between them, of each of a pair of forces.
@@ -62,8 +62,6 @@ pub(crate) fn zones(
             }),
         }
     }
-    // of a polynomial in x
-    let allowed = sure;
     for zone in &mut zones {
         let [from_s, to_s] = span_s(&zone.cells);
         for &[begin_s, end_s] in contacts {
@@ -71,18 +69,15 @@ pub(crate) fn zones(
             if low >= high {
                 continue;
             }
-            let middle = if low == begin_s && high == end_s {
-                0.5 * (low + high)
-            } else if high == end_s {
-                low
-            } else {
-                high
+            let middle = match (low == begin_s, high == end_s) {
+                (true, true) => 0.5 * (low + high),
+                (false, true) => low,
+                (_, false) => high,
             };
-            for (origin_s, other_s) in [(low, middle), (high, middle)] {
-                let roots = [0.0, (other_s - origin_s).abs().sqrt()];
+            for side in [(low, 1.0), (high, -1.0)] {
+                let roots = [0.0, (middle - side.0).abs().sqrt()];
                 if roots[1] > 0.0 {
-                    let side = (origin_s, other_s > origin_s);
-                    Part::push(side, roots, &force, allowed, &mut zone.parts);
+                    Part::push(side, roots, &force, sure, &mut zone.parts);
                 }
             }
         }
@@ -93,7 +88,7 @@ pub(crate) fn zones(
 impl Part {
     /// Adds what lies on a side of an origin, halved until a polynomial follows the force.
     fn push(
-        (origin_s, forward): (f64, bool),
+        (origin_s, sign): (f64, f64),
         roots: [f64; 2],
         force: &impl Fn(f64) -> [f64; 2],
         allowed: f64,
@@ -105,25 +100,19 @@ impl Part {
         let cosines = &*COSINES;
         let values: [[f64; 2]; DEGREE] = std::array::from_fn(|i| {
             let x = middle + half * cosines[1][i];
-            force(if forward {
-                origin_s + x * x
-            } else {
-                origin_s - x * x
-            })
+            force(origin_s + sign * x * x)
         });
         let term = |k: usize, j: usize| {
             let terms = values.iter().zip(cosines[j]);
-            let sum: f64 = terms.map(|(value, cosine)| value[k] * cosine).sum();
-            2.0 * sum / DEGREE as f64
+            2.0 * terms.map(|(value, cosine)| value[k] * cosine).sum::<f64>() / DEGREE as f64
         };
         let left = |k| term(k, DEGREE - 1).abs() + term(k, DEGREE - 2).abs();
         if left(0).max(left(1)) > allowed && parts.len() < MOST {
             for roots in [[roots[0], middle], [middle, roots[1]]] {
-                Self::push((origin_s, forward), roots, force, allowed, parts);
+                Self::push((origin_s, sign), roots, force, allowed, parts);
             }
             return;
         }
-        let sign = if forward { 1.0 } else { -1.0 };
         // the derivative of each series, by its recurrence
         let series = [0, 1].map(|k| {
             let mut slopes = [0.0; DEGREE + 1];
@@ -135,7 +124,7 @@ impl Part {
         });
         parts.push(Self {
             origin_s,
-            forward,
+            sign,
             roots,
             series,
         });
@@ -163,15 +152,7 @@ impl Part {
         sums: &mut [Six; 2],
     ) {
         let since_s = time_s - self.origin_s;
-        let x_of = |s: f64| {
-            (if self.forward {
-                since_s - s
-            } else {
-                s - since_s
-            })
-            .max(0.0)
-            .sqrt()
-        };
+        let x_of = |s: f64| (self.sign * (since_s - s)).max(0.0).sqrt();
         // nothing after the instant itself
         let ends = [from_s, to_s.min(time_s)].map(|t| x_of(time_s - t));
         let low = self.roots[0].max(ends[0].min(ends[1]));
@@ -189,12 +170,7 @@ impl Part {
             let (middle, half) = (0.5 * (pair[0] + pair[1]), 0.5 * (pair[1] - pair[0]));
             for &(y, weight) in RULE.iter() {
                 let x = middle + half * y;
-                let s = if self.forward {
-                    since_s - x * x
-                } else {
-                    since_s + x * x
-                };
-                let value = trace.at(s / unit_s);
+                let value = trace.at((since_s - self.sign * x * x) / unit_s);
                 for (sum, slope) in sums.iter_mut().zip(self.slopes(x)) {
                     for (sum, value) in sum.iter_mut().zip(value) {
                         *sum += half * weight * slope * value;
@@ -215,9 +191,8 @@ static COSINES: LazyLock<[[f64; DEGREE]; DEGREE]> = LazyLock::new(|| {
 static RULE: LazyLock<Vec<(f64, f64)>> = LazyLock::new(|| {
     const NODES: usize = 10;
     let angles = gauss::rule(NODES).on(0.0, PI);
-    angles
-        .map(|(angle, weight)| (-angle.cos(), weight * angle.sin()))
-        .collect()
+    let nodes = angles.map(|(angle, weight)| (-angle.cos(), weight * angle.sin()));
+    nodes.collect()
 });
 
 impl Zone {
@@ -241,22 +216,15 @@ impl Zone {
 /// Of a front that passes within a cell it is of the order of the cell's average, of a smooth kernel of that of its third
 /// difference.
 pub(crate) fn open(moments: &Moments) -> Vec<Six> {
-    let Moments {
-        averages,
-        first,
-        second,
-    } = moments;
-    let count = averages.len();
+    let averages = &moments.averages;
+    let (first, second, last) = (&moments.first, &moments.second, averages.len() - 1);
     let of = |j: usize| -> Six {
-        let [before, after] = [
-            averages[j.saturating_sub(1)],
-            averages[(j + 1).min(count - 1)],
-        ];
+        let [before, after] = [j.saturating_sub(1), (j + 1).min(last)].map(|j| averages[j]);
         std::array::from_fn(|f| {
             let bend = 180.0 * second[j][f] - 0.5 * (after[f] - 2.0 * averages[j][f] + before[f]);
             let tilt = 12.0 * first[j][f] - 0.5 * (after[f] - before[f]);
             bend.abs().max(tilt.abs()) / 3.0
         })
     };
-    (0..count).map(of).collect()
+    (0..=last).map(of).collect()
 }

@@ -16,8 +16,9 @@ use crate::excitation::{Excitation, Pressed, PressureRadius, Run};
 use crate::fields::quantity::Derivative;
 use crate::grid::Grid;
 use crate::kernels::Cells;
-use crate::record::stretch::Departure;
+use crate::record::stretch::{Departure, largest};
 use halfspace::Six;
+use lookup::Moments;
 use std::convert::Infallible;
 use std::ops::Range;
 
@@ -33,6 +34,8 @@ pub(crate) enum Reading {
 /// A force or its rate at times a step apart.
 pub(crate) struct Forcing<'a> {
     pub(crate) excitation: &'a Excitation,
+    /// What the sums with it are.
+    pub(crate) derivative: Derivative,
     pub(crate) reading: Reading,
     /// How often the sums are differenced over a step.
     pub(crate) differences: usize,
@@ -42,6 +45,8 @@ pub(crate) struct Forcing<'a> {
     pub(crate) runs: Vec<Run>,
     /// Of each run the samples that the outputs need, ascending.
     pub(crate) needed: Vec<Vec<usize>>,
+    /// Their times, of all runs.
+    pub(crate) times_s: Vec<f64>,
     /// The first that each output is made of, among those of all runs.
     pub(crate) outputs: Vec<usize>,
     /// The cell from which on the runs leave out what earlier ones have changed for good, and the sum of these changes.
@@ -66,6 +71,17 @@ pub(crate) struct RunForce {
     pub(crate) zones: Vec<Zone>,
 }
 
+impl RunForce {
+    /// What some of the cells brought to sample n, in kernel units times the force, and the last of it.
+    pub(crate) fn by_cells(&self, n: usize, part: &Range<usize>, cells: &Moments) -> [Six; 2] {
+        let of = |force: &Sampled| force.projection.by_cells(n, part, cells);
+        [
+            of(&self.force),
+            self.last.as_ref().map_or(Six::default(), of),
+        ]
+    }
+}
+
 /// A force for sums over cells.
 pub(crate) struct Sampled {
     pub(crate) convolver: Convolver,
@@ -82,8 +98,7 @@ impl Sampled {
         (needed, least): (&[usize], f64),
     ) -> Self {
         let convolver = Convolver::from_base(base, samples, needed.to_vec());
-        let largest = samples.iter().fold(0.0, |most: f64, p| most.max(p.abs()));
-        let negligible = NEGLIGIBLE.max(least) * largest;
+        let negligible = NEGLIGIBLE.max(least) * largest(samples);
         Self {
             projection: Projection::new(samples, convolver.rises(), nodes, negligible),
             convolver,
@@ -121,35 +136,37 @@ impl<'a> Forcing<'a> {
             (Derivative::Second, Some(_)) => (Reading::Force, 2),
         };
         let (mut runs, mut needed) = (Vec::new(), Vec::new());
-        let (mut outputs, mut first, mut before) = (Vec::new(), 0, 0);
+        let (mut outputs, mut times_s, mut first) = (Vec::new(), Vec::new(), 0);
         for run in &grid.runs {
             let own = first..first + run.count;
             first = own.end;
-            let inside = wanted
-                .iter()
-                .filter(|n| own.contains(n))
-                .map(|n| n - own.start);
+            let inside = wanted.iter().filter(|n| own.contains(n));
+            let inside = inside.map(|n| n - own.start);
             let with_next = inside.clone().flat_map(|n| n..=n + differences);
             let mut samples: Vec<usize> = with_next.collect();
             samples.sort_unstable();
             samples.dedup();
+            let before = times_s.len();
             outputs.extend(inside.map(|n| before + samples.partition_point(|&m| m < n)));
-            before += samples.len();
+            let start_s = run.start_s - 0.5 * differences as f64 * grid.step_s;
+            times_s.extend(samples.iter().map(|&n| start_s + n as f64 * grid.step_s));
             needed.push(samples);
             runs.push(Run {
-                start_s: run.start_s - 0.5 * differences as f64 * grid.step_s,
+                start_s,
                 base_n: run.base_n,
                 count: run.count + differences,
             });
         }
         Self {
             excitation,
+            derivative,
             reading,
             differences,
             step_s: grid.step_s,
             tolerance,
             runs,
             needed,
+            times_s,
             outputs,
             left_out: match derivative {
                 Derivative::Field => grid.left_out(),
@@ -160,30 +177,39 @@ impl<'a> Forcing<'a> {
 
     /// The force on disc `k` at a time, and the part that the highest power of the radius brings.
     pub(crate) fn on_disc(&self, discs: &Discs, k: usize, time_s: f64) -> [f64; 2] {
+        if self.reading == Reading::Rate && discs.radii.len() == 1 {
+            let [one, other] = self.excitation.pressures(time_s);
+            return [one.rate + other.rate, 0.0];
+        }
         let of = |one: Pressed| discs.share(k, one.square).map(|share| one.force_n * share);
-        let [sum, other] = self
-            .excitation
-            .pressures(time_s)
-            .map(|one| match self.reading {
-                Reading::Force => of(one),
-                Reading::Rate if discs.radii.len() == 1 => [one.rate, 0.0],
-                Reading::Rate => {
-                    let rate = one.rate_of(PART, |one| Ok::<_, Infallible>(of(one)));
-                    rate.unwrap_or_default()
-                }
-            });
-        [sum[0] + other[0], sum[1] + other[1]]
+        self.sum(time_s, of)
+    }
+
+    /// What a function of the pressures, or its rate, sums up to over those of a time.
+    fn sum<const N: usize>(&self, time_s: f64, of: impl Fn(Pressed) -> [f64; N]) -> [f64; N] {
+        let Ok(sum) = self.try_sum(time_s, PART, |one| Ok::<_, Infallible>(of(one)));
+        sum
+    }
+
+    /// The same of a function that may fail, its rate by its difference over a part of the force.
+    pub(crate) fn try_sum<const N: usize, E>(
+        &self,
+        time_s: f64,
+        part: f64,
+        of: impl Fn(Pressed) -> Result<[f64; N], E>,
+    ) -> Result<[f64; N], E> {
+        let read = |one: Pressed| match self.reading {
+            Reading::Force => of(one),
+            Reading::Rate => one.rate_of(part, &of),
+        };
+        let [one, other] = self.excitation.pressures(time_s).map(read);
+        let (one, other) = (one?, other?);
+        Ok(std::array::from_fn(|i| one[i] + other[i]))
     }
 
     /// When some cells of a run begin and end, in s.
     pub(crate) fn span_s(&self, run: &Run, cells: &Range<usize>) -> [f64; 2] {
         [cells.start - 1, cells.end - 1].map(|n| run.start_s + n as f64 * self.step_s)
-    }
-
-    /// Times of the samples of a run.
-    fn times_s(&self, run: &Run) -> impl Iterator<Item = f64> {
-        let (start_s, step_s) = (run.start_s, self.step_s);
-        (0..run.count).map(move |n| start_s + n as f64 * step_s)
     }
 
     /// Forces on the discs of a choice.
@@ -200,7 +226,8 @@ impl<'a> Forcing<'a> {
                 self.add_run(&mut force, (discs, k), i, nodes);
             }
             let per_step = self.step_s.recip().powi(self.differences as i32);
-            force.left = force.left.scaled(per_step);
+            let Departure { most_n, sum_n } = &mut force.left;
+            (*most_n, *sum_n) = (per_step * *most_n, per_step * *sum_n);
             force
         };
         (0..discs.radii.len()).map(of).collect()
@@ -216,7 +243,8 @@ impl<'a> Forcing<'a> {
         let (run, needed) = (&self.runs[i], &self.needed[i]);
         let radius = self.excitation.radius();
         let both = |t: f64| self.on_disc(discs, k, t);
-        let samples: Vec<[f64; 2]> = self.times_s(run).map(both).collect();
+        let sample = |n: usize| both(run.start_s + n as f64 * self.step_s);
+        let samples: Vec<[f64; 2]> = (0..run.count).map(sample).collect();
         let in_cells: Vec<[f64; 2]> = if discs.radii.len() == 1 && self.reading == Reading::Force {
             nodes.forces().map(|force| [force, 0.0]).collect()
         } else {
@@ -232,7 +260,7 @@ impl<'a> Forcing<'a> {
             let nodes = nodes.with(|node| in_cells[node][i]);
             Sampled::new(base[i], &samples, &nodes, (needed, least))
         };
-        let own = of(0, 1e-3 * self.excitation.relative_error());
+        let own = of(0, 1e-3 * self.excitation.relative_error);
         // of a contact's rate what is left stands in the zones
         if k == 0 && self.reading == Reading::Force {
             force.left.join(own.projection.left);
@@ -259,20 +287,17 @@ impl<'a> Forcing<'a> {
             }),
             PressureRadius::Following { .. } => Some(of(1, 1e-3)),
         };
-        let zones = match self.excitation.record() {
-            Some(_) => Vec::new(),
-            None => {
-                let steepest = rises.iter().fold(0.0, |most: f64, d| most.max(d.abs()));
-                let span_s = |cells: &Range<usize>| self.span_s(run, cells);
-                let counts = (run.count, self.tolerance * steepest);
-                let spans = self.excitation.smooth_s();
-                zones(&spans, &span_s, &own.projection, counts, both)
-            }
-        };
+        let mut run_zones = Vec::new();
+        if self.excitation.record().is_none() {
+            let span_s = |cells: &Range<usize>| self.span_s(run, cells);
+            let counts = (run.count, self.tolerance * largest(rises));
+            let spans = self.excitation.smooth_s();
+            run_zones = zones(&spans, &span_s, &own.projection, counts, both);
+        }
         force.runs.push(RunForce {
             force: own,
             last,
-            zones,
+            zones: run_zones,
         });
     }
 
@@ -297,32 +322,24 @@ impl<'a> Forcing<'a> {
                 Reading::Rate => one.rate * beyond + one.force_n * one.square_rate,
             }
         };
-        self.bent(0.1, of, run)
+        let over = |t: f64| self.excitation.pressures(t).map(of).iter().sum();
+        self.bent(0.1, over, run)
     }
 
     /// The force on disc k of what some discs leave some radii away.
     fn omitted(&self, discs: &Discs, k: usize, run: &Run) -> Vec<f64> {
         let count = discs.omitted.as_ref().map_or(0.0, |counts| counts[k]);
-        let beyond = |one: Pressed| one.force_n * discs.product(one.square);
-        let of = |one: Pressed| match self.reading {
-            Reading::Force => beyond(one),
-            Reading::Rate => {
-                let rate = one.rate_of(PART, |one| Ok::<_, Infallible>([beyond(one)]));
-                rate.unwrap_or_default()[0]
-            }
-        };
-        self.bent(count, of, run)
+        let beyond = |one: Pressed| [one.force_n * discs.product(one.square)];
+        self.bent(count, |t| self.sum(t, beyond)[0], run)
     }
 
-    /// A number times (a_max/c_R)^2 times the second derivative of a function of the pressures.
-    fn bent(&self, count: f64, of: impl Fn(Pressed) -> f64, run: &Run) -> Vec<f64> {
+    /// A number times (a_max/c_R)^2 times the second derivative of a function of time.
+    fn bent(&self, count: f64, over: impl Fn(f64) -> f64, run: &Run) -> Vec<f64> {
         let excitation = self.excitation;
         let lag_s = excitation.units().time_s() / excitation.medium().rayleigh_speed();
         let steps = lag_s / self.step_s;
-        let over = |t: f64| excitation.pressures(t).map(&of).iter().sum();
-        let values: Vec<f64> = (-1..=run.count as isize)
-            .map(|n| over(run.start_s + n as f64 * self.step_s))
-            .collect();
+        let at = |n: isize| over(run.start_s + n as f64 * self.step_s);
+        let values: Vec<f64> = (-1..=run.count as isize).map(at).collect();
         let second = values.windows(3).map(|v| v[2] - 2.0 * v[1] + v[0]);
         second.map(|bend| count * steps * steps * bend).collect()
     }
@@ -331,9 +348,7 @@ impl<'a> Forcing<'a> {
 impl DiscForce {
     /// Errors of the kernels and of the force within the cells, in kernel units times the unit of the force.
     pub(crate) fn errors(&self, cells: &Cells) -> Six {
-        let (variation, steps) = (cells.variation(), cells.largest_step());
-        std::array::from_fn(|f| {
-            cells.error[f] * self.half_variation + self.left.moves(variation[f], steps[f])
-        })
+        let steps = cells.steps();
+        std::array::from_fn(|f| cells.error[f] * self.half_variation + self.left.moves(steps[f]))
     }
 }

@@ -33,7 +33,7 @@ use crate::error::ImpactError;
 use crate::excitation::{Excitation, PressureRadius};
 use crate::fields::quantity::{Derivative, Quantity};
 use crate::grid::Grid;
-use crate::kernels::{CellPlan, Cells, KernelSource, Place};
+use crate::kernels::{CellPlan, Cells, KernelSource};
 use convolve::Method;
 use discs::Discs;
 use forcing::{DiscForce, Forcing};
@@ -62,7 +62,7 @@ pub(crate) struct Asked<'a> {
 pub(crate) struct Evaluator<'a> {
     pub(crate) asked: Asked<'a>,
     /// Of the fields, and of the velocities and accelerations where they are asked for.
-    forcings: Vec<(Derivative, Forcing<'a>)>,
+    forcings: Vec<Forcing<'a>>,
     /// The discs that may stand for the load, and the forces on them that a point has needed, of each forcing.
     choices: Vec<Discs>,
     forces: Vec<OnceLock<Vec<Vec<DiscForce>>>>,
@@ -70,13 +70,22 @@ pub(crate) struct Evaluator<'a> {
     past: Option<Past<'a>>,
 }
 
-/// All that was asked for at a point, in SI units: the six fields, then the quantities.
+/// One quantity over time, in SI units.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct AtPoint {
-    /// Samples of each.
-    pub(crate) values: Vec<Vec<f64>>,
-    /// Estimated absolute error of each.
-    pub(crate) errors: Vec<f64>,
+pub struct Trace {
+    /// Samples at the times of the output.
+    pub samples: Vec<f64>,
+    /// Estimated absolute error of every sample.
+    pub error: f64,
+}
+
+impl Trace {
+    /// The sample of the largest magnitude, with its sign.
+    #[must_use]
+    pub fn peak(&self) -> f64 {
+        let larger = |most: f64, &x: &f64| if x.abs() > most.abs() { x } else { most };
+        self.samples.iter().fold(0.0, larger)
+    }
 }
 
 /// Tolerances that a part of the past may have, which brings a part of the field.
@@ -92,42 +101,29 @@ const MOST_HELD: usize = 1 << 24;
 impl<'a> Evaluator<'a> {
     /// Of all that is asked.
     pub(crate) fn new(asked: Asked<'a>) -> Result<Self, ImpactError> {
-        let Asked {
-            excitation,
-            source,
-            grid,
-            tolerance,
-            ..
-        } = asked;
-        let computed = matches!(source, KernelSource::Direct(_));
+        let (excitation, grid, tolerance) = (asked.excitation, asked.grid, asked.tolerance);
+        let computed = matches!(asked.source, KernelSource::Direct(_));
         let radius = excitation.radius();
-        let mut choices = if computed {
-            Discs::computed(radius, tolerance)
-        } else {
-            Discs::looked_up(radius)
-        };
+        let mut choices = Discs::looked_up(radius);
         if computed {
+            choices = Discs::computed(radius, tolerance);
             let held = |discs: &&Discs| discs.radii.len() * grid.count() <= MOST_HELD;
             let kept = choices.iter().take_while(held).count().max(1);
             choices.truncate(kept);
         }
         let mut derivatives = vec![Derivative::Field];
-        for quantity in asked.quantities {
-            if let Some((derivative, _)) = quantity.rate()
-                && !derivatives.contains(&derivative)
-            {
+        for (derivative, _) in asked.quantities.iter().filter_map(|one| one.rate()) {
+            if !derivatives.contains(&derivative) {
                 derivatives.push(derivative);
             }
         }
-        let forcing = |derivative| {
-            let of = Forcing::new(excitation, grid, asked.wanted, derivative, tolerance);
-            (derivative, of)
-        };
-        let past = match (radius, excitation.record()) {
-            (PressureRadius::Following { .. }, None) if computed => {
+        let forcing =
+            |derivative| Forcing::new(excitation, grid, asked.wanted, derivative, tolerance);
+        let past = match radius {
+            PressureRadius::Following { .. } if computed => {
                 Some(Past::new(excitation, PART_OF_PAST * tolerance)?)
             }
-            (_, _) => None,
+            _ => None,
         };
         Ok(Self {
             forcings: derivatives.into_iter().map(forcing).collect(),
@@ -148,46 +144,43 @@ impl<'a> Evaluator<'a> {
     pub(crate) fn method(&self) -> Method {
         let forces = self.forces.iter().filter_map(OnceLock::get);
         let mut runs = forces.flatten().flatten().flat_map(|force| &force.runs);
-        if runs.any(|run| run.force.convolver.method() == Method::Transform) {
-            Method::Transform
-        } else {
-            Method::Direct
+        match runs.any(|run| run.force.convolver.method() == Method::Transform) {
+            true => Method::Transform,
+            false => Method::Direct,
         }
     }
 
-    /// All that is asked for at a point.
+    /// All that is asked for at a point: the six fields, then the quantities.
     ///
     /// # Errors
     /// [`ImpactError`] for a point outside the half-space or the table.
-    pub(crate) fn at(&self, r_m: f64, z_m: f64) -> Result<AtPoint, ImpactError> {
+    pub(crate) fn at(&self, r_m: f64, z_m: f64) -> Result<Vec<Trace>, ImpactError> {
         let sums = self.sums([r_m, z_m])?;
         let mut found = sums[0].clone();
-        for &quantity in self.asked.quantities {
-            let (values, error) = match quantity.rate() {
-                Some((derivative, component)) => {
-                    let place = self.forcings.iter().position(|(own, _)| *own == derivative);
-                    let sum = &sums[place.unwrap_or(0)];
-                    (sum.values[component].clone(), sum.errors[component])
-                }
-                None => self.of_stresses(quantity, &sums[0]),
+        found.extend(self.asked.quantities.iter().map(|&quantity| {
+            let Some((derivative, component)) = quantity.rate() else {
+                return self.of_stresses(quantity, &sums[0]);
             };
-            found.values.push(values);
-            found.errors.push(error);
-        }
+            let mut derivatives = self.forcings.iter().map(|own| own.derivative);
+            let place = derivatives.position(|own| own == derivative);
+            sums[place.unwrap_or(0)][component].clone()
+        }));
         (self.asked.watch)();
         Ok(found)
     }
 
-    fn of_stresses(&self, quantity: Quantity, fields: &AtPoint) -> (Vec<f64>, f64) {
+    fn of_stresses(&self, quantity: Quantity, fields: &[Trace]) -> Trace {
         let (stresses, elastic) = ([2, 3, 4, 5], self.asked.elastic);
-        let of = |i: usize| quantity.of(stresses.map(|f| fields.values[f][i]), elastic);
-        let error = quantity.error(stresses.map(|f| fields.errors[f]), elastic);
-        ((0..fields.values[2].len()).map(of).collect(), error)
+        let of = |i: usize| quantity.of(stresses.map(|f| fields[f].samples[i]), elastic);
+        Trace {
+            samples: (0..fields[2].samples.len()).map(of).collect(),
+            error: quantity.error(stresses.map(|f| fields[f].error), elastic),
+        }
     }
 
     /// Values and errors of each forcing, under the first choice of discs that leaves little open, or under the one before
     /// where a choice leaves more: the kernels of small discs lose digits far away.
-    fn sums(&self, place_m: [f64; 2]) -> Result<Vec<AtPoint>, ImpactError> {
+    fn sums(&self, place_m: [f64; 2]) -> Result<Vec<Vec<Trace>>, ImpactError> {
         let serving = self.serving(place_m);
         let mut best = self.under(place_m, serving[0], None)?;
         let open = |sums: &[Sum<'_>]| sums.iter().map(|sum| sum.open.len()).sum::<usize>();
@@ -209,9 +202,8 @@ impl<'a> Evaluator<'a> {
             best = next;
         }
         let (sums, cells) = best;
-        sums.into_iter()
-            .map(|sum| sum.resolved(self.past.as_ref(), &cells))
-            .collect()
+        let resolved = |sum: Sum<'_>| sum.resolved(self.past.as_ref(), &cells);
+        sums.into_iter().map(resolved).collect()
     }
 
     /// The choices of discs that the source serves at a point in largest radii; where there is none, the last or, of
@@ -264,37 +256,24 @@ impl<'a> Evaluator<'a> {
                 None => self.cells(place_m, over, discs.largest_share(k)),
             }
         };
-        let cells: Vec<Cells> = (discs.radii.iter().enumerate())
-            .map(of)
-            .collect::<Result<_, _>>()?;
-        let forces = self.forces[choice].get_or_init(|| {
-            let of = |(_, forcing): &(_, Forcing<'_>)| forcing.on_discs(discs);
-            self.forcings.iter().map(of).collect()
-        });
-        let sums = self.forcings.iter().zip(forces).map(|(of, forces)| {
-            let of = (of.0, &of.1);
-            Sum::new(of, discs, forces, place_m, &cells)
-        });
+        let cells = discs.radii.iter().enumerate().map(of);
+        let cells: Vec<Cells> = cells.collect::<Result<_, _>>()?;
+        let on_discs = |forcing: &Forcing<'_>| forcing.on_discs(discs);
+        let forces =
+            self.forces[choice].get_or_init(|| self.forcings.iter().map(on_discs).collect());
+        let sums = (self.forcings.iter().zip(forces))
+            .map(|(forcing, forces)| Sum::new(forcing, discs, forces, place_m, &cells));
         Ok((sums.collect::<Result<_, _>>()?, cells))
     }
 
     /// The kernels of a disc of a radius `over` the largest that bears a share of the load, as far as the outputs need them.
-    fn cells(&self, [r_m, z_m]: [f64; 2], over: f64, share: f64) -> Result<Cells, ImpactError> {
-        let Asked {
-            excitation,
-            source,
-            grid,
-            ..
-        } = self.asked;
-        let units = excitation.units();
+    fn cells(&self, place_m: [f64; 2], over: f64, share: f64) -> Result<Cells, ImpactError> {
+        let (excitation, grid) = (self.asked.excitation, self.asked.grid);
+        let (ratio, units) = (excitation.medium().poisson_ratio(), excitation.units());
         let disc_radius_m = over * units.disc_radius_m;
-        let place = Place {
-            r: r_m / disc_radius_m,
-            z: z_m / disc_radius_m,
-            disc_radius_m,
-        };
+        let place = place_m.map(|x| x / disc_radius_m);
         let rates = self.forcings.len() > 1;
-        let differences = self.forcings.iter().map(|(_, of)| of.differences);
+        let differences = self.forcings.iter().map(|forcing| forcing.differences);
         let plan = CellPlan {
             step: grid.step_s / (over * units.time_s()),
             count: grid.longest() + differences.max().unwrap_or(0) + BEYOND,
@@ -302,6 +281,7 @@ impl<'a> Evaluator<'a> {
             rates,
             tolerance: self.asked.tolerance / share.min(1.0),
         };
-        source.cells(excitation.medium().poisson_ratio(), place, plan)
+        let source = self.asked.source;
+        source.cells(ratio, place, disc_radius_m, plan)
     }
 }

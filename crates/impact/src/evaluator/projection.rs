@@ -99,9 +99,7 @@ impl Projection {
             }
         }
     }
-}
 
-impl Projection {
     /// What the cell takes that ends at sample `m`, from 1 on.
     pub(crate) fn taken(&self, m: usize) -> &Taken {
         &self.taken[m - 1]

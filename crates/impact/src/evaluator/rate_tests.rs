@@ -99,7 +99,7 @@ fn worst(order: Derivative, duration: f64, place: [f64; 2], tolerance: f64) -> [
         watch: &|| {},
     });
     let found = evaluator.unwrap().at(place[0], place[1]).unwrap();
-    let (values, errors) = (&found.values[6..], &found.errors[6..]);
+    let rates = &found[6..];
     let reference = Reference {
         sum: Past::new(&excitation, 1e-8).unwrap(),
         place,
@@ -121,20 +121,23 @@ fn worst(order: Derivative, duration: f64, place: [f64; 2], tolerance: f64) -> [
         }
         let [exact, doubt] = reference.rate(order, time, step);
         for c in 0..2 {
-            let peak = values[c].iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+            let peak = rates[c]
+                .samples
+                .iter()
+                .fold(0.0, |m: f64, v| m.max(v.abs()));
             if peak == 0.0 {
                 continue;
             }
-            let error = (values[c][n] - exact[c]).abs() - doubt[c];
-            if error > errors[c] {
+            let error = (rates[c].samples[n] - exact[c]).abs() - doubt[c];
+            if error > rates[c].error {
                 println!(
                     "{order:?} T {duration} {place:?} component {c} t {time:.4}: off by {:.2e} of the peak, estimated {:.2e}",
                     error / peak,
-                    errors[c] / peak
+                    rates[c].error / peak
                 );
             }
-            found[0] = found[0].max(error / errors[c]);
-            found[1] = found[1].max(errors[c] / peak);
+            found[0] = found[0].max(error / rates[c].error);
+            found[1] = found[1].max(rates[c].error / peak);
         }
     }
     found

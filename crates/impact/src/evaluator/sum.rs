@@ -1,6 +1,6 @@
 //! The sum of one forcing over the discs of a choice, at one point.
 
-use super::AtPoint;
+use super::Trace;
 use super::at_rest::{static_si, units_si};
 use super::discs::Discs;
 use super::ends::open;
@@ -10,18 +10,17 @@ use crate::error::ImpactError;
 use crate::excitation::{Excitation, PressureRadius};
 use crate::fields::quantity::Derivative;
 use crate::kernels::Cells;
+use crate::record::stretch::largest;
 use halfspace::Six;
 use std::ops::Range;
 
 /// Samples of six fields, or of the rates of the first two, with what the samples leave open.
 pub(crate) struct Sum<'a> {
-    derivative: Derivative,
     forcing: &'a Forcing<'a>,
     discs: &'a Discs,
     forces: &'a [DiscForce],
     place_m: [f64; 2],
     /// At the samples that the forcing needs, of all runs.
-    times_s: Vec<f64>,
     values: [Vec<f64>; 6],
     errors: Six,
     /// What the discs may leave of each sample.
@@ -69,22 +68,15 @@ const QUADRATURE: f64 = 0.7;
 impl<'a> Sum<'a> {
     /// Of the forces on some discs with the kernels of each.
     pub(crate) fn new(
-        (derivative, forcing): (Derivative, &'a Forcing<'a>),
+        forcing: &'a Forcing<'a>,
         discs: &'a Discs,
         forces: &'a [DiscForce],
         place_m: [f64; 2],
         cells: &[Cells],
     ) -> Result<Self, ImpactError> {
-        let runs = forcing.runs.iter().zip(&forcing.needed);
-        let times = runs.flat_map(|(run, needed)| {
-            needed
-                .iter()
-                .map(|&n| run.start_s + n as f64 * forcing.step_s)
-        });
-        let times_s: Vec<f64> = times.collect();
-        let blank = || std::array::from_fn(|_| vec![0.0; times_s.len()]);
+        let samples = forcing.times_s.len();
+        let blank = || std::array::from_fn(|_| vec![0.0; samples]);
         let mut sum = Self {
-            derivative,
             forcing,
             discs,
             forces,
@@ -93,9 +85,8 @@ impl<'a> Sum<'a> {
             errors: Six::default(),
             left: blank(),
             rough: blank(),
-            integrated: vec![false; times_s.len()],
+            integrated: vec![false; samples],
             open: Vec::new(),
-            times_s,
         };
         for (k, cells) in cells.iter().enumerate() {
             sum.add_disc(k, cells);
@@ -104,7 +95,7 @@ impl<'a> Sum<'a> {
             if discs.radii.len() == 1 {
                 let near = NEAR * (largest_m / place_m[0].hypot(place_m[1])).powi(2);
                 for (error, samples) in sum.errors.iter_mut().zip(&sum.values) {
-                    *error += near * peak(samples);
+                    *error += near * largest(samples);
                 }
             }
             sum.add_following_static()?;
@@ -115,9 +106,7 @@ impl<'a> Sum<'a> {
                 sum.integrate_zones(i, cells);
             }
             for i in sum.not_resolved(&sum.left, BESIDE) {
-                if !sum.integrated[i] {
-                    sum.integrate_zones(i, cells);
-                }
+                sum.integrate_zones(i, cells);
             }
         }
         sum.open = sum.not_resolved(&sum.left, BESIDE);
@@ -126,7 +115,7 @@ impl<'a> Sum<'a> {
 
     /// The largest index of a component.
     fn components(&self) -> usize {
-        match self.derivative {
+        match self.forcing.derivative {
             Derivative::Field => 6,
             Derivative::First | Derivative::Second => 2,
         }
@@ -141,12 +130,8 @@ impl<'a> Sum<'a> {
             PressureRadius::Fixed(_) => cells.static_part,
             PressureRadius::Following { .. } => Six::default(),
         };
-        let zones = force.runs.iter().any(|run| !run.zones.is_empty());
-        let open = if zones {
-            open(&cells.moments)
-        } else {
-            Vec::new()
-        };
+        let has_zones = force.runs.iter().any(|run| !run.zones.is_empty());
+        let open = has_zones.then(|| open(&cells.moments)).unwrap_or_default();
         let mut first = 0;
         for (run, needed) in force.runs.iter().zip(&self.forcing.needed) {
             let own = run.force.fields(&rest, cells, needed);
@@ -182,17 +167,9 @@ impl<'a> Sum<'a> {
         /// Part of the force over which the static field is differenced: a smooth function of it.
         const PART: f64 = 1e-4;
         let excitation = self.forcing.excitation;
-        for (i, &time_s) in self.times_s.iter().enumerate() {
+        for (i, &time_s) in self.forcing.times_s.iter().enumerate() {
             let of = |one| static_si(excitation, self.place_m, [one]);
-            let pressures = excitation.pressures(time_s);
-            let fixed = match self.forcing.reading {
-                Reading::Force => static_si(excitation, self.place_m, pressures)?,
-                Reading::Rate => {
-                    let [one, other] = pressures.map(|one| one.rate_of(PART, of));
-                    let (one, other) = (one?, other?);
-                    std::array::from_fn(|f| one[f] + other[f])
-                }
-            };
+            let fixed = self.forcing.try_sum(time_s, PART, of)?;
             for (samples, value) in self.values.iter_mut().zip(fixed) {
                 samples[i] += value;
             }
@@ -203,10 +180,10 @@ impl<'a> Sum<'a> {
     /// Sets to zero what the sum leaves before the first wave from the largest disc has arrived.
     fn still_before_arrival(&mut self) {
         let first_s = self.forcing.excitation.arrivals_s(self.place_m)[0];
-        let still = self.times_s.iter().filter(|&&t| t < first_s).count();
-        let all = self.values.iter_mut().chain(&mut self.left);
-        for samples in all.chain(&mut self.rough) {
-            samples[..still].fill(0.0);
+        let early = self.forcing.times_s.iter().filter(|&&t| t < first_s);
+        let still = early.count();
+        for samples in [&mut self.values, &mut self.left, &mut self.rough] {
+            samples.iter_mut().for_each(|own| own[..still].fill(0.0));
         }
     }
 
@@ -215,14 +192,15 @@ impl<'a> Sum<'a> {
         self.place_m[0].max(self.place_m[1]) < self.forcing.excitation.units().disc_radius_m
     }
 
-    /// Samples that are beside one.
-    fn beside(&self) -> usize {
-        beside(self.forcing.excitation, self.forcing.step_s)
-    }
-
     /// Samples for which a whole contact is integrated at most.
     fn whole(&self) -> usize {
-        most_whole(self.derivative, self.forcing.tolerance, self.beside())
+        match self.forcing.derivative {
+            Derivative::Field => {
+                let own = self.forcing;
+                most_whole(own.excitation, own.step_s, own.tolerance)
+            }
+            Derivative::First | Derivative::Second => MOST_WHOLE[1],
+        }
     }
 
     /// Part of what may be left that the discs tell.
@@ -240,12 +218,11 @@ impl<'a> Sum<'a> {
         let part = self.sure() * SURE * self.forcing.tolerance * differences;
         /// Fields that are smaller beside their kind are not resolved on their own: just below the surface tractions vanish.
         const SMALL: f64 = 1e-4;
-        let peaks = self.values.each_ref().map(|samples| peak(samples));
-        let kinds = [&peaks[..2], &peaks[2..]].map(|kind| kind.iter().copied().fold(0.0, f64::max));
+        let peaks = self.values.each_ref().map(|samples| largest(samples));
+        let kinds = [&peaks[..2], &peaks[2..]].map(largest);
         let least = |f: usize| SMALL * kinds[usize::from(f >= 2)];
-        (0..self.components())
-            .map(|f| part * peaks[f].max(least(f)))
-            .collect()
+        let allowed = |f: usize| part * peaks[f].max(least(f));
+        (0..self.components()).map(allowed).collect()
     }
 
     /// The most that is left of a sample over what is allowed, but for as many as may be integrated as a whole.
@@ -260,10 +237,13 @@ impl<'a> Sum<'a> {
     fn not_resolved(&self, left: &[Vec<f64>; 6], part: f64) -> Vec<usize> {
         let allowed = self.allowed();
         let each = |i: usize| over(&allowed, |f| left[f][i]);
-        let each: Vec<f64> = (0..self.times_s.len()).map(each).collect();
-        let reach = self.beside() * if self.is_under() { BESIDE_UNDER } else { 1 };
+        let each: Vec<f64> = (0..self.forcing.times_s.len()).map(each).collect();
+        let reach = beside(self.forcing.excitation, self.forcing.step_s)
+            * if self.is_under() { BESIDE_UNDER } else { 1 };
         let off = |i: usize| {
-            let steps = |j: usize| (self.times_s[i] - self.times_s[j]).abs() / self.forcing.step_s;
+            let steps = |j: usize| {
+                (self.forcing.times_s[i] - self.forcing.times_s[j]).abs() / self.forcing.step_s
+            };
             let near = |&j: &usize| steps(j) < reach as f64 + 0.5;
             let next = (i.saturating_sub(reach)..(i + reach + 1).min(each.len())).filter(near);
             (i, next.fold(each[i], |most, j| most.max(part * each[j])))
@@ -281,7 +261,7 @@ impl<'a> Sum<'a> {
         mut self,
         past: Option<&Past<'_>>,
         cells: &[Cells],
-    ) -> Result<AtPoint, ImpactError> {
+    ) -> Result<Vec<Trace>, ImpactError> {
         let radius = self.forcing.excitation.radius();
         let zones = matches!(radius, PressureRadius::Following { .. });
         let zones = zones || self.integrated.contains(&true);
@@ -289,7 +269,7 @@ impl<'a> Sum<'a> {
         let integrals = f64::from(u8::from(zones) + u8::from(anew.is_some()));
         for f in 0..6 {
             self.errors[f] +=
-                integrals * QUADRATURE * self.forcing.tolerance * peak(&self.values[f]);
+                integrals * QUADRATURE * self.forcing.tolerance * largest(&self.values[f]);
         }
         if let Some(past) = anew {
             let allowed = self.allowed();
@@ -300,32 +280,25 @@ impl<'a> Sum<'a> {
             }
         }
         let sure = self.sure();
-        for (left, rough) in self.left.iter_mut().zip(&self.rough) {
-            for (left, rough) in left.iter_mut().zip(rough) {
-                *left = left.abs() / sure + rough;
-            }
-        }
-        for (error, left) in self.errors.iter_mut().zip(&self.left) {
-            *error +=
-                peak(left) * (2.0 / self.forcing.step_s).powi(self.forcing.differences as i32);
-        }
-        let values = std::mem::take(&mut self.values).map(|samples| self.differenced(&samples));
+        let per_step = (2.0 / self.forcing.step_s).powi(self.forcing.differences as i32);
         // a rate is as much more sensitive than the force as its pulse is shorter
         const WITHIN: f64 = 4.0;
-        let relative = self.forcing.excitation.relative_error()
+        let relative = self.forcing.excitation.relative_error
             + self.forcing.tolerance
-                * match self.derivative {
+                * match self.forcing.derivative {
                     Derivative::Field => 0.0,
                     Derivative::First => WITHIN,
                     Derivative::Second => WITHIN * WITHIN,
                 };
-        for (error, samples) in self.errors.iter_mut().zip(&values) {
-            *error += relative * peak(samples);
-        }
-        Ok(AtPoint {
-            values: values.into(),
-            errors: self.errors.into(),
-        })
+        let of = |f: usize| {
+            let left = self.left[f].iter().zip(&self.rough[f]);
+            let left = left.map(|(left, rough)| left.abs() / sure + rough);
+            let samples = self.differenced(&self.values[f]);
+            let left = left.fold(0.0, f64::max) * per_step;
+            let error = self.errors[f] + left + relative * largest(&samples);
+            Trace { samples, error }
+        };
+        Ok((0..6).map(of).collect())
     }
 
     /// The run of a sample and its number there.
@@ -346,9 +319,6 @@ impl<'a> Sum<'a> {
         let unit = units_si(self.forcing.excitation, over);
         let unit_s = over * self.forcing.excitation.units().time_s();
         let own = &self.forces[k].runs[run];
-        // some radii away it is known at the samples alone
-        let last = own.last.as_ref().filter(|_| self.discs.omitted.is_none());
-        let both = [Some(&own.force), last];
         let mut change = [Six::default(); 2];
         for zone in &own.zones {
             let part = zone.cells.start.max(among.start)..zone.cells.end.min(among.end);
@@ -356,11 +326,13 @@ impl<'a> Sum<'a> {
                 continue;
             };
             let past_s = self.forcing.span_s(&self.forcing.runs[run], &part);
-            let exact = zone.by_trace(self.times_s[i], past_s, (trace, unit_s));
-            for ((change, exact), force) in change.iter_mut().zip(exact).zip(both) {
-                let by_cells = force.map_or(Six::default(), |force| {
-                    force.projection.by_cells(n, &part, &cells.moments)
-                });
+            let exact = zone.by_trace(self.forcing.times_s[i], past_s, (trace, unit_s));
+            let mut by_cells = own.by_cells(n, &part, &cells.moments);
+            if self.discs.omitted.is_some() {
+                // some radii away the last is known at the samples alone
+                by_cells[1] = Six::default();
+            }
+            for ((change, exact), by_cells) in change.iter_mut().zip(exact).zip(by_cells) {
                 for f in 0..6 {
                     change[f] += unit[f] * (exact[f] - by_cells[f]);
                 }
@@ -371,7 +343,9 @@ impl<'a> Sum<'a> {
 
     /// Replaces the cells of the zones in one sample by integrals.
     fn integrate_zones(&mut self, i: usize, cells: &[Cells]) {
-        self.integrated[i] = true;
+        if std::mem::replace(&mut self.integrated[i], true) {
+            return;
+        }
         for (k, cells) in cells.iter().enumerate() {
             let [change, last] = self.by_zones(i, k, cells, &(0..usize::MAX));
             for f in 0..self.components() {
@@ -391,14 +365,14 @@ impl<'a> Sum<'a> {
         cells: &[Cells],
         (allowed, whole): (&[f64], &mut usize),
     ) -> Result<(), ImpactError> {
-        let time_s = self.times_s[i];
+        let time_s = self.forcing.times_s[i];
         let (run, _) = self.in_run(i);
         let grid = &self.forcing.runs[run];
         let span_s = |cells: &Range<usize>| self.forcing.span_s(grid, cells);
         let contacts = self.forcing.contacts(grid);
         let mut parts: Vec<Range<usize>> = Vec::new();
         let long_s = LONG * self.forcing.excitation.units().time_s();
-        let mut near = self.derivative != Derivative::Field;
+        let mut near = self.forcing.derivative != Derivative::Field;
         for contact in &contacts {
             let found = past.parts(self.place_m, time_s, contact, span_s);
             let [begin_s, end_s] = span_s(contact);
@@ -416,12 +390,10 @@ impl<'a> Sum<'a> {
         }
         let mut exact = Six::default();
         for part in &parts {
+            let (step_s, span_s) = (self.forcing.step_s, span_s(part));
             let found = match self.forcing.reading {
-                Reading::Force => past.between(self.place_m, time_s, span_s(part))?,
-                Reading::Rate => {
-                    let step_s = self.forcing.step_s;
-                    past.rate_between(self.place_m, time_s, span_s(part), step_s)?
-                }
+                Reading::Force => past.between(self.place_m, time_s, span_s)?,
+                Reading::Rate => past.rate_between(self.place_m, time_s, span_s, step_s)?,
             };
             for (sum, found) in exact.iter_mut().zip(found) {
                 *sum += found;
@@ -442,16 +414,12 @@ impl<'a> Sum<'a> {
         for part in parts {
             for (k, cells) in cells.iter().enumerate() {
                 let unit = units_si(self.forcing.excitation, self.discs.radii[k]);
-                let force = &self.forces[k].runs[run];
                 let zones = match self.integrated[i] {
                     true => self.by_zones(i, k, cells, part),
                     false => [Six::default(); 2],
                 };
-                let both = [Some(&force.force), force.last.as_ref()];
-                for ((sum, zones), force) in sums.iter_mut().zip(zones).zip(both) {
-                    let by_cells = force.map_or(Six::default(), |force| {
-                        force.projection.by_cells(n, part, &cells.moments)
-                    });
+                let by_cells = self.forces[k].runs[run].by_cells(n, part, &cells.moments);
+                for ((sum, zones), by_cells) in sums.iter_mut().zip(zones).zip(by_cells) {
                     for f in 0..6 {
                         sum[f] += unit[f] * by_cells[f] + zones[f];
                     }
@@ -474,19 +442,15 @@ impl<'a> Sum<'a> {
 }
 
 /// Samples a step apart that are beside one.
-pub(crate) fn beside(excitation: &Excitation, step_s: f64) -> usize {
+fn beside(excitation: &Excitation, step_s: f64) -> usize {
     let reach_s = (REACH * excitation.units().time_s()).min(OF_CONTACT * excitation.end_s());
     (reach_s / step_s).round().clamp(1.0, MOST_BESIDE) as usize
 }
 
-/// Samples of a point for which a whole contact is integrated at most, where so many are beside one.
-pub(crate) fn most_whole(derivative: Derivative, tolerance: f64, beside: usize) -> usize {
-    let [fields, rates] = MOST_WHOLE;
-    if derivative != Derivative::Field {
-        return rates;
-    }
+/// Samples of a point's fields for which a whole contact is integrated at most.
+pub(crate) fn most_whole(excitation: &Excitation, step_s: f64, tolerance: f64) -> usize {
     let more = MORE_WHOLE.powf((-tolerance.log10() - 4.0).max(0.0));
-    (fields as f64 * more.max(beside as f64)) as usize
+    (MOST_WHOLE[0] as f64 * more.max(beside(excitation, step_s) as f64)) as usize
 }
 
 /// The largest of what is left of the fields over what is allowed.
@@ -497,9 +461,4 @@ fn over(allowed: &[f64], left: impl Fn(usize) -> f64) -> f64 {
         left => left / allowed,
     })
     .fold(0.0, f64::max)
-}
-
-/// Largest magnitude.
-fn peak(samples: &[f64]) -> f64 {
-    samples.iter().fold(0.0, |most, v| most.max(v.abs()))
 }

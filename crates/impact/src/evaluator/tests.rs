@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 
-use crate::evaluator::{Asked, AtPoint, Evaluator, Past};
+use crate::evaluator::{Asked, Evaluator, Past, Trace};
 use crate::excitation::{Excitation, PressureRadius};
 use crate::grid::{Grid, Wanted};
 use crate::impact::Impact;
@@ -79,7 +79,7 @@ pub(crate) fn contact(poisson_ratio: f64, duration: f64) -> Excitation {
         tolerance: 1e-10,
         ..Settings::default()
     };
-    let (_, history) = Solver::new(&Exact)
+    let (_, mut history) = Solver::new(&Exact)
         .solve_with_history(&Collision::new(&steel, &ball, 1.0), &settings)
         .unwrap();
     let units = CollisionUnits {
@@ -87,7 +87,8 @@ pub(crate) fn contact(poisson_ratio: f64, duration: f64) -> Excitation {
         time_s: duration / HERTZ,
         force_n: 1.0,
     };
-    Excitation::of_contact(&half_space, radius, history, units, duration, 0.0).unwrap()
+    history.error = 0.0;
+    Excitation::of_contact(&half_space, radius, history, units, duration).unwrap()
 }
 
 /// The grid that would be chosen for all of a contact's waves to a distance.
@@ -109,7 +110,7 @@ fn at(
     wanted: &[usize],
     tolerance: f64,
     place: [f64; 2],
-) -> AtPoint {
+) -> Vec<Trace> {
     let evaluator = Evaluator::new(Asked {
         excitation,
         source,
@@ -185,9 +186,9 @@ fn discs_agree_with_frequency_and_wavenumber_integrals() {
             let point = at((&excitation, &source), &grid, &wanted, tolerance, row.place);
             for f in 0..6 {
                 if row.peaks[f] > 0.0 {
-                    let error = (point.values[f].last().unwrap() - row.fields[f]).abs();
+                    let error = (point[f].samples.last().unwrap() - row.fields[f]).abs();
                     if error > tolerance * row.peaks[f]
-                        || error > point.errors[f] + row.error * row.peaks[f]
+                        || error > point[f].error + row.error * row.peaks[f]
                     {
                         println!(
                             "T {} nu {} at {:?}, t {}: field {f} {:.1e}, estimated {:.1e}",
@@ -196,12 +197,12 @@ fn discs_agree_with_frequency_and_wavenumber_integrals() {
                             row.place,
                             row.time,
                             error / row.peaks[f],
-                            point.errors[f] / row.peaks[f]
+                            point[f].error / row.peaks[f]
                         );
                     }
-                    missed += usize::from(error > point.errors[f] + row.error * row.peaks[f]);
+                    missed += usize::from(error > point[f].error + row.error * row.peaks[f]);
                     errors.push(error / row.peaks[f]);
-                    ratios.push(point.errors[f] / error.max(1e-300));
+                    ratios.push(point[f].error / error.max(1e-300));
                 }
             }
         }
@@ -253,10 +254,10 @@ fn far_away_few_discs_are_enough() {
                     let off = |(x, value): (&Six, &f64)| (value - x[f]).abs() / peak;
                     let error = exact
                         .iter()
-                        .zip(&point.values[f])
+                        .zip(&point[f].samples)
                         .map(off)
                         .fold(0.0, f64::max);
-                    let estimate = point.errors[f] / peak;
+                    let estimate = point[f].error / peak;
                     errors.push(error / tolerance);
                     if error > estimate {
                         println!(
@@ -295,7 +296,7 @@ fn tractions_below_the_surface_are_within_their_estimate_in_the_middle_of_a_long
         let point = at((&excitation, &source), &grid, &wanted, tolerance, place);
         for (i, &n) in wanted.iter().enumerate() {
             for (f, exact) in exact.at(place, times[n]).unwrap().into_iter().enumerate() {
-                let (error, estimate) = ((point.values[f][i] - exact).abs(), point.errors[f]);
+                let (error, estimate) = ((point[f].samples[i] - exact).abs(), point[f].error);
                 assert!(error < estimate, "{place:?} {f}: {error:e}, {estimate:e}");
             }
         }
@@ -328,7 +329,7 @@ fn fields_just_below_the_surface_about_a_contact_are_within_their_estimate() {
             for n in parts.map(|part| (part * times.len() as f64) as usize) {
                 let exact = exact.at(place, times[n]).unwrap();
                 for (f, exact) in exact.into_iter().enumerate().take(known) {
-                    let (error, estimate) = ((point.values[f][n] - exact).abs(), point.errors[f]);
+                    let (error, estimate) = ((point[f].samples[n] - exact).abs(), point[f].error);
                     assert!(
                         error < estimate,
                         "{place:?}, sample {n} of {}, field {f}: {error:e}, {estimate:e}",
@@ -373,7 +374,7 @@ fn fields_at_steps_that_are_shorter_than_the_tolerance_asks_for_are_within_their
     let mut worst = 0.0_f64;
     for (n, &time) in times.iter().enumerate().take(130).skip(1) {
         for (f, exact) in exact.at(place, time).unwrap().into_iter().enumerate() {
-            worst = worst.max((point.values[f][n] - exact).abs() / point.errors[f]);
+            worst = worst.max((point[f].samples[n] - exact).abs() / point[f].error);
         }
     }
     assert!(worst < 1.0, "{worst}");
@@ -423,9 +424,9 @@ fn what_arrives_from_the_turning_point_of_a_contact_that_yields_is_within_its_es
             for f in 0..6 {
                 let peak = exact.iter().fold(0.0_f64, |most, x| most.max(x[f].abs()));
                 let off = |(x, value): (&Six, &f64)| (value - x[f]).abs() / peak;
-                let errors = exact.iter().zip(&point.values[f]).map(off);
+                let errors = exact.iter().zip(&point[f].samples).map(off);
                 let error = errors.fold(0.0, f64::max);
-                let estimate = point.errors[f] / peak;
+                let estimate = point[f].error / peak;
                 worst[usize::from(f > 1)] = worst[usize::from(f > 1)].max(error);
                 if peak > 0.0 {
                     assert!(error < estimate, "{place:?} {f}: {error:e}, {estimate:e}");

@@ -6,7 +6,7 @@ pub(crate) mod probes;
 pub(crate) mod quantity;
 
 use crate::error::ImpactError;
-use crate::evaluator::{Asked, Evaluator, Past};
+use crate::evaluator::{Asked, Evaluator, Past, Trace};
 use crate::excitation::Excitation;
 use crate::grid::{Grid, Wanted};
 use crate::kernels::KernelSource;
@@ -105,13 +105,10 @@ impl Fields<'_> {
             tolerance: self.tolerance,
             watch: &|| {},
         })?;
-        let found = evaluator.at(r_m, z_m)?;
-        let traces = found.values.into_iter().zip(found.errors);
-        let traces = traces.map(|(samples, error)| Trace { samples, error });
         Ok(FieldHistory {
+            traces: evaluator.at(r_m, z_m)?,
             time_s,
             arrival_s: self.excitation.arrivals_s([r_m, z_m]),
-            traces: traces.collect(),
         })
     }
 }
@@ -131,23 +128,5 @@ impl Index<Field> for FieldHistory {
 
     fn index(&self, field: Field) -> &Trace {
         &self.traces[field.index()]
-    }
-}
-
-/// One field over time, in m or Pa.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Trace {
-    /// Samples at the times of the history.
-    pub samples: Vec<f64>,
-    /// Estimated absolute error of every sample.
-    pub error: f64,
-}
-
-impl Trace {
-    /// The sample of the largest magnitude, with its sign.
-    #[must_use]
-    pub fn peak(&self) -> f64 {
-        let larger = |most: f64, &x: &f64| if x.abs() > most.abs() { x } else { most };
-        self.samples.iter().fold(0.0, larger)
     }
 }

@@ -1,8 +1,8 @@
 //! Fields at the probes of a scene and on its meridional section, and their largest values over time.
 
 use crate::cost::Forecast;
-use crate::error::ImpactError;
-use crate::evaluator::{Asked, AtPoint, Evaluator};
+use crate::error::{ImpactError, finite};
+use crate::evaluator::{Asked, Evaluator, Trace};
 use crate::excitation::Excitation;
 use crate::fields::quantity::Quantity;
 use crate::grid::{Grid, Wanted};
@@ -68,35 +68,34 @@ pub struct Peaks {
 impl Peaks {
     /// Adds the peak of the next place.
     pub fn push(&mut self, time_s: &[f64], samples: &[f64]) {
-        let larger = |most: usize, i: usize| {
-            if samples[i].abs() > samples[most].abs() {
-                i
-            } else {
-                most
-            }
-        };
-        let most = (0..samples.len()).fold(0, larger);
-        self.values.push(samples.get(most).copied().unwrap_or(0.0));
-        self.time_s.push(time_s.get(most).copied().unwrap_or(0.0));
+        let [value, time_s] = peak(time_s, samples);
+        self.values.push(value);
+        self.time_s.push(time_s);
     }
+}
+
+/// The first sample of the largest magnitude, with its sign, and its time; zeros without samples.
+fn peak(time_s: &[f64], samples: &[f64]) -> [f64; 2] {
+    let all = samples.iter().zip(time_s);
+    let all = all.map(|(&value, &time_s)| [value, time_s]);
+    let larger = |most: [f64; 2], one: [f64; 2]| match one[0].abs() > most[0].abs() {
+        true => one,
+        false => most,
+    };
+    all.reduce(larger).unwrap_or_default()
 }
 
 impl ProbeFields {
     /// What the user should know of echoes in an output that ends at a time in s.
     pub(crate) fn echoes(&self, end_s: f64) -> Option<String> {
-        let echoing = self.valid_until_s.iter().enumerate();
-        let echoing: Vec<(usize, f64)> = echoing
-            .map(|(i, &valid_s)| (i, valid_s))
-            .filter(|(_, valid_s)| *valid_s < end_s)
-            .collect();
-        let sooner = |a: (usize, f64), b: (usize, f64)| if b.1 < a.1 { b } else { a };
-        let first = echoing.iter().copied().reduce(sooner)?;
+        let probes = self.valid_until_s.iter().enumerate();
+        let echoing = probes.filter(|(_, valid_s)| **valid_s < end_s);
+        let (first, first_s) = echoing.clone().min_by(|a, b| a.1.total_cmp(b.1))?;
         Some(format!(
-            "echoes from the faces of the block reach {} of {} probes before the output ends at {end_s:.4e} s, probe {} first, at {:.4e} s: what follows there is that of a half-space, not of the block",
-            echoing.len(),
+            "echoes from the faces of the block reach {} of {} probes before the output ends at {end_s:.4e} s, probe {} first, at {first_s:.4e} s: what follows there is that of a half-space, not of the block",
+            echoing.count(),
             self.r_m.len(),
-            first.0 + 1,
-            first.1
+            first + 1
         ))
     }
 }
@@ -107,10 +106,8 @@ pub(crate) fn at_probes(
     block: &HalfSpace,
     probes: &[Probe],
 ) -> Result<ProbeFields, ImpactError> {
-    let found: Vec<AtPoint> = probes
-        .par_iter()
-        .map(|probe| evaluator.at(probe.r_m, probe.z_m))
-        .collect::<Result<_, _>>()?;
+    let found = (probes.par_iter()).map(|probe| evaluator.at(probe.r_m, probe.z_m));
+    let found: Vec<Vec<Trace>> = found.collect::<Result<_, _>>()?;
     let quantities = evaluator.asked.quantities.to_vec();
     let count = 6 + quantities.len();
     let mut fields = ProbeFields {
@@ -124,16 +121,15 @@ pub(crate) fn at_probes(
     };
     let excitation = evaluator.asked.excitation;
     let (speeds, radius_m) = (excitation.speeds(), excitation.units().disc_radius_m);
-    for (AtPoint { values, errors }, probe) in found.into_iter().zip(probes) {
+    for (found, probe) in found.into_iter().zip(probes) {
         let place_m = [probe.r_m, probe.z_m];
         fields.arrival_s.push(excitation.arrivals_s(place_m));
         let echo_s = speeds.first_echo_s(block, place_m, radius_m);
         let valid_s = echo_s.map_or(f64::INFINITY, |t| excitation.start_s() + t);
         fields.valid_until_s.push(valid_s);
-        let found = fields.values.iter_mut().zip(&mut fields.errors);
-        for ((own, own_errors), (samples, error)) in found.zip(values.into_iter().zip(errors)) {
-            own.push(samples);
-            own_errors.push(error);
+        for (quantity, trace) in found.into_iter().enumerate() {
+            fields.values[quantity].push(trace.samples);
+            fields.errors[quantity].push(trace.error);
         }
     }
     Ok(fields)
@@ -174,43 +170,27 @@ pub(crate) fn on_section(
     };
     for row in 0..fields.z_m.len() {
         let z_m = fields.z_m[row];
-        let found: Vec<AtPoint> = fields
-            .r_m
-            .par_iter()
-            .map(|&r_m| evaluator.at(r_m, z_m))
-            .collect::<Result<_, _>>()?;
-        for (column, at_point) in found.into_iter().enumerate() {
+        let found = fields.r_m.par_iter().map(|&r_m| evaluator.at(r_m, z_m));
+        let found: Vec<Vec<Trace>> = found.collect::<Result<_, _>>()?;
+        for (column, found) in found.into_iter().enumerate() {
             let place_m = [fields.r_m[column], z_m];
             let arrivals = evaluator.asked.excitation.arrivals_s(place_m);
             for (times, time) in fields.arrival_s.iter_mut().zip(arrivals) {
                 times.push(time);
             }
             let place = row * radii + column;
-            fields.add((&all_s, frames), (place, size), &at_point);
+            for (quantity, Trace { samples, error }) in found.into_iter().enumerate() {
+                for (frame, &n) in frames.iter().enumerate() {
+                    fields.values[quantity][frame * size + place] = samples[n] as f32;
+                }
+                fields.errors[quantity].push(error);
+                if let Some(peaks) = &mut fields.peaks {
+                    peaks[quantity].push(&all_s, &samples);
+                }
+            }
         }
     }
     Ok(fields)
-}
-
-impl SectionFields {
-    /// Adds what was found at a place of `size` places.
-    fn add(
-        &mut self,
-        (all_s, frames): (&[f64], &[usize]),
-        (place, size): (usize, usize),
-        AtPoint { values, errors }: &AtPoint,
-    ) {
-        let found = self.values.iter_mut().zip(&mut self.errors);
-        for ((own, own_errors), (samples, &error)) in found.zip(values.iter().zip(errors)) {
-            for (frame, &n) in frames.iter().enumerate() {
-                own[frame * size + place] = samples[n] as f32;
-            }
-            own_errors.push(error);
-        }
-        for (peaks, samples) in self.peaks.iter_mut().flatten().zip(values) {
-            peaks.push(all_s, samples);
-        }
-    }
 }
 
 /// Fields at the probes of a scene, each by its peak.
@@ -261,13 +241,12 @@ pub(crate) fn peaks_at_probes(
         watch: &|| {},
     })?;
     for probe in &scene.probes {
-        let at_point = evaluator.at(probe.r_m, probe.z_m)?;
-        for (samples, error) in at_point.values.iter().zip(at_point.errors) {
-            let mut peaks = Peaks::default();
-            peaks.push(&time_s, samples);
-            let (value, time_s) = (peaks.values[0], peaks.time_s[0]);
+        for Trace { samples, error } in evaluator.at(probe.r_m, probe.z_m)? {
+            let [value, time_s] = peak(&time_s, &samples);
             found.peaks.push([value, time_s, error]);
         }
     }
+    let peaks = found.peaks.iter().flatten().copied();
+    finite(|| "the peak of a field at a probe".to_owned(), peaks)?;
     Ok(found)
 }

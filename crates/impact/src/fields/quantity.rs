@@ -15,55 +15,40 @@ pub(crate) enum Derivative {
     Second,
 }
 
-/// A quantity beside the six fields that every result has.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Quantity {
-    /// Radial velocity of the particles.
-    VelocityR,
-    /// Axial velocity of the particles.
-    VelocityZ,
-    /// Radial acceleration, as a mean over one step of the output.
-    AccelerationR,
-    /// Axial acceleration, as a mean over one step of the output.
-    AccelerationZ,
-    /// Radial strain.
-    StrainRr,
-    /// Hoop strain.
-    StrainTt,
-    /// Axial strain.
-    StrainZz,
-    /// Shear strain of the tensor, half of the change of angle.
-    StrainRz,
-    /// Von Mises' equivalent stress.
-    VonMises,
-    /// Tresca's equivalent stress.
-    Tresca,
-    /// Largest shear stress.
-    MaxShear,
-    /// Largest principal stress.
-    Principal1,
-    /// Middle principal stress.
-    Principal2,
-    /// Smallest principal stress, the largest compression.
-    Principal3,
+contact::choice! {
+    /// A quantity beside the six fields that every result has.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub enum Quantity {
+        /// Radial velocity of the particles.
+        VelocityR = "velocity_r",
+        /// Axial velocity of the particles.
+        VelocityZ = "velocity_z",
+        /// Radial acceleration, as a mean over one step of the output.
+        AccelerationR = "acceleration_r",
+        /// Axial acceleration, as a mean over one step of the output.
+        AccelerationZ = "acceleration_z",
+        /// Radial strain.
+        StrainRr = "strain_rr",
+        /// Hoop strain.
+        StrainTt = "strain_tt",
+        /// Axial strain.
+        StrainZz = "strain_zz",
+        /// Shear strain of the tensor, half of the change of angle.
+        StrainRz = "strain_rz",
+        /// Von Mises' equivalent stress.
+        VonMises = "von_mises",
+        /// Tresca's equivalent stress.
+        Tresca = "tresca",
+        /// Largest shear stress.
+        MaxShear = "max_shear",
+        /// Largest principal stress.
+        Principal1 = "principal_1",
+        /// Middle principal stress.
+        Principal2 = "principal_2",
+        /// Smallest principal stress, the largest compression.
+        Principal3 = "principal_3",
+    }
 }
-
-contact::choice!(Quantity:
-    VelocityR = "velocity_r",
-    VelocityZ = "velocity_z",
-    AccelerationR = "acceleration_r",
-    AccelerationZ = "acceleration_z",
-    StrainRr = "strain_rr",
-    StrainTt = "strain_tt",
-    StrainZz = "strain_zz",
-    StrainRz = "strain_rz",
-    VonMises = "von_mises",
-    Tresca = "tresca",
-    MaxShear = "max_shear",
-    Principal1 = "principal_1",
-    Principal2 = "principal_2",
-    Principal3 = "principal_3"
-);
 
 impl Quantity {
     /// Of a velocity or an acceleration which derivative it is, and its component; none of what follows from the stresses of
@@ -137,11 +122,10 @@ impl Quantity {
                 self.of([rr, tt, zz, rz], [modulus, shear])
             }
             Self::VonMises => von_mises([rr + tt, tt + zz, zz + rr, rz]),
-            Self::Principal1 | Self::Principal2 | Self::Principal3 => {
+            Self::MaxShear | Self::Principal1 | Self::Principal2 | Self::Principal3 => {
                 principal([rr, tt, zz, rz])[0]
             }
             Self::Tresca => 2.0 * principal([rr, tt, zz, rz])[0],
-            Self::MaxShear => principal([rr, tt, zz, rz])[0],
             Self::VelocityR | Self::VelocityZ | Self::AccelerationR | Self::AccelerationZ => {
                 f64::NAN
             }

@@ -35,25 +35,16 @@ pub struct Cells {
 }
 
 impl Cells {
-    /// Total variation of the step response: the largest response to a force that is nowhere above one.
-    #[must_use]
-    pub fn variation(&self) -> Six {
-        self.steps(0.0, |sum, step| sum + step)
-    }
-
-    /// Largest change of the step response from one cell to the next.
-    #[must_use]
-    pub fn largest_step(&self) -> Six {
-        self.steps(0.0, f64::max)
-    }
-
-    /// The changes of the step response from cell to cell, folded.
-    fn steps(&self, none: f64, fold: impl Fn(f64, f64) -> f64) -> Six {
+    /// Of each field's step response the total variation, which is the largest response to a force that is nowhere above
+    /// one, and the largest change from one cell to the next.
+    pub(crate) fn steps(&self) -> [[f64; 2]; 6] {
         let averages = &self.moments.averages;
         std::array::from_fn(|f| {
-            let first = averages.first().map_or(0.0, |cell| cell[f]);
+            let first = self.static_part[f] + averages.first().map_or(0.0, |cell| cell[f]);
             let steps = averages.windows(2).map(|c| (c[1][f] - c[0][f]).abs());
-            steps.fold(fold(none, (self.static_part[f] + first).abs()), &fold)
+            steps.fold([first.abs(); 2], |[sum, most], step| {
+                [sum + step, most.max(step)]
+            })
         })
     }
 }
@@ -70,18 +61,14 @@ impl KernelSource {
     /// # Errors
     /// [`DomainError`] for a tolerance outside its range.
     pub fn direct(medium: &Medium, tolerance: f64) -> Result<Self, DomainError> {
-        Ok(Self::Direct(Arc::new(Kernel::new(
-            medium,
-            Profile::Hertz,
-            tolerance,
-        )?)))
+        let kernel = Kernel::new(medium, Profile::Hertz, tolerance)?;
+        Ok(Self::Direct(Arc::new(kernel)))
     }
 
     /// Step in r0/c1 not longer than `wanted`, unless the table has none so short.
     ///
     /// Powers of two also without a table, so that both sources give the same samples.
-    #[must_use]
-    pub fn step(&self, poisson_ratio: f64, wanted: f64) -> f64 {
+    pub(crate) fn step(&self, poisson_ratio: f64, wanted: f64) -> f64 {
         match self {
             Self::Direct(_) => wanted.log2().floor().exp2(),
             Self::Table(table) => {
@@ -94,31 +81,29 @@ impl KernelSource {
     }
 
     /// Largest r and z in radii at which its values are sure: beyond, computed ones lose digits.
-    #[must_use]
-    pub fn reach(&self) -> [f64; 2] {
+    pub(crate) fn reach(&self) -> [f64; 2] {
         match self {
             Self::Direct(_) => [FARTHEST; 2],
             Self::Table(table) => [table.r_max(), table.z_max()],
         }
     }
 
-    /// The cells at (r, z).
+    /// The cells at (r, z) in radii of a disc, whose radius in m is for messages.
     ///
     /// # Errors
     /// [`ImpactError`] for a point outside the half-space or the table.
     pub fn cells(
         &self,
         poisson_ratio: f64,
-        place: Place,
+        [r, z]: [f64; 2],
+        disc_radius_m: f64,
         wanted: CellPlan,
     ) -> Result<Cells, ImpactError> {
-        let CellPlan {
-            step, count, pulse, ..
-        } = wanted;
-        let Place { r, z, .. } = place;
+        let (step, count, pulse) = (wanted.step, wanted.count, wanted.pulse);
+        let [r_m, z_m] = [r, z].map(|x| x * disc_radius_m);
         let (static_part, moments, error, trace) = match self {
             Self::Direct(kernel) => {
-                let domain = |source| place.domain(source);
+                let domain = |source| ImpactError::OutsideBlock { r_m, z_m, source };
                 let rise = |length: f64| pulse.rise(length, wanted.rates);
                 let part = if wanted.rates { 0.004 } else { 1.0 };
                 let tolerance = part * TRACE * wanted.tolerance;
@@ -139,7 +124,12 @@ impl KernelSource {
                 (static_part, moments, error, Some(trace))
             }
             Self::Table(table) => {
-                let outside = |source| place.outside(source);
+                let outside = |source| ImpactError::OutsideTable {
+                    r_m,
+                    z_m,
+                    disc_radius_m,
+                    source,
+                };
                 let found = table.moments(poisson_ratio, r, z, step, count);
                 let (static_part, moments) = found.map_err(outside)?;
                 let error = table_error(table, poisson_ratio, [r, z], pulse).map_err(outside)?;
@@ -153,36 +143,6 @@ impl KernelSource {
             error,
             trace,
         })
-    }
-}
-
-/// A point in kernel units, with its unit for messages.
-#[derive(Debug, Clone, Copy)]
-pub struct Place {
-    /// Distance from the axis in disc radii.
-    pub r: f64,
-    /// Depth in disc radii.
-    pub z: f64,
-    /// Unit of length in m.
-    pub disc_radius_m: f64,
-}
-
-impl Place {
-    pub(crate) fn outside(self, source: LookupError) -> ImpactError {
-        ImpactError::OutsideTable {
-            r_m: self.r * self.disc_radius_m,
-            z_m: self.z * self.disc_radius_m,
-            disc_radius_m: self.disc_radius_m,
-            source,
-        }
-    }
-
-    pub(crate) fn domain(self, source: DomainError) -> ImpactError {
-        ImpactError::OutsideBlock {
-            r_m: self.r * self.disc_radius_m,
-            z_m: self.z * self.disc_radius_m,
-            source,
-        }
     }
 }
 
@@ -236,7 +196,7 @@ impl Pulse {
 ///
 /// # Errors
 /// [`LookupError`] outside the table.
-pub fn table_error(
+pub(crate) fn table_error(
     table: &Table,
     poisson_ratio: f64,
     [r, z]: [f64; 2],

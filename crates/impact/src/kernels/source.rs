@@ -1,6 +1,6 @@
 //! Where the kernels of the fields come from: computed, or looked up.
 
-use crate::cost::{Cost, busy};
+use crate::cost::{busy, fields_s};
 use crate::error::ImpactError;
 use crate::evaluator::discs::Discs;
 use crate::excitation::Excitation;
@@ -64,17 +64,12 @@ impl Tables for lookup::TableFile {
 #[derive(Debug)]
 pub struct Shared {
     tables: Arc<dyn Tables>,
-    known: Mutex<HashMap<u64, Known>>,
-    fault: Mutex<Option<String>>,
+    /// What is known of each ratio, and why a part could not be read.
+    seen: Mutex<(HashMap<u64, Known>, Option<String>)>,
 }
 
-/// What is known of a ratio.
-#[derive(Debug)]
-struct Known {
-    refusal: Option<LookupError>,
-    /// The part that was loaded, and the places that it was loaded for.
-    part: Option<([[f64; 2]; 2], Arc<Table>)>,
-}
+/// What is known of a ratio: why there is no table, and the part that was loaded with the places that it was loaded for.
+type Known = (Option<LookupError>, Option<([[f64; 2]; 2], Arc<Table>)>);
 
 /// How much farther than was asked a part reaches that takes the place of another: places of a sweep wander. It begins in
 /// the centre, so that places that come nearer are read once more at most.
@@ -84,18 +79,15 @@ impl Shared {
     /// Of some tables; nothing is loaded yet.
     #[must_use]
     pub fn new(tables: Arc<dyn Tables>) -> Self {
-        Self {
-            tables,
-            known: Mutex::default(),
-            fault: Mutex::default(),
-        }
+        let seen = Mutex::default();
+        Self { tables, seen }
     }
 
     /// Why a part could not be read, where that has happened: what was computed since may lack it.
     #[must_use]
     pub fn fault(&self) -> Option<String> {
-        let fault = self.fault.lock().unwrap_or_else(PoisonError::into_inner);
-        fault.clone()
+        let seen = self.seen.lock().unwrap_or_else(PoisonError::into_inner);
+        seen.1.clone()
     }
 
     /// What `read` finds with what is known of a ratio; where that fails, the reason is kept.
@@ -104,21 +96,19 @@ impl Shared {
         poisson_ratio: f64,
         read: impl FnOnce(&mut Known) -> Result<T, AnyError>,
     ) -> Result<T, AnyError> {
-        let mut all = self.known.lock().unwrap_or_else(PoisonError::into_inner);
-        let found = match all.entry(poisson_ratio.to_bits()) {
-            Entry::Occupied(known) => read(known.into_mut()),
-            Entry::Vacant(none) => {
-                let refusal = self.tables.refusal(poisson_ratio, [0.0; 2]);
-                refusal.and_then(|refusal| {
-                    read(none.insert(Known {
-                        refusal,
-                        part: None,
-                    }))
-                })
-            }
+        let mut seen = self.seen.lock().unwrap_or_else(PoisonError::into_inner);
+        let (all, fault) = &mut *seen;
+        let found = || {
+            let known = match all.entry(poisson_ratio.to_bits()) {
+                Entry::Occupied(known) => known.into_mut(),
+                Entry::Vacant(none) => {
+                    let refusal = self.tables.refusal(poisson_ratio, [0.0; 2])?;
+                    none.insert((refusal, None))
+                }
+            };
+            read(known)
         };
-        found.inspect_err(|error| {
-            let mut fault = self.fault.lock().unwrap_or_else(PoisonError::into_inner);
+        found().inspect_err(|error| {
             fault.get_or_insert(error.to_string());
         })
     }
@@ -126,9 +116,9 @@ impl Shared {
 
 impl Tables for Shared {
     fn part(&self, poisson_ratio: f64, span: [[f64; 2]; 2]) -> Result<Arc<Table>, AnyError> {
-        self.with(poisson_ratio, |known| {
+        self.with(poisson_ratio, |(_, part)| {
             let mut wanted = span;
-            if let Some((held, table)) = &known.part {
+            if let Some((held, table)) = part {
                 let mut axes = 0..2;
                 if axes.all(|i| held[0][i] <= span[0][i] && span[1][i] <= held[1][i]) {
                     return Ok(Arc::clone(table));
@@ -137,13 +127,13 @@ impl Tables for Shared {
                 wanted = [[0.0; 2], [farthest(0), farthest(1)]];
             }
             let table = self.tables.part(poisson_ratio, wanted)?;
-            known.part = Some((wanted, Arc::clone(&table)));
+            *part = Some((wanted, Arc::clone(&table)));
             Ok(table)
         })
     }
 
     fn refusal(&self, poisson_ratio: f64, _: [f64; 2]) -> Result<Option<LookupError>, AnyError> {
-        self.with(poisson_ratio, |known| Ok(known.refusal.clone()))
+        self.with(poisson_ratio, |(refusal, _)| Ok(refusal.clone()))
     }
 }
 
@@ -178,38 +168,35 @@ pub(crate) fn choose_source(
         return Ok(None);
     }
     let (medium, tolerance) = (excitation.medium(), scene.settings.tolerance);
-    let direct = |reason: String| -> Result<Option<(KernelSource, String)>, ImpactError> {
+    let direct = |reason: String| -> Result<_, ImpactError> {
         // far away the waves of a slow contact nearly cancel
         let tolerance = (1e-1 * tolerance).clamp(1e-12, 1e-3);
-        let source = KernelSource::direct(medium, tolerance)?;
-        Ok(Some((source, reason)))
+        Ok(Some((KernelSource::direct(medium, tolerance)?, reason)))
     };
     let looked_up = |table: Arc<Table>, reason: String| Some((KernelSource::Table(table), reason));
-    let radius = excitation.units().disc_radius_m;
-    let [nearest, farthest] = span(&points, radius);
+    let [nearest, farthest] = span(&points, excitation.units().disc_radius_m);
     let load = |tables: &Arc<dyn Tables>| {
         // as far as the smallest disc that stands for the load sees the places
         let smallest = Discs::looked_up(excitation.radius())[0].smallest();
         let span = [nearest, farthest.map(|far| far / smallest)];
-        tables
-            .part(medium.poisson_ratio(), span)
-            .map_err(ImpactError::Table)
+        let table = tables.part(medium.poisson_ratio(), span);
+        table.map_err(ImpactError::Table)
     };
-    let (tables, cost) = match kernels {
+    let (tables, cost_s, before) = match kernels {
         KernelChoice::Direct => return direct("asked for, or no table is given".to_owned()),
         KernelChoice::Table(tables) => return Ok(looked_up(load(tables)?, "asked for".to_owned())),
-        KernelChoice::Within(tables) => (tables, None),
+        KernelChoice::Within(tables) => (tables, 0.0, Default::default()),
         KernelChoice::Auto(tables) => {
             let cells = Wanted::of(scene).cells(excitation);
             let count = scene.points();
-            let cost = Cost::new(scene, excitation, cells);
-            let cost_s = cost.computed_s() / busy(count);
+            let cost_s = fields_s(scene, excitation, cells)[0] / busy(count);
             let cost =
                 format!("{count} points of {cells:.0} cells take about {cost_s:.1e} s to compute");
             if cost_s <= CHEAP_S {
                 return direct(format!("{cost}: computed"));
             }
-            (tables, Some((cost, cost_s)))
+            let before = [", and ", "; "].map(|by| format!("{cost}{by}"));
+            (tables, cost_s, before)
         }
     };
     let refusal = tables.refusal(medium.poisson_ratio(), farthest);
@@ -221,61 +208,46 @@ pub(crate) fn choose_source(
         Err(outside) => return direct(format!("{outside}: computed")),
         Ok(error) => error,
     };
-    let before = |by: &str| {
-        let cost = cost.as_ref();
-        cost.map_or_else(String::new, |(cost, _)| format!("{cost}{by}"))
-    };
-    let is_dear = cost.as_ref().is_some_and(|(_, cost_s)| *cost_s > DEAR_S);
-    if error > tolerance && !is_dear {
+    let [and, then]: [String; 2] = before;
+    if error > tolerance && cost_s <= DEAR_S {
         return direct(format!(
-            "{}the table's error {error:.1e} is above the tolerance {tolerance:.1e}: computed",
-            before(", and ")
+            "{and}the table's error {error:.1e} is above the tolerance {tolerance:.1e}: computed"
         ));
     }
-    let reason = format!(
-        "{}the table's error is {error:.1e}: looked up",
-        before("; ")
-    );
+    let reason = format!("{then}the table's error is {error:.1e}: looked up");
     Ok(looked_up(table, reason))
 }
 
-/// All probes and the corners and edges of the section: (r, z) in m.
-fn places(scene: &Scene) -> Vec<(f64, f64)> {
-    let probes = scene.probes.iter().map(|probe| (probe.r_m, probe.z_m));
+/// All probes and the corners and edges of the section: [r, z] in m.
+fn places(scene: &Scene) -> Vec<[f64; 2]> {
+    let probes = scene.probes.iter().map(|probe| [probe.r_m, probe.z_m]);
     let section = scene.section.iter().flat_map(|section| {
-        let at = |i: u32, j: u32| {
-            (
-                section.r_max_m * f64::from(i) / 4.0,
-                section.z_max_m * f64::from(j) / 4.0,
-            )
-        };
-        (0..5).flat_map(move |i| (0..5).map(move |j| at(i, j)))
+        let part = |most_m: f64, i: u32| most_m * f64::from(i) / 4.0;
+        (0..25).map(move |i| [part(section.r_max_m, i / 5), part(section.z_max_m, i % 5)])
     });
     probes.chain(section).collect()
 }
 
 /// The smallest and the largest r and z of some places, in radii.
-fn span(places: &[(f64, f64)], radius: f64) -> [[f64; 2]; 2] {
-    let none = [[f64::INFINITY; 2], [0.0; 2]];
-    places.iter().fold(none, |[near, far], &(r_m, z_m)| {
-        let place = [r_m / radius, z_m / radius];
-        let of = |least: fn(f64, f64) -> f64, so_far: [f64; 2]| {
-            [0, 1].map(|axis| least(so_far[axis], place[axis]))
-        };
-        [of(f64::min, near), of(f64::max, far)]
-    })
+fn span(places: &[[f64; 2]], radius: f64) -> [[f64; 2]; 2] {
+    let extreme = |axis: usize, pick: fn(f64, f64) -> f64, none: f64| {
+        let all = places.iter().map(|place_m| place_m[axis] / radius);
+        all.fold(none, pick)
+    };
+    let nearest = [0, 1].map(|axis| extreme(axis, f64::min, f64::INFINITY));
+    [nearest, [0, 1].map(|axis| extreme(axis, f64::max, 0.0))]
 }
 
 /// Largest estimated error at some places, over the largest static field of its kind there.
 fn table_error(
     table: &Table,
     excitation: &Excitation,
-    places: &[(f64, f64)],
+    places: &[[f64; 2]],
 ) -> Result<f64, LookupError> {
     let (nu, units) = (excitation.medium().poisson_ratio(), excitation.units());
     let (mut errors, mut sizes) = ([0.0_f64; 2], [0.0_f64; 2]);
-    for &(r_m, z_m) in places {
-        let (r, z) = (r_m / units.disc_radius_m, z_m / units.disc_radius_m);
+    for place_m in places {
+        let [r, z] = place_m.map(|x| x / units.disc_radius_m);
         let error = kernels::table_error(table, nu, [r, z], excitation.pulse(1.0))?;
         let still = excitation.medium().static_field(Profile::Hertz, r, z)?;
         for field in 0..6 {

@@ -1,6 +1,6 @@
 //! What may be asked to be done to a record before it loads the half-space: a baseline taken away, a low pass.
 
-use crate::record::low_pass::{allowed_hz, low_pass};
+use crate::record::low_pass::{Rows, allowed_hz, low_pass};
 use crate::record::{ForceRecord, Treated};
 use thiserror::Error;
 
@@ -36,16 +36,15 @@ impl ForceRecord {
     ) -> Result<Self, TreatmentError> {
         let mut done = Treated {
             baseline_s,
-            baseline_n: 0.0,
             low_pass_hz,
-            removed_rms_n: 0.0,
-            before_zero_n_s: 0.0,
+            ..Treated::default()
         };
         let mut record = self;
         if let Some(baseline_s) = baseline_s {
             done.baseline_n = record.mean_n(baseline_s)?;
-            let above = record.force_n().iter().map(|p| p - done.baseline_n);
-            record = record.with_rows(record.time_s().to_vec(), above.collect());
+            for force_n in &mut record.force_n {
+                *force_n -= done.baseline_n;
+            }
         }
         if let Some(cutoff_hz) = low_pass_hz {
             let [least, most] = allowed_hz(record.time_s());
@@ -60,9 +59,8 @@ impl ForceRecord {
             }
             let filtered = low_pass(record.time_s(), record.force_n(), cutoff_hz);
             done.before_zero_n_s = filtered.before_zero_n_s;
-            let smooth = record.with_rows(filtered.time_s, filtered.force_n);
-            done.removed_rms_n = record.difference_rms_n(&smooth);
-            record = smooth;
+            done.removed_rms_n = record.difference_rms_n(&filtered);
+            (record.time_s, record.force_n) = (filtered.time_s, filtered.force_n);
         }
         if done.baseline_s.is_some() || done.low_pass_hz.is_some() {
             record.treated = Some(done);
@@ -99,15 +97,11 @@ impl ForceRecord {
             });
         }
         let until_s = start_s + length_s;
-        let rows = self.time_s().iter().zip(self.force_n());
         let mut before = (start_s, self.force_n()[0]);
         let mut sum = 0.0;
-        for (&time_s, &force_n) in rows.skip(1) {
-            let end = if time_s < until_s {
-                (time_s, force_n)
-            } else {
-                (until_s, self.at(until_s))
-            };
+        for &time_s in &self.time_s[1..] {
+            let end_s = time_s.min(until_s);
+            let end = (end_s, self.at(end_s));
             sum += 0.5 * (end.0 - before.0) * (before.1 + end.1);
             if time_s >= until_s {
                 break;
@@ -118,15 +112,15 @@ impl ForceRecord {
     }
 
     /// Root mean square over the time of this record of its difference from one that has its rows.
-    fn difference_rms_n(&self, other: &Self) -> f64 {
+    fn difference_rms_n(&self, other: &Rows) -> f64 {
         let mut sum = 0.0;
         let mut place = 0;
         let mut before = None;
         for (&time_s, &force_n) in self.time_s().iter().zip(self.force_n()) {
-            while other.time_s()[place] < time_s {
+            while other.time_s[place] < time_s {
                 place += 1;
             }
-            let gap = force_n - other.force_n()[place];
+            let gap = force_n - other.force_n[place];
             if let Some((then_s, then)) = before {
                 // the square of a line, integrated
                 let part: f64 = gap * gap + gap * then + then * then;

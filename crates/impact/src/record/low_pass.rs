@@ -9,6 +9,7 @@
 //! with no delay: 1 to 1e-3 up to 0.42 fc, 1/2 at fc, 1e-3 at 2.4 fc. h has the integral one, so that the impulse stays.
 //! The convolution of h with straight lines is one recursion in each direction, without any error of sampling.
 
+use crate::record::stretch::largest;
 use num_complex::Complex64;
 use std::f64::consts::PI;
 use std::ops::Range;
@@ -26,6 +27,7 @@ const MOST_ROWS: f64 = 4e6;
 const ROUNDING: f64 = 1e-12;
 
 /// A force by rows, zero outside.
+#[derive(Default)]
 pub(crate) struct Rows {
     /// Times in s.
     pub(crate) time_s: Vec<f64>,
@@ -54,10 +56,9 @@ pub(crate) fn allowed_hz(time_s: &[f64]) -> [f64; 2] {
     let least = low;
     while high > 1.001 * low {
         let middle = (low * high).sqrt();
-        if rows(middle) <= most {
-            low = middle;
-        } else {
-            high = middle;
+        match rows(middle) <= most {
+            true => low = middle,
+            false => high = middle,
         }
     }
     [least, low]
@@ -75,26 +76,20 @@ pub(crate) fn low_pass(time_s: &[f64], force_n: &[f64], cutoff_hz: f64) -> Rows 
     let count = rows.time_s.len();
     let mut sum = vec![0.0; count];
     let mut state = [Complex64::default(); 2];
-    for (i, sum) in sum[1..].iter_mut().enumerate() {
-        rows.step(&poles, i, |k, part| {
-            state[k] = part.decay * state[k] + part.forwards;
-        });
-        *sum = weighted(&poles, &state);
+    for i in 0..count - 1 {
+        sum[i + 1] = rows.step(&poles, i, &mut state, false);
     }
     state = [Complex64::default(); 2];
-    for (i, sum) in sum[..count - 1].iter_mut().enumerate().rev() {
-        rows.step(&poles, i, |k, part| {
-            state[k] = part.decay * state[k] + part.backwards;
-        });
-        *sum += weighted(&poles, &state);
+    for i in (0..count - 1).rev() {
+        sum[i] += rows.step(&poles, i, &mut state, true);
     }
     // before the first row the force dies as exp(s |t|), whose integral is -1/s
     if rows.time_s[0] == 0.0 {
         rows.before_zero_n_s = 0.25 * (state[0] + state[1]).re;
     }
-    let largest = force_n.iter().fold(0.0_f64, |most, p| most.max(p.abs()));
+    let rounding_n = ROUNDING * largest(force_n);
     for (filtered, &given) in sum.iter_mut().zip(&rows.force_n) {
-        if (*filtered - given).abs() <= ROUNDING * largest {
+        if (*filtered - given).abs() <= rounding_n {
             *filtered = given;
         }
     }
@@ -102,28 +97,11 @@ pub(crate) fn low_pass(time_s: &[f64], force_n: &[f64], cutoff_hz: f64) -> Rows 
     rows
 }
 
-/// The filtered force from the states of both poles in one direction.
-fn weighted(poles: &[Complex64; 2], state: &[Complex64; 2]) -> f64 {
-    -0.25 * (poles[0] * state[0] + poles[1] * state[1]).re
-}
-
-/// What an interval does to the state of a pole.
-struct Part {
-    decay: Complex64,
-    forwards: Complex64,
-    backwards: Complex64,
-}
-
 impl Rows {
     fn new(time_s: &[f64], force_n: &[f64], cutoff_hz: f64) -> Self {
         let (reach_s, step_s) = (REACH / cutoff_hz, 1.0 / (ROWS * cutoff_hz));
         let (start_s, end_s) = (time_s[0], time_s[time_s.len() - 1]);
-        let mut rows = Self {
-            time_s: Vec::with_capacity(time_s.len()),
-            force_n: Vec::with_capacity(time_s.len()),
-            before_zero_n_s: 0.0,
-            of_record: 0..0,
-        };
+        let mut rows = Self::default();
         rows.between([(start_s - reach_s).max(0.0), start_s], [0.0; 2], step_s);
         rows.of_record.start = rows.time_s.len();
         for (t, p) in time_s.windows(2).zip(force_n.windows(2)) {
@@ -163,30 +141,31 @@ impl Rows {
         }
     }
 
-    /// Both directions' steps over the interval after row `i`, for each pole.
+    /// Takes the states of both poles over the interval after row `i`, forwards or backwards, and gives the filtered force of
+    /// that direction there.
     ///
     /// ```text
     /// int_0^d e^(s (d - u)) (a + (b - a) u/d) du = d [a p1 + (b - a) p2]       p1 = (e^q - 1)/q,  q = s d
     /// int_0^d e^(s u)       (a + (b - a) u/d) du = d [a p1 + (b - a) (p1 - p2)]  p2 = (e^q - 1 - q)/q^2
     /// ```
-    fn step(&self, poles: &[Complex64; 2], i: usize, mut f: impl FnMut(usize, Part)) {
+    fn step(
+        &self,
+        poles: &[Complex64; 2],
+        i: usize,
+        state: &mut [Complex64; 2],
+        backwards: bool,
+    ) -> f64 {
         let width = self.time_s[i + 1] - self.time_s[i];
-        let [a, b] = if self.of_record.contains(&i) {
-            [self.force_n[i], self.force_n[i + 1]]
-        } else {
-            [0.0; 2]
+        let [a, b] = match self.of_record.contains(&i) {
+            true => [self.force_n[i], self.force_n[i + 1]],
+            false => [0.0; 2],
         };
-        for (k, pole) in poles.iter().enumerate() {
+        for (state, pole) in state.iter_mut().zip(poles) {
             let (decay, first, second) = functions(pole * width);
-            f(
-                k,
-                Part {
-                    decay,
-                    forwards: width * (a * first + (b - a) * second),
-                    backwards: width * (a * first + (b - a) * (first - second)),
-                },
-            );
+            let second = if backwards { first - second } else { second };
+            *state = decay * *state + width * (a * first + (b - a) * second);
         }
+        -0.25 * (poles[0] * state[0] + poles[1] * state[1]).re
     }
 }
 

@@ -40,7 +40,7 @@ pub struct ForceRecord {
 }
 
 /// What was done to a record, with what it came to.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Treated {
     /// Length of the first part in s, the mean of which was taken away from all of it.
     pub baseline_s: Option<f64>,
@@ -139,17 +139,6 @@ impl ForceRecord {
         })
     }
 
-    /// The same record with other rows, which are known to be good.
-    pub(crate) fn with_rows(&self, time_s: Vec<f64>, force_n: Vec<f64>) -> Self {
-        Self {
-            time_s,
-            force_n,
-            file: self.file.clone(),
-            reading: self.reading.clone(),
-            treated: self.treated,
-        }
-    }
-
     /// Times of the samples in s.
     #[must_use]
     pub fn time_s(&self) -> &[f64] {
@@ -165,18 +154,14 @@ impl ForceRecord {
     /// The force at a time: linear between samples, zero outside.
     #[must_use]
     pub fn at(&self, time_s: f64) -> f64 {
-        let after = self.time_s.partition_point(|&t| t <= time_s);
-        if after == 0 {
+        let [start_s, end_s] = self.span_s();
+        if time_s == end_s {
+            return self.force_n[self.force_n.len() - 1];
+        }
+        if !(start_s..end_s).contains(&time_s) {
             return 0.0;
         }
-        if after == self.time_s.len() {
-            let last = after - 1;
-            return if time_s == self.time_s[last] {
-                self.force_n[last]
-            } else {
-                0.0
-            };
-        }
+        let after = self.time_s.partition_point(|&t| t <= time_s);
         let (t0, t1) = (self.time_s[after - 1], self.time_s[after]);
         let fraction = (time_s - t0) / (t1 - t0);
         self.force_n[after - 1] + fraction * (self.force_n[after] - self.force_n[after - 1])
@@ -185,11 +170,10 @@ impl ForceRecord {
     /// Nodes in the cell of `step_s` from `from_s`, two between neighbouring samples: their sums are exact.
     pub(crate) fn nodes(&self, from_s: f64, step_s: f64, nodes: &mut Vec<Node>) {
         let to_s = from_s + step_s;
-        let inside = self.time_s.partition_point(|&t| t <= from_s)
-            ..self.time_s.partition_point(|&t| t < to_s);
-        let corners = self.time_s[inside]
-            .iter()
-            .map(|&t| (t - from_s) / step_s - 0.5);
+        let begin = self.time_s.partition_point(|&t| t <= from_s);
+        let end = self.time_s.partition_point(|&t| t < to_s);
+        let corners = self.time_s[begin..end].iter();
+        let corners = corners.map(|&t| (t - from_s) / step_s - 0.5);
         let mut before = -0.5;
         for corner in corners.chain([0.5]) {
             for (x, weight) in gauss::rule(2).on(before, corner) {
@@ -210,22 +194,18 @@ impl ForceRecord {
     }
 
     /// The last time in s before the force leaves zero.
-    #[must_use]
-    pub fn start_s(&self) -> f64 {
+    pub(crate) fn start_s(&self) -> f64 {
         let first = self.force_n.iter().position(|&force| force != 0.0);
         first.map_or(self.time_s[0], |i| self.time_s[i.saturating_sub(1)])
     }
 
     /// Time in s and force in N of the largest sample; zeros where none is positive.
-    #[must_use]
-    pub fn peak(&self) -> (f64, f64) {
-        let mut peak = (0.0, 0.0);
-        for (&t, &p) in self.time_s.iter().zip(&self.force_n) {
-            if p > peak.1 {
-                peak = (t, p);
-            }
-        }
-        peak
+    pub(crate) fn peak(&self) -> (f64, f64) {
+        let rows = self.time_s.iter().zip(&self.force_n);
+        rows.fold((0.0, 0.0), |peak, (&t, &p)| match p > peak.1 {
+            true => (t, p),
+            false => peak,
+        })
     }
 
     /// int P dt in N s.
@@ -237,8 +217,7 @@ impl ForceRecord {
 
     /// Length in s of a pulse sin^4(pi t/T) of the same largest force and the same largest slope, at most the time
     /// from the first to the last sample.
-    #[must_use]
-    pub fn pulse_s(&self) -> f64 {
+    pub(crate) fn pulse_s(&self) -> f64 {
         let pairs = self.time_s.windows(2).zip(self.force_n.windows(2));
         let steepest = pairs.fold(0.0_f64, |most, (t, p)| {
             most.max((p[1] - p[0]).abs() / (t[1] - t[0]))

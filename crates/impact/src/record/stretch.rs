@@ -20,6 +20,11 @@ const QUIET: f64 = 1e-3;
 /// Steps in the time in which kernels change for a force that only jumps.
 const JUMP: f64 = 64.0;
 
+/// Largest magnitude.
+pub(crate) fn largest(samples: &[f64]) -> f64 {
+    samples.iter().fold(0.0, |most, v| most.max(v.abs()))
+}
+
 /// What samples joined by straight lines leave of a force, in N.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(crate) struct Departure {
@@ -36,20 +41,13 @@ impl Departure {
         self.sum_n += cell_n;
     }
 
-    pub(crate) fn scaled(self, by: f64) -> Self {
-        Self {
-            most_n: by * self.most_n,
-            sum_n: by * self.sum_n,
-        }
-    }
-
     pub(crate) fn join(&mut self, other: Self) {
         self.most_n = self.most_n.max(other.most_n);
         self.sum_n += other.sum_n;
     }
 
     /// How far a response may be moved by it that varies by `variation` in all and by `step` over a cell at most.
-    pub(crate) fn moves(&self, variation: f64, step: f64) -> f64 {
+    pub(crate) fn moves(&self, [variation, step]: [f64; 2]) -> f64 {
         (self.most_n * variation).min(self.sum_n * step)
     }
 }
@@ -138,7 +136,7 @@ impl ForceRecord {
                 let [from_s, to_s] = stretch.span_s;
                 left.join(self.departure_at_rows(from_s, to_s, step_s));
             }
-            if left.moves(1.0, step_s / unit_s) <= allowed_n {
+            if left.moves([1.0, step_s / unit_s]) <= allowed_n {
                 break;
             }
             step_s *= 0.5;
@@ -148,7 +146,7 @@ impl ForceRecord {
 
     /// Largest magnitude of the force in N.
     pub(crate) fn largest_n(&self) -> f64 {
-        self.force_n().iter().fold(0.0, |most, p| most.max(p.abs()))
+        largest(self.force_n())
     }
 }
 

@@ -17,9 +17,9 @@ use crate::scenes::Density;
 use fault::AnyError;
 use halfspace::gauss::Rule;
 use halfspace::{Arrivals, FIELDS, Kernel, Medium, Profile, Six};
+use impact::KernelSource;
 use impact::convolve::{Convolver, Method};
 use impact::kernels::{CellPlan, Cells, Pulse};
-use impact::{KernelSource, Place};
 use lookup::Smoothness::{Linear, Smooth};
 use lookup::{PulseSum, Stencil};
 use std::f64::consts::PI;
@@ -97,16 +97,11 @@ fn response(convolver: &Convolver, rest: &Six, cells: &[Six]) -> Vec<Six> {
 /// Cells computed for a point in r0, for so many samples so far apart of a pulse of a length.
 pub(crate) fn computed(
     source: &KernelSource,
-    [r, z]: [f64; 2],
+    place: [f64; 2],
     (samples, step): (usize, f64),
     length: f64,
     tolerance: f64,
 ) -> Result<Cells, AnyError> {
-    let place = Place {
-        r,
-        z,
-        disc_radius_m: 1.0,
-    };
     let plan = CellPlan {
         step,
         count: samples + lookup::BEYOND,
@@ -114,7 +109,7 @@ pub(crate) fn computed(
         rates: false,
         tolerance,
     };
-    Ok(source.cells(POISSON_RATIO, place, plan)?)
+    Ok(source.cells(POISSON_RATIO, place, 1.0, plan)?)
 }
 
 /// Cells computed for the point itself, for a force that is linear or smooth between samples.
