@@ -116,25 +116,17 @@ fn cut(text: &str) -> String {
 
 /// What is known of an error.
 fn about(culprit: &Culprit<'_>) -> Map<String, Value> {
-    let value = culprit.number.map(Value::from);
+    let number = culprit.number.map(Value::from);
+    let word = culprit.word.as_deref().map(cut).map(Value::from);
+    let file = culprit.file.as_deref().map(Path::to_string_lossy);
     let known = [
         ("class", Some(culprit.class.name().into())),
         ("key", culprit.key.as_deref().map(cut).map(Value::from)),
-        (
-            "value",
-            value.or(culprit.word.as_deref().map(cut).map(Value::from)),
-        ),
+        ("value", number.or(word)),
         ("range", culprit.range.as_deref().map(Value::from)),
         ("limits", culprit.limits.map(|limits| json!(limits))),
         ("suggestion", culprit.suggestion.as_deref().map(Value::from)),
-        (
-            "file",
-            culprit
-                .file
-                .as_deref()
-                .map(Path::to_string_lossy)
-                .map(Value::from),
-        ),
+        ("file", file.map(Value::from)),
     ];
     let known = known.into_iter();
     let known = known.filter_map(|(name, value)| Some((name.to_owned(), value?)));

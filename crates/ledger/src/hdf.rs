@@ -295,9 +295,13 @@ fn text(attribute: &Attribute) -> Result<String, HdfError> {
     match (&attribute.datatype, attribute.decoded_strings.as_deref()) {
         (_, Some([text])) => Ok(text.clone()),
         (_, Some(_)) => refused("it is a list, needed one text"),
-        (Datatype::String { size, .. }, None) if matches!(size, StringSize::Fixed(_)) => {
-            Ok(attribute.read_string()?)
-        }
+        (
+            Datatype::String {
+                size: StringSize::Fixed(_),
+                ..
+            },
+            None,
+        ) => Ok(attribute.read_string()?),
         (found, None) if kind(found) == TEXT => {
             let what = "its text is not there or not UTF-8";
             Err(HdfError::Damaged(what.to_owned()))

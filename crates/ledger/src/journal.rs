@@ -34,11 +34,7 @@ pub struct Title {
 
 impl Title {
     fn text(&self) -> String {
-        let Self {
-            kind,
-            identity,
-            about,
-        } = self;
+        let (kind, identity, about) = (self.kind, &self.identity, &self.about);
         format!("{BEGIN}{kind}: {identity} {}\n{about}", about.len())
     }
 }

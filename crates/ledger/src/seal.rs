@@ -93,14 +93,11 @@ impl Sealed {
         while !into.is_empty() {
             let (piece, from) = ((at / PIECE as u64) as usize, (at % PIECE as u64) as usize);
             let known = held.iter().position(|(place, _)| *place == piece);
-            let bytes = match known {
-                Some(known) => &held[known].1,
-                None => {
-                    held.truncate(HELD - 1);
-                    held.push_front((piece, self.piece(piece)?));
-                    &held[0].1
-                }
-            };
+            if known.is_none() {
+                held.truncate(HELD - 1);
+                held.push_front((piece, self.piece(piece)?));
+            }
+            let bytes = &held[known.unwrap_or(0)].1;
             let count = into.len().min(bytes.len() - from);
             into[..count].copy_from_slice(&bytes[from..from + count]);
             (at, into) = (at + count as u64, &mut into[count..]);

@@ -131,29 +131,26 @@ fn from_speeds(
     Ok(Some([(modulus, modulus), (ratio, 0.5)]))
 }
 
+/// A striker with its velocity: a mass with a tip, or a body of a shape.
 pub(super) fn read_strike(section: &Section<'_>, library: &Library) -> Result<Strike, SceneError> {
     section.allow_keys_of("striker")?;
     let striker = match section.choice("shape")? {
-        None => plain(section, library)?,
         Some(form) => of_form(section, library, form)?,
+        None if section.value("diameter_m").is_some() => {
+            let hint = "say whose diameter_m it is: \"ball\" or \"rod\"";
+            return Err(section.missing("shape", hint));
+        }
+        None => Striker {
+            material: body(section, library)?,
+            mass_kg: section.needed("mass_kg")?,
+            tip_radius_m: section.needed("tip_radius_m")?,
+            length_m: section.number("length_m")?,
+            shape: None,
+        },
     };
     Ok(Strike {
         striker,
         velocity_m_s: velocity(section)?,
-    })
-}
-
-/// A mass with a tip.
-fn plain(section: &Section<'_>, library: &Library) -> Result<Striker, SceneError> {
-    if section.value("diameter_m").is_some() {
-        return Err(section.missing("shape", "say whose diameter_m it is: \"ball\" or \"rod\""));
-    }
-    Ok(Striker {
-        material: body(section, library)?,
-        mass_kg: section.needed("mass_kg")?,
-        tip_radius_m: section.needed("tip_radius_m")?,
-        length_m: section.number("length_m")?,
-        shape: None,
     })
 }
 

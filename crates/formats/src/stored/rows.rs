@@ -222,7 +222,8 @@ pub(crate) fn whole_sweep(path: &Path) -> Result<(Option<String>, Fields), Scene
         return Ok((Some(part.sha256), part.fields));
     }
     let found = StoredSweep::open(path)?;
-    Ok((found.sha256(), found.fields()?))
+    let fields = found.stored.fields(RESULTS, &found.shape())?;
+    Ok((found.stored.text(SHA256).ok(), fields))
 }
 
 /// Compares the rows of a Parquet file with their hashes, where the program can read them.
@@ -267,20 +268,6 @@ impl StoredSweep {
     #[must_use]
     pub fn path(&self) -> &Path {
         &self.stored.path
-    }
-
-    /// Which sweep it is of; nothing in files of versions before 1.4.
-    #[must_use]
-    pub fn sha256(&self) -> Option<String> {
-        self.stored.text(SHA256).ok()
-    }
-
-    /// Which results it has, and how exactly.
-    ///
-    /// # Errors
-    /// [`SceneError`] for a file that is not as it was written.
-    pub fn fields(&self) -> Result<Fields, SceneError> {
-        self.stored.fields(RESULTS, &self.shape())
     }
 
     /// The results of every row.
