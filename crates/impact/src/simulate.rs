@@ -238,7 +238,7 @@ impl<'a> Computed<'a> {
             table: match source {
                 KernelSource::Direct(_) => None,
                 KernelSource::Table(table) => {
-                    Some([table.id(), table.format_version()].map(str::to_owned))
+                    Some([table.id(), &table.content().origin.format_version].map(str::to_owned))
                 }
             },
             reason,
