@@ -77,7 +77,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     if let Some(extension) = extension(arguments) {
         let summary = extend(&arguments.output, &extension, &Bar::new()).map_err(failure)?;
         let content = lookup::read(&arguments.output).map_err(Failure::work)?;
-        return tell(&Grid::of(&content).map_err(failure)?, arguments, &summary);
+        let grid = Grid::parse(&content.origin.grid).map_err(failure)?;
+        return tell(&grid, arguments, &summary);
     }
     let grid = grid(arguments)?;
     // a shard ends at once where it has all its blocks
@@ -215,7 +216,7 @@ pub(crate) fn errors_in_words(accuracy: &[Accuracy]) -> String {
 
 /// The grid of a preset or a file.
 fn resolve(name: &str) -> Result<Grid, Failure> {
-    if let Some(grid) = Grid::preset(name).map_err(failure)? {
+    if let Some(grid) = Grid::preset(name) {
         return Ok(grid);
     }
     if !is_file(name) {
