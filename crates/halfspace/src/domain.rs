@@ -9,29 +9,27 @@ pub(crate) const FARTHEST: f64 = 1e20;
 /// Least distance from a point force, least time after the load and least width of a cell, for the same reason.
 pub(crate) const NEAREST: f64 = 1e-20;
 
-/// `value` if `allowed`, else the error that names it and `range`.
+/// The error that names a value and its range, unless it is `allowed`.
 pub(crate) fn check(
     allowed: bool,
     argument: &'static str,
     value: f64,
     range: &'static str,
-) -> Result<f64, DomainError> {
+) -> Result<(), DomainError> {
     if allowed {
-        Ok(value)
-    } else {
-        Err(DomainError::Range {
-            argument,
-            value,
-            range,
-        })
+        return Ok(());
     }
+    Err(DomainError::Range {
+        argument,
+        value,
+        range,
+    })
 }
 
 /// r and z in [0, 1e20].
 pub(crate) fn check_place(r: f64, z: f64) -> Result<(), DomainError> {
     check((0.0..=FARTHEST).contains(&r), "r", r, "[0, 1e20]")?;
-    check((0.0..=FARTHEST).contains(&z), "z", z, "[0, 1e20]")?;
-    Ok(())
+    check((0.0..=FARTHEST).contains(&z), "z", z, "[0, 1e20]")
 }
 
 /// A place in range at which the fields of a profile are finite.
@@ -48,21 +46,12 @@ pub(crate) fn check_place_under(profile: Profile, r: f64, z: f64) -> Result<(), 
             "[1e-20, 1e20] where z < 1e-20, for a point force",
         ),
     };
-    check(is_regular, "r", r, range)?;
-    Ok(())
+    check(is_regular, "r", r, range)
 }
 
 /// t in [0, 1e20].
 pub(crate) fn check_time(t: f64) -> Result<(), DomainError> {
-    check((0.0..=FARTHEST).contains(&t), "t", t, "[0, 1e20]")?;
-    Ok(())
-}
-
-/// Width of a cell in [1e-20, 1e20].
-pub(crate) fn check_width(width: f64) -> Result<(), DomainError> {
-    let range = NEAREST..=FARTHEST;
-    check(range.contains(&width), "width", width, "[1e-20, 1e20]")?;
-    Ok(())
+    check((0.0..=FARTHEST).contains(&t), "t", t, "[0, 1e20]")
 }
 
 /// A function that only the Hertz profile has.

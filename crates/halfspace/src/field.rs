@@ -52,7 +52,7 @@ pub type Six = [f64; 6];
 /// times the error: `cargo test -p hertzlamb-halfspace --test estimate -- --nocapture` prints both.
 /// Stresses under a punch or a point force are infinite at fronts; there the estimate includes the rounding of the
 /// fronts, and its median is 400 to 350000 times the error by region.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Estimate {
     /// The values.
     pub value: Six,

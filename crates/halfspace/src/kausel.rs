@@ -30,7 +30,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 #[must_use]
 pub fn centre_step(medium: &Medium, t: f64) -> f64 {
     let kappa = medium.kappa();
-    let roots = medium.rayleigh_cubic_roots();
+    let roots = medium.rayleigh_cubic_roots;
     let x3 = roots[2].re;
     if t.is_nan() {
         return t;

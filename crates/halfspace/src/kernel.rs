@@ -4,19 +4,18 @@
 //! H(r,z,t) = static(r,z) + R(r,z,t)
 //! ```
 //!
-//! The static part is in closed form, the remainder R is one [`Integral`] over slowness.
+//! The static part is in closed form, the remainder R is one integral over slowness, see [`integral`](crate::integral).
 //!
 //! Theory: `docs/theory.md` (T9, T10, T16, T21).
 
 use crate::domain::{check, check_hertz, check_place_under, check_time};
 use crate::error::DomainError;
 use crate::field::{Estimate, Six};
-use crate::integral::Integral;
+use crate::integral::setting::Setting;
 use crate::medium::Medium;
 use crate::point::Point;
 use crate::potentials::order::{IMPULSE, STEP, STEP_INTEGRAL};
 use crate::profile::Profile;
-use crate::statics;
 
 /// The exact kernels of one half-space under one load profile.
 ///
@@ -60,7 +59,7 @@ use crate::statics;
 /// (22) to (29) of the paper, integrated over wave number in closed form; the coefficient of (24) is 4.
 #[derive(Debug, Clone)]
 pub struct Kernel {
-    pub(crate) integral: Integral,
+    setting: Setting,
 }
 
 impl Kernel {
@@ -78,26 +77,26 @@ impl Kernel {
             "[1e-14, 0.1]",
         )?;
         Ok(Self {
-            integral: Integral::new(medium, profile, tolerance),
+            setting: Setting::new(medium, profile, tolerance),
         })
     }
 
     /// The half-space.
     #[must_use]
     pub fn medium(&self) -> &Medium {
-        &self.integral.setting.medium
+        &self.setting.medium
     }
 
     /// The load profile.
     #[must_use]
     pub fn profile(&self) -> Profile {
-        self.integral.setting.profile
+        self.setting.profile
     }
 
     /// The accuracy asked for, as a fraction of each field's peak over time.
     #[must_use]
     pub fn tolerance(&self) -> f64 {
-        self.integral.setting.tolerance
+        self.setting.tolerance
     }
 
     /// The static fields under a unit force, in the order of [`FIELDS`](crate::FIELDS), in closed form.
@@ -131,13 +130,13 @@ impl Kernel {
         check_place_under(self.profile(), r, z)?;
         check_time(t)?;
         if t <= self.first_arrival(r, z) {
-            let rest = statics::static_field(self.medium(), self.profile(), r, z);
+            let rest = self.static_field(r, z)?;
             return Ok(Estimate {
                 value: rest.map(|s| -s),
                 error: rest.map(|s| f64::EPSILON * s.abs()),
             });
         }
-        Ok(self.integral.evaluate::<STEP>(Point { r, z, t }))
+        Ok(self.setting.evaluate::<STEP>(Point { r, z, t }))
     }
 
     /// The impulse response dH/dt, the fields after a unit impulse, of the Hertz profile.
@@ -154,12 +153,9 @@ impl Kernel {
         check_time(t)?;
         check_hertz(self.profile(), "the impulse response")?;
         if t <= self.first_arrival(r, z) {
-            return Ok(Estimate {
-                value: [0.0; 6],
-                error: [0.0; 6],
-            });
+            return Ok(Estimate::default());
         }
-        Ok(self.integral.evaluate::<IMPULSE>(Point { r, z, t }))
+        Ok(self.setting.evaluate::<IMPULSE>(Point { r, z, t }))
     }
 
     /// int R dt up to t, with a constant of integration that is the same for all t at one (r, z).
@@ -170,11 +166,8 @@ impl Kernel {
         check_place_under(self.profile(), r, z)?;
         check_time(t)?;
         let arrival = self.first_arrival(r, z);
-        let mut estimate = self.integral.evaluate::<STEP_INTEGRAL>(Point {
-            r,
-            z,
-            t: t.max(arrival),
-        });
+        let late = t.max(arrival);
+        let mut estimate = (self.setting).evaluate::<STEP_INTEGRAL>(Point { r, z, t: late });
         if t < arrival {
             let rest = self.static_field(r, z)?;
             for (value, s) in estimate.value.iter_mut().zip(rest) {
@@ -186,6 +179,6 @@ impl Kernel {
 
     /// Time of the first arrival at (r, z): the distance to the nearest point of the disc.
     pub(crate) fn first_arrival(&self, r: f64, z: f64) -> f64 {
-        self.integral.setting.first_arrival(r, z)
+        self.setting.first_arrival(r, z)
     }
 }

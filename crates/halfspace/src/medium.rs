@@ -22,9 +22,14 @@ pub struct Medium {
     poisson_ratio: f64,
     kappa: f64,
     rayleigh_speed: f64,
-    /// The rounding error of `rayleigh_speed`.
-    rayleigh_rest: f64,
-    cubic_roots: [Complex64; 3],
+    /// To twice the digits.
+    pub(crate) exact_rayleigh_speed: Double,
+    /// The roots (c2/c)^2 of the rationalised Rayleigh equation
+    /// -16 (1 - a2) x^3 + 8 (3 - 2 a2) x^2 - 8 x + 1 = 0, a2 = kappa^2 (Kausel 2012).
+    ///
+    /// The last one is real and belongs to the Rayleigh wave; the other two lie on other sheets.
+    /// They are real below nu = 0.26308206, equal there, and a conjugate pair above.
+    pub(crate) rayleigh_cubic_roots: [Complex64; 3],
 }
 
 impl Medium {
@@ -45,12 +50,13 @@ impl Medium {
         let a2 = (1.0 - 2.0 * poisson_ratio) / (2.0 - 2.0 * poisson_ratio);
         let roots = rayleigh_cubic_roots(a2);
         let rayleigh_speed = (a2 / roots[2].re).sqrt();
+        let rest = rayleigh_rest(poisson_ratio, roots[2].re, rayleigh_speed);
         Ok(Self {
             poisson_ratio,
             kappa: a2.sqrt(),
             rayleigh_speed,
-            rayleigh_rest: rayleigh_rest(poisson_ratio, roots[2].re, rayleigh_speed),
-            cubic_roots: roots,
+            exact_rayleigh_speed: Double::sum(rayleigh_speed, rest),
+            rayleigh_cubic_roots: roots,
         })
     }
 
@@ -83,11 +89,6 @@ impl Medium {
         (2.0 - 2.0 * self.poisson_ratio) / (1.0 - 2.0 * self.poisson_ratio)
     }
 
-    /// The Rayleigh speed to twice the digits.
-    pub(crate) fn exact_rayleigh_speed(&self) -> Double {
-        Double::sum(self.rayleigh_speed, self.rayleigh_rest)
-    }
-
     /// D'(c) in the pole term: the derivative of Rayleigh's function D(c) = (2 - v)^2 - 4 sqrt((1 - c^2)(1 - v)), v = (c/kappa)^2,
     /// at the Rayleigh speed.
     #[must_use]
@@ -96,16 +97,6 @@ impl Medium {
         let a = (1.0 - c * c).sqrt();
         let b = (1.0 - c * c * k).sqrt();
         4.0 * c * (b / a + k * a / b - k * (2.0 - c * c * k))
-    }
-
-    /// The roots (c2/c)^2 of the rationalised Rayleigh equation
-    /// -16 (1 - a2) x^3 + 8 (3 - 2 a2) x^2 - 8 x + 1 = 0, a2 = kappa^2 (Kausel 2012).
-    ///
-    /// The last one is real and belongs to the Rayleigh wave; the other two lie on other sheets.
-    /// They are real below nu = 0.26308206, equal there, and a conjugate pair above.
-    #[must_use]
-    pub fn rayleigh_cubic_roots(&self) -> [Complex64; 3] {
-        self.cubic_roots
     }
 }
 
@@ -161,7 +152,7 @@ mod tests {
         ] {
             let medium = Medium::new(nu).unwrap();
             let a2 = medium.kappa().powi(2);
-            for x in medium.rayleigh_cubic_roots() {
+            for x in medium.rayleigh_cubic_roots {
                 let value =
                     -16.0 * (1.0 - a2) * x.powi(3) + 8.0 * (3.0 - 2.0 * a2) * x * x - 8.0 * x + 1.0;
                 assert!(value.norm() < 1e-13, "nu = {nu}: {value}");

@@ -12,16 +12,13 @@ pub(crate) struct Point {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Sense {
     /// xi- = i (z gamma^ - t)/x: the wave that comes down from the load.
-    Outgoing,
+    Outgoing = -1,
     /// xi+ = i (z gamma^ + t)/x: its image in time, which makes the sum causal.
-    Image,
+    Image = 1,
 }
 
 impl Sense {
     pub(crate) fn sign(self) -> f64 {
-        match self {
-            Self::Outgoing => -1.0,
-            Self::Image => 1.0,
-        }
+        f64::from(self as i8)
     }
 }

@@ -19,14 +19,6 @@ use crate::potentials::order::{IMPULSE, STEP};
 use crate::profile::Profile;
 use num_complex::Complex64;
 
-/// Static fields at (r, z), r, z >= 0.
-pub(crate) fn static_field(medium: &Medium, profile: Profile, r: f64, z: f64) -> Six {
-    match profile {
-        Profile::Hertz => huber::static_field(medium.poisson_ratio(), r, z),
-        Profile::Punch | Profile::Point => by_potentials(medium, profile, r, z),
-    }
-}
-
 impl Medium {
     /// The static fields under a unit force: those of [`Kernel::static_field`](crate::Kernel::static_field).
     ///
@@ -34,7 +26,10 @@ impl Medium {
     /// As there.
     pub fn static_field(&self, profile: Profile, r: f64, z: f64) -> Result<Six, DomainError> {
         check_place_under(profile, r, z)?;
-        Ok(static_field(self, profile, r, z))
+        Ok(match profile {
+            Profile::Hertz => huber::static_field(self.poisson_ratio(), r, z),
+            Profile::Punch | Profile::Point => by_potentials(self, profile, r, z),
+        })
     }
 }
 

@@ -65,7 +65,10 @@ fn trace(table: &Table) -> Result<(), Box<dyn Error>> {
     let points: Vec<[f64; 2]> = (0..POINTS)
         .map(|i| {
             let share = i as f64 / POINTS as f64;
-            [table.r_max() * share, table.z_max() * (1.0 - share)]
+            [
+                table.content().r_max * share,
+                table.content().z_max * (1.0 - share),
+            ]
         })
         .collect();
     let mut values = vec![[0.0; 6]; POINTS * cells];

@@ -245,7 +245,7 @@ impl Computed {
         let table = match source {
             KernelSource::Direct(_) => None,
             KernelSource::Table(table) => {
-                Some([table.id(), table.format_version()].map(str::to_owned))
+                Some([table.id(), &table.content().origin.format_version].map(str::to_owned))
             }
         };
         self.used = Some(FieldsUsed {

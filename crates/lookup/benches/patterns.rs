@@ -34,7 +34,10 @@ fn timed(mut work: impl FnMut(usize)) -> (f64, f64) {
 
 fn random(table: &Table, i: usize) -> [f64; 2] {
     let i = 2 * i as u64;
-    [uniform(i) * table.r_max(), uniform(i + 1) * table.z_max()]
+    [
+        uniform(i) * table.content().r_max,
+        uniform(i + 1) * table.content().z_max,
+    ]
 }
 
 fn clustered(table: &Table, i: usize) -> [f64; 2] {

@@ -27,22 +27,60 @@ pub const SAFETY_BETWEEN: f64 = 2.3;
 const ROUNDING: f64 = 6e-8;
 
 /// Where errors were measured: a grid of places for one set of numbers.
-struct Measured<'a> {
+pub(crate) struct Measured<'a> {
     content: &'a Content,
     probes: &'a Verification,
     depths: usize,
+    /// From what was measured to the estimate.
+    factor: f64,
 }
 
-impl Measured<'_> {
-    /// The largest error of a field among the places `across` by `down`, for the pulse of index `pulse`.
-    fn most(&self, across: &Range<usize>, down: &Range<usize>, pulse: usize, field: usize) -> f64 {
+impl<'a> Measured<'a> {
+    /// What interpolation between slices at `coordinates` adds to the error, from what was measured in the middle between two
+    /// of them: [`SAFETY_BETWEEN`] times that, in proportion to the node polynomial.
+    pub(crate) fn between(
+        content: &'a Content,
+        between: &'a Between,
+        coordinates: impl Iterator<Item = f64>,
+        poisson_ratio: f64,
+    ) -> Result<Self, DomainError> {
+        let place = ratio_coordinate(poisson_ratio)?;
+        let middle = ratio_coordinate(between.poisson_ratio)?;
+        let polynomial: f64 = coordinates
+            .map(|node| (place - node) / (middle - node))
+            .product();
+        Ok(Self {
+            content,
+            probes: &between.verification,
+            depths: content.between_z.len(),
+            factor: SAFETY_BETWEEN * polynomial.abs(),
+        })
+    }
+
+    /// The places between slices around a point.
+    pub(crate) fn around(&self, [r, z]: [f64; 2]) -> [Range<usize>; 2] {
+        let Content {
+            between_r,
+            between_z,
+            ..
+        } = self.content;
+        [corners(between_r, r), corners(between_z, z)]
+    }
+
+    /// The estimate of a field from the largest error among the places `across` by `down`, for the pulse of index `pulse`.
+    pub(crate) fn most(
+        &self,
+        [across, down]: &[Range<usize>; 2],
+        pulse: usize,
+        field: usize,
+    ) -> f64 {
         let mut most = 0.0_f64;
         for i in across.clone() {
             for k in down.clone() {
                 most = most.max(f64::from(self.probes.error[self.at(i, k, pulse, field)]));
             }
         }
-        most
+        self.factor * most
     }
 
     fn peak(&self, i: usize, k: usize, pulse: usize, field: usize) -> f64 {
@@ -82,10 +120,8 @@ impl Table {
         let slices = ratio::weights(&self.served, poisson_ratio)?;
         let (lower, fraction) = bracket(&content.pulse_lengths, pulse_length);
         let upper = (lower + 1).min(content.pulse_lengths.len() - 1);
-        let (short, long) = (
-            self.measured(poisson_ratio, [r, z], mesh, &slices, lower)?,
-            self.measured(poisson_ratio, [r, z], mesh, &slices, upper)?,
-        );
+        let of = |pulse| self.measured(poisson_ratio, [r, z], mesh, &slices, pulse);
+        let (short, long) = (of(lower)?, of(upper)?);
         Ok(std::array::from_fn(|f| {
             short[f].powf(1.0 - fraction) * long[f].powf(fraction)
         }))
@@ -103,16 +139,17 @@ impl Table {
         let content = self.content();
         let mut error = [1e-12_f64; FIELDS];
         let [columns, rows] = self.meshes;
-        let (across, down) = (around(mesh[0], columns), around(mesh[1], rows));
+        let places = [around(mesh[0], columns), around(mesh[1], rows)];
         let beside = ratio::beside(&self.served, slices, poisson_ratio);
         for &index in &beside[usize::from(beside[0] == beside[1])..] {
             let measured = Measured {
                 content,
                 probes: &content.slices[index].verification,
                 depths: rows,
+                factor: SAFETY,
             };
             for (field, value) in error.iter_mut().enumerate() {
-                let most = SAFETY * measured.most(&across, &down, pulse, field);
+                let most = measured.most(&places, pulse, field);
                 let rounding = ROUNDING * measured.peak(mesh[0], mesh[1], pulse, field);
                 *value = value.max(most).max(rounding);
             }
@@ -123,7 +160,7 @@ impl Table {
                 return Ok([f64::INFINITY; FIELDS]);
             };
             let coordinates = slices.iter().map(|&(i, _)| self.served[i].coordinate);
-            let added = Added::new(content, between, coordinates, poisson_ratio)?;
+            let added = Measured::between(content, between, coordinates, poisson_ratio)?;
             let places = added.around(point);
             for (field, value) in error.iter_mut().enumerate() {
                 *value += added.most(&places, pulse, field);
@@ -133,56 +170,6 @@ impl Table {
             error = error.map(|e| AT_SURFACE * e);
         }
         Ok(error)
-    }
-}
-
-/// What interpolation between slices adds to the error, from what was measured in the middle between two of them.
-pub(crate) struct Added<'a> {
-    measured: Measured<'a>,
-    /// The node polynomial at the ratio over that at the middle.
-    polynomial: f64,
-}
-
-impl<'a> Added<'a> {
-    /// At a ratio that slices at `coordinates` serve.
-    pub(crate) fn new(
-        content: &'a Content,
-        between: &'a Between,
-        coordinates: impl Iterator<Item = f64>,
-        poisson_ratio: f64,
-    ) -> Result<Self, DomainError> {
-        let place = ratio_coordinate(poisson_ratio)?;
-        let middle = ratio_coordinate(between.poisson_ratio)?;
-        let polynomial: f64 = coordinates
-            .map(|node| (place - node) / (middle - node))
-            .product();
-        Ok(Self {
-            measured: Measured {
-                content,
-                probes: &between.verification,
-                depths: content.between_z.len(),
-            },
-            polynomial: polynomial.abs(),
-        })
-    }
-
-    /// The places of the measurement around a point.
-    pub(crate) fn around(&self, [r, z]: [f64; 2]) -> [Range<usize>; 2] {
-        let content = self.measured.content;
-        [
-            corners(&content.between_r, r),
-            corners(&content.between_z, z),
-        ]
-    }
-
-    /// The largest at some places, times [`SAFETY_BETWEEN`].
-    pub(crate) fn most(
-        &self,
-        [across, down]: &[Range<usize>; 2],
-        pulse: usize,
-        field: usize,
-    ) -> f64 {
-        SAFETY_BETWEEN * self.polynomial * self.measured.most(across, down, pulse, field)
     }
 }
 

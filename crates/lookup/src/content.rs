@@ -1,6 +1,7 @@
 //! What a kernel table consists of, before it is a file and after it was read.
 
 use crate::schema;
+use std::ops::Range;
 
 /// Number of fields.
 pub(crate) const FIELDS: usize = 6;
@@ -156,6 +157,14 @@ impl Verification {
             (schema::PROBE_LOOKED_UP, &self.looked_up),
             (schema::PROBE_ERROR, &self.error),
         ]
+    }
+
+    /// Appends some of the entries of another.
+    pub fn extend(&mut self, other: &Self, entries: Range<usize>) {
+        let from = entries.clone();
+        self.direct.extend_from_slice(&other.direct[from.clone()]);
+        self.looked_up.extend_from_slice(&other.looked_up[from]);
+        self.error.extend_from_slice(&other.error[entries]);
     }
 }
 

@@ -7,29 +7,22 @@ use thiserror::Error;
 /// Numbers that are no table; a file's error ([`TableError`](crate::TableError)) adds the path.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum ContentError {
-    /// A list has another length than the axes demand.
-    #[error("{item} has {found} values, needed {needed}")]
-    Shape {
-        /// Path of the dataset.
-        item: String,
-        /// Number of values that the axes demand.
-        needed: usize,
-        /// Number of values found.
-        found: usize,
-    },
-    /// A value that may not be there.
-    #[error("{item} = {value}, allowed: {range}")]
-    Value {
-        /// Path of the dataset or attribute, with the index of the value where it has one.
-        item: String,
-        /// The value found.
-        value: f64,
-        /// What is allowed.
-        range: &'static str,
-    },
+    /// A list has another length than the axes demand, or a value may not be there: where and what is allowed.
+    #[error("{0}")]
+    Wrong(String),
     /// Poisson's ratio of a slice is outside the physics.
     #[error(transparent)]
     Domain(#[from] DomainError),
+}
+
+/// The error of a list that has another length than the axes demand.
+pub(crate) fn shape(item: &str, needed: usize, found: usize) -> ContentError {
+    ContentError::Wrong(format!("{item} has {found} values, needed {needed}"))
+}
+
+/// The error of a value of a dataset or an attribute that may not be there.
+pub(crate) fn value(item: &str, value: f64, range: &str) -> ContentError {
+    ContentError::Wrong(format!("{item} = {value}, allowed: {range}"))
 }
 
 /// A question that a table cannot answer.
@@ -76,6 +69,17 @@ pub enum LookupError {
     /// The static field cannot be computed there.
     #[error(transparent)]
     Domain(#[from] DomainError),
+}
+
+impl LookupError {
+    pub(crate) fn outside(axis: &'static str, value: f64, [min, max]: [f64; 2]) -> Self {
+        Self::Outside {
+            axis,
+            value,
+            min,
+            max,
+        }
+    }
 }
 
 impl Fault for LookupError {

@@ -1,6 +1,6 @@
 //! Identity of the settings and checksum of the content.
 
-use crate::content::{Content, Verification};
+use crate::content::Content;
 use crate::schema;
 use sha2::{Digest, Sha256};
 
@@ -25,10 +25,10 @@ pub fn settings_id(grid: &str) -> String {
 pub fn content_hash(content: &Content) -> String {
     let mut hash = Sha256::new();
     hash.update(content.origin.grid.as_bytes());
-    hash.update(content.origin.accuracy_asked.to_le_bytes());
-    hash.update(content.cell_width.to_le_bytes());
-    hash.update(content.r_max.to_le_bytes());
-    hash.update(content.z_max.to_le_bytes());
+    let asked = content.origin.accuracy_asked;
+    for number in [asked, content.cell_width, content.r_max, content.z_max] {
+        hash.update(number.to_le_bytes());
+    }
     hash.update((content.stencil_points as u64).to_le_bytes());
     for axis in [
         &content.origin.accuracy_reached,
@@ -47,30 +47,24 @@ pub fn content_hash(content: &Content) -> String {
         hash.update(slice.poisson_ratio.to_le_bytes());
         hash.update(slice.role.name().as_bytes());
         hash.update((slice.cells as u64).to_le_bytes());
-        for (_, array) in slice.lists() {
-            add_array(&mut hash, array);
-        }
-        add_verification(&mut hash, &slice.verification);
+        add_lists(&mut hash, &slice.lists());
+        add_lists(&mut hash, &slice.verification.lists());
     }
     for between in &content.between {
         hash.update(between.poisson_ratio.to_le_bytes());
-        add_verification(&mut hash, &between.verification);
+        add_lists(&mut hash, &between.verification.lists());
     }
     format!("{:x}", hash.finalize())
 }
 
-fn add_verification(hash: &mut Sha256, probes: &Verification) {
-    for (_, array) in probes.lists() {
-        add_array(hash, array);
-    }
-}
-
-fn add_array(hash: &mut Sha256, array: &[f32]) {
-    hash.update((array.len() as u64).to_le_bytes());
+fn add_lists(hash: &mut Sha256, lists: &[(&str, &[f32])]) {
     let mut bytes = Vec::with_capacity(1 << 16);
-    for chunk in array.chunks(1 << 14) {
-        bytes.clear();
-        bytes.extend(chunk.iter().flat_map(|value| value.to_le_bytes()));
-        hash.update(&bytes);
+    for (_, list) in lists {
+        hash.update((list.len() as u64).to_le_bytes());
+        for chunk in list.chunks(1 << 14) {
+            bytes.clear();
+            bytes.extend(chunk.iter().flat_map(|value| value.to_le_bytes()));
+            hash.update(&bytes);
+        }
     }
 }

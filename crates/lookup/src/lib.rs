@@ -100,7 +100,7 @@ pub use file::labels;
 #[cfg(feature = "hdf5")]
 pub use file::{BadTable, TableError, TableFile, damaged_patches};
 #[cfg(feature = "hdf5")]
-pub use file::{check_whole, holds, read, stated_hash, write};
+pub use file::{check_whole, holds, read, same_hash, stated_hash, write};
 pub use hash::{content_hash, settings_id};
 pub use pulse::PulseSum;
 pub use ratio::{cell_scale, ratio_coordinate};

@@ -76,15 +76,11 @@ pub(crate) fn weights(
         .filter(|&i| slices[i].role == Role::Grid)
         .collect();
     let end = |index: Option<&usize>| index.map_or(f64::NAN, |&i| slices[i].ratio);
-    let (min, max) = (end(grid.first()), end(grid.last()));
+    let [min, max] = [grid.first(), grid.last()].map(end);
     let coordinates: Vec<f64> = grid.iter().map(|&i| slices[i].coordinate).collect();
     if !(poisson_ratio > min && poisson_ratio < max) {
-        return Err(LookupError::Outside {
-            axis: "poisson_ratio",
-            value: poisson_ratio,
-            min,
-            max,
-        });
+        let range = [min, max];
+        return Err(LookupError::outside("poisson_ratio", poisson_ratio, range));
     }
     // rounding of the coordinate must not take the point outside
     let place =
@@ -112,21 +108,17 @@ pub(crate) fn between<'a>(
     slices: &[Served],
     poisson_ratio: f64,
 ) -> Option<&'a Between> {
-    let (low, high) = neighbours(slices, poisson_ratio);
+    // the neighbouring slices that interpolate, below or equal and above
+    let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
+    for slice in slices.iter().filter(|slice| slice.role == Role::Grid) {
+        if slice.ratio <= poisson_ratio {
+            low = low.max(slice.ratio);
+        } else {
+            high = high.min(slice.ratio);
+        }
+    }
     let inside = |between: &&Between| between.poisson_ratio > low && between.poisson_ratio < high;
     content.between.iter().find(inside)
-}
-
-/// The ratios of the neighbouring slices that interpolate, below or equal and above.
-fn neighbours(slices: &[Served], poisson_ratio: f64) -> (f64, f64) {
-    let grid = slices.iter().filter(|slice| slice.role == Role::Grid);
-    grid.fold((f64::NEG_INFINITY, f64::INFINITY), |(low, high), slice| {
-        if slice.ratio <= poisson_ratio {
-            (low.max(slice.ratio), high)
-        } else {
-            (low, high.min(slice.ratio))
-        }
-    })
 }
 
 #[cfg(test)]

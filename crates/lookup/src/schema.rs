@@ -108,55 +108,6 @@ pub const FIELD_NAMES: [&str; 6] = [
     "stress_rz",
 ];
 
-/// Root attributes.
-pub const ROOT_ATTRIBUTES: [&str; 17] = [
-    FILE_TYPE,
-    FORMAT_VERSION,
-    SOFTWARE_VERSION,
-    NUMBERS_REVISION,
-    GIT_REVISION,
-    CREATED,
-    ID,
-    GRID,
-    CONTENT_SHA256,
-    CELL_WIDTH,
-    R_MAX,
-    Z_MAX,
-    STENCIL_POINTS,
-    ACCURACY_ASKED,
-    ACCURACY_REACHED,
-    ERROR_ON_SLICES,
-    ERROR_BETWEEN_SLICES,
-];
-/// Datasets at the root.
-pub const ROOT_DATASETS: [&str; 9] = [
-    R,
-    Z,
-    FIELD,
-    TERM,
-    PROBE_R,
-    PROBE_Z,
-    PULSE_LENGTH,
-    BETWEEN_R,
-    BETWEEN_Z,
-];
-/// Attributes of a slice.
-pub const SLICE_ATTRIBUTES: [&str; 4] = [POISSON_RATIO, ROLE, CELL_WIDTH, TIME_END];
-/// Datasets of a slice.
-pub const SLICE_DATASETS: [&str; 8] = [
-    TIME,
-    REMAINDER,
-    MOMENT,
-    CURVATURE,
-    TAIL,
-    PROBE_DIRECT,
-    PROBE_LOOKED_UP,
-    PROBE_ERROR,
-];
-
-/// Datasets of an interval between slices; its only attribute is [`POISSON_RATIO`].
-pub const BETWEEN_DATASETS: [&str; 3] = [PROBE_DIRECT, PROBE_LOOKED_UP, PROBE_ERROR];
-
 /// Name of the group of one slice: `nu_` and the shortest decimal form of Poisson's ratio.
 #[must_use]
 pub fn slice_name(poisson_ratio: f64) -> String {

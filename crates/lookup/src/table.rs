@@ -39,22 +39,17 @@ impl Table {
         decoded_bytes: u64,
     ) -> Result<Self, ContentError> {
         validate::slices(&content)?;
-        let served = content
-            .slices
-            .iter()
-            .map(|slice| Served::new(slice.poisson_ratio, slice.role))
-            .collect::<Result<_, _>>()?;
+        let slices = content.slices.iter();
+        let poisson_ratios: Vec<f64> = slices.clone().map(|slice| slice.poisson_ratio).collect();
+        let served = slices.map(|slice| Served::new(slice.poisson_ratio, slice.role));
+        let served = served.collect::<Result<_, _>>()?;
         let meshes = content.probes().map(|places| places.len());
         Ok(Self {
             first,
             meshes,
             decoded_bytes,
             id: hash::settings_id(&content.origin.grid),
-            poisson_ratios: content
-                .slices
-                .iter()
-                .map(|slice| slice.poisson_ratio)
-                .collect(),
+            poisson_ratios,
             served,
             content,
         })
@@ -64,12 +59,6 @@ impl Table {
     #[must_use]
     pub fn id(&self) -> &str {
         &self.id
-    }
-
-    /// Version of the format of the file that the table came from, or that this program would write.
-    #[must_use]
-    pub fn format_version(&self) -> &str {
-        &self.content.origin.format_version
     }
 
     /// Bytes of numbers that were decoded to load it as a part of a file: what loading took; 0 of any other table.
@@ -92,18 +81,6 @@ impl Table {
         Ok(self.content.cell_width * cell_scale(poisson_ratio)?)
     }
 
-    /// Largest radius in r0; the smallest is 0.
-    #[must_use]
-    pub fn r_max(&self) -> f64 {
-        self.content.r_max
-    }
-
-    /// Largest depth in r0; the smallest is 0.
-    #[must_use]
-    pub fn z_max(&self) -> f64 {
-        self.content.z_max
-    }
-
     /// Everything that the table holds.
     #[must_use]
     pub fn content(&self) -> &Content {
@@ -123,19 +100,12 @@ impl Table {
     pub(crate) fn mesh(&self, [r, z]: [f64; 2]) -> Result<[usize; 2], LookupError> {
         let content = &self.content;
         let mut mesh = [0; 2];
-        for (axis, (name, nodes, value)) in [("r/r0", &content.r, r), ("z/r0", &content.z, z)]
-            .into_iter()
-            .enumerate()
-        {
+        let axes = [("r/r0", &content.r, r), ("z/r0", &content.z, z)];
+        for (axis, (name, nodes, value)) in axes.into_iter().enumerate() {
             let (first, last) = (self.first[axis], self.meshes[axis]);
             let found = locate(&nodes[first..=last], value);
-            mesh[axis] = first
-                + found.ok_or(LookupError::Outside {
-                    axis: name,
-                    value,
-                    min: 0.0,
-                    max: nodes[last],
-                })?;
+            let outside = || LookupError::outside(name, value, [0.0, nodes[last]]);
+            mesh[axis] = first + found.ok_or_else(outside)?;
         }
         Ok(mesh)
     }

@@ -1,7 +1,7 @@
 //! Whether numbers are a table: axes, sizes and values, before anything is indexed by them.
 
 use crate::content::{Content, FIELDS, Slice, Verification, centres};
-use crate::error::ContentError;
+use crate::error::{ContentError, shape, value};
 use crate::schema;
 use crate::series::stencil::MAX_POINTS;
 
@@ -17,7 +17,7 @@ pub(crate) fn frame(content: &Content) -> Result<(), ContentError> {
         ("z", &content.z, content.z_max),
     ] {
         if !nodes.contains(&max) || centres(nodes, max).is_empty() {
-            return Err(value(format!("{name}_max"), max, "one of the nodes but 0"));
+            return Err(value(&format!("{name}_max"), max, "one of the nodes but 0"));
         }
     }
     let [narrowest, widest] = CELL_WIDTHS;
@@ -28,12 +28,9 @@ pub(crate) fn frame(content: &Content) -> Result<(), ContentError> {
         return Err(shape("pulse_length", 1, 0));
     }
     ascending("pulse_length", &content.pulse_lengths)?;
-    if content.pulse_lengths[0] <= 0.0 {
-        return Err(value(
-            "pulse_length[0]",
-            content.pulse_lengths[0],
-            "(0, inf)",
-        ));
+    let shortest = content.pulse_lengths[0];
+    if shortest <= 0.0 {
+        return Err(value("pulse_length[0]", shortest, "(0, inf)"));
     }
     let points = content.stencil_points;
     if !(2..=MAX_POINTS).contains(&points) || points % 2 == 1 {
@@ -71,11 +68,8 @@ pub(crate) fn slices(content: &Content) -> Result<(), ContentError> {
     let ratios: Vec<f64> = content.slices.iter().map(|s| s.poisson_ratio).collect();
     ascending("poisson_ratio", &ratios)?;
     for slice in &content.slices {
-        same_size(
-            slice.poisson_ratio,
-            size(content, slice),
-            size(content, first),
-        )?;
+        let [own, needed] = [slice, first].map(|slice| size(content, slice));
+        same_size(slice.poisson_ratio, own, needed)?;
         fits(content, slice)?;
         finite(content, slice)?;
     }
@@ -99,7 +93,7 @@ pub(crate) fn same_size(
     for ((name, found), needed) in names.into_iter().zip(size).zip(needed) {
         if found != needed.max(1) {
             let item = format!("{}/{name}", group(poisson_ratio));
-            return Err(shape(item, needed.max(1), found));
+            return Err(shape(&item, needed.max(1), found));
         }
     }
     Ok(())
@@ -117,7 +111,10 @@ fn fits(content: &Content, slice: &Slice) -> Result<(), ContentError> {
     let [cells, terms] = size(content, slice);
     for ((dataset, list), each) in slice.lists().into_iter().zip([cells, cells, cells, terms]) {
         let needed = product(&[nodes, FIELDS, each]);
-        length(&format!("{group}/{dataset}"), list, needed)?;
+        if list.len() != needed {
+            let item = format!("{group}/{dataset}");
+            return Err(shape(&item, needed, list.len()));
+        }
     }
     let places = content.probes().map(|places| places.len()).iter().product();
     probes(content, &group, &slice.verification, places)
@@ -132,7 +129,7 @@ fn finite(content: &Content, slice: &Slice) -> Result<(), ContentError> {
             let (i, k) = (node / content.z.len(), node % content.z.len());
             let place = format!("(r/r0 = {}, z/r0 = {})", content.r[i], content.z[k]);
             let item = format!("{}/{dataset} {place}", group(slice.poisson_ratio));
-            return Err(value(item, f64::from(list[bad]), "finite numbers"));
+            return Err(value(&item, f64::from(list[bad]), "finite numbers"));
         }
     }
     Ok(())
@@ -152,11 +149,13 @@ pub(crate) fn probes(
             _ => (f32::MIN, "finite numbers"),
         };
         let name = format!("{group}/{dataset}");
-        length(&name, array, needed)?;
+        if array.len() != needed {
+            return Err(shape(&name, needed, array.len()));
+        }
         let bad = |x: &f32| !x.is_finite() || *x < least;
         if let Some(index) = array.iter().position(bad) {
             let item = format!("{name}[{index}]");
-            return Err(value(item, f64::from(array[index]), range));
+            return Err(value(&item, f64::from(array[index]), range));
         }
     }
     Ok(())
@@ -167,18 +166,10 @@ pub(crate) fn product(factors: &[usize]) -> usize {
     factors.iter().fold(1, |all, &x| all.saturating_mul(x))
 }
 
-fn length(name: &str, array: &[f32], needed: usize) -> Result<(), ContentError> {
-    if array.len() == needed {
-        Ok(())
-    } else {
-        Err(shape(name, needed, array.len()))
-    }
-}
-
 fn axis(name: &'static str, nodes: &[f64]) -> Result<(), ContentError> {
     ascending(name, nodes)?;
     match nodes.first() {
-        Some(&first) if first != 0.0 => Err(value(format!("{name}[0]"), first, "0")),
+        Some(&first) if first != 0.0 => Err(value(&format!("{name}[0]"), first, "0")),
         Some(_) | None => Ok(()),
     }
 }
@@ -188,24 +179,8 @@ pub(crate) fn ascending(name: &'static str, values: &[f64]) -> Result<(), Conten
     for (index, &x) in values.iter().enumerate() {
         if !x.is_finite() || index > 0 && x <= values[index - 1] {
             let range = "finite, strictly ascending";
-            return Err(value(format!("{name}[{index}]"), x, range));
+            return Err(value(&format!("{name}[{index}]"), x, range));
         }
     }
     Ok(())
-}
-
-fn value(item: impl Into<String>, value: f64, range: &'static str) -> ContentError {
-    ContentError::Value {
-        item: item.into(),
-        value,
-        range,
-    }
-}
-
-fn shape(item: impl Into<String>, needed: usize, found: usize) -> ContentError {
-    ContentError::Shape {
-        item: item.into(),
-        needed,
-        found,
-    }
 }

@@ -14,7 +14,7 @@ fn grid_of(given: &Bound<'_, PyAny>) -> PyResult<Grid> {
     if let Ok(name) = given.cast::<PyString>() {
         let name: String = name.extract()?;
         let path = Path::new(&name);
-        if let Some(grid) = Grid::preset(&name).map_err(raise)? {
+        if let Some(grid) = Grid::preset(&name) {
             return Ok(grid);
         } else if path.extension().is_some_and(|end| end == "toml") {
             return Grid::from_file(path).map_err(raise);

@@ -40,11 +40,8 @@ pub fn build_over(
         claimed => claimed?,
     };
     let drops = |_: &str| existing == Existing::Replace;
-    let summary = compute(grid, &output, &title(&text, None), drops, None, progress)?;
-    Ok(Summary {
-        wall_s: started.elapsed().as_secs_f64(),
-        ..summary
-    })
+    let title = title(&text, None);
+    compute(grid, &output, &title, drops, None, progress, started)
 }
 
 /// Computes what neither a journal nor a known table has, and writes the table; the journal goes when it is there.
@@ -55,6 +52,7 @@ pub(crate) fn compute(
     drops: impl Fn(&str) -> bool,
     known: Option<&Known>,
     progress: &dyn Progress,
+    started: Instant,
 ) -> Result<Summary, BuildError> {
     let work = block::all(grid);
     let (journal, found) = journal::open(&journal_of(output), title, drops)?;
@@ -75,6 +73,7 @@ pub(crate) fn compute(
         .unwrap_or_else(PoisonError::into_inner)
         .remove();
     Ok(Summary {
+        wall_s: started.elapsed().as_secs_f64(),
         resumed_blocks,
         ..summary
     })

@@ -56,12 +56,10 @@ pub enum BuildError {
     /// Something else that is unfinished is in the way, or its file cannot be read.
     #[error(transparent)]
     Journal(JournalError),
-    /// A file operation failed.
-    #[error("cannot {action} {}: {source}", path.display())]
+    /// A grid file cannot be read.
+    #[error("cannot read {}: {source}", path.display())]
     File {
-        /// What was to be done.
-        action: &'static str,
-        /// With which file.
+        /// Which.
         path: PathBuf,
         /// What the system said.
         source: std::io::Error,

@@ -7,7 +7,7 @@ use crate::grid::Grid;
 use crate::journal::title;
 use crate::known::Known;
 use crate::progress::Progress;
-use lookup::{BadTable, Table};
+use lookup::Table;
 use output::{Existing, Output};
 use std::path::Path;
 use std::time::Instant;
@@ -42,33 +42,22 @@ pub fn extend(
     let started = Instant::now();
     let output = Output::claim(path, Existing::Replace)?;
     let content = Table::open(path)?.into_content();
-    let base = lookup::content_hash(&content);
-    let stated = lookup::stated_hash(path)?;
-    if stated != base {
-        let differs = BadTable::Checksum {
-            stated,
-            found: base,
-        };
-        return Err(differs.of(path).into());
-    }
+    let base = lookup::same_hash(path, &content)?;
     let present = content.origin.grid.clone();
-    let mut grid = Grid::of(&content).map_err(|error| error.in_file(path))?;
-    let known = Known::new(content);
+    let mut grid = Grid::parse(&present).map_err(|error| error.in_file(path))?;
+    let known = Known { content };
     apply(&mut grid, &known, extension)?;
     grid.validate()?;
     let title = title(&grid.to_toml()?, Some(&base));
     // one that became the table which is there may go
     let drops = |settings: &str| settings == present;
-    let summary = compute(&grid, &output, &title, drops, Some(&known), progress)?;
-    Ok(Summary {
-        wall_s: started.elapsed().as_secs_f64(),
-        ..summary
-    })
+    let known = Some(&known);
+    compute(&grid, &output, &title, drops, known, progress, started)
 }
 
 fn apply(grid: &mut Grid, known: &Known, extension: &Extension) -> Result<(), BuildError> {
     for &nu in &extension.exact_ratios {
-        if known.role(nu).is_none() && !grid.exact_ratios.contains(&nu) {
+        if known.slice(nu).is_none() && !grid.exact_ratios.contains(&nu) {
             grid.exact_ratios.push(nu);
         }
     }

@@ -5,24 +5,20 @@ use crate::error::BuildError;
 use crate::grid::Grid;
 use crate::numbers::NUMBERS_REVISION;
 use crate::point::PointKernels;
-use lookup::{Content, Role, Slice, Verification};
+use lookup::{Content, Slice, Verification};
 
 /// The content of the older table, which is valid.
 pub(crate) struct Known {
-    content: Content,
+    pub(crate) content: Content,
 }
 
 impl Known {
-    pub(crate) fn new(content: Content) -> Self {
-        Self { content }
-    }
-
     /// Revision of the numbers of a table that goes on from this one.
     pub(crate) fn numbers_revision(&self) -> u64 {
         NUMBERS_REVISION.min(self.content.origin.numbers_revision)
     }
 
-    fn slice(&self, poisson_ratio: f64) -> Option<&Slice> {
+    pub(crate) fn slice(&self, poisson_ratio: f64) -> Option<&Slice> {
         let mut slices = self.content.slices.iter();
         slices.find(|slice| slice.poisson_ratio == poisson_ratio)
     }
@@ -99,13 +95,7 @@ impl Known {
             return false;
         };
         let size = self.content.pulse_lengths.len() * 6;
-        for (list, values) in [
-            (&mut out.direct, &verification.direct),
-            (&mut out.looked_up, &verification.looked_up),
-            (&mut out.error, &verification.error),
-        ] {
-            list.extend_from_slice(&values[start..start + size]);
-        }
+        out.extend(verification, start..start + size);
         true
     }
 
@@ -134,10 +124,5 @@ impl Known {
         let k = places[1].iter().position(|&x| x == z)?;
         let size = content.pulse_lengths.len() * 6;
         Some((verification, (i * places[1].len() + k) * size))
-    }
-
-    /// Whether a ratio has a slice, and of what role.
-    pub(crate) fn role(&self, poisson_ratio: f64) -> Option<Role> {
-        self.slice(poisson_ratio).map(|slice| slice.role)
     }
 }

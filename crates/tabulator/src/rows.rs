@@ -24,15 +24,6 @@ pub(crate) fn rows(
     known: Option<&Known>,
     progress: &dyn Progress,
 ) -> Result<Vec<Row>, BuildError> {
-    let slices = || grid.slices().into_iter();
-    let nodes = slices().map(|(nu, _)| grid.point(nu));
-    let probes = slices().map(|(nu, _)| grid.probe(nu));
-    let between = (0..grid.intervals()).map(|interval| grid.probe(grid.between(interval)?));
-    let plans: [Vec<PointPlan>; 3] = [
-        nodes.collect::<Result<_, _>>()?,
-        probes.collect::<Result<_, _>>()?,
-        between.collect::<Result<_, _>>()?,
-    ];
     let places = Kind::ALL.map(|kind| positions(kind, grid));
     let missing: Vec<Block> = work
         .iter()
@@ -45,9 +36,13 @@ pub(crate) fn rows(
         .with_max_len(1)
         .map(|&block| {
             let [r, z] = &places[block.kind as usize];
-            let plan = &plans[block.kind as usize][block.slice];
-            progress.slice(plan.kernel().medium().poisson_ratio());
-            let row = row(plan, block.kind, r[block.row], z, known)?;
+            let ratio = grid.ratio_of(block)?;
+            let plan = match block.kind {
+                Kind::Nodes => grid.point(ratio)?,
+                Kind::Probes | Kind::Between => grid.probe(ratio)?,
+            };
+            progress.slice(ratio);
+            let row = row(&plan, block.kind, r[block.row], z, known)?;
             if let Some(journal) = journal {
                 let kept = kept(block, &row);
                 let mut journal = journal.lock().unwrap_or_else(PoisonError::into_inner);
@@ -77,11 +72,11 @@ fn row(
     let nu = plan.kernel().medium().poisson_ratio();
     let mut row = Row::default();
     for &z in depths {
-        let mut point = match (kind, known) {
-            (Kind::Probes | Kind::Between, Some(known)) if known.measured(kind, nu, [r, z]) => {
-                plan.blank()
-            }
-            (Kind::Nodes | Kind::Probes | Kind::Between, _) => plan.compute(r, z)?,
+        let is_known = known.is_some_and(|known| known.measured(kind, nu, [r, z]));
+        let mut point = if is_known {
+            plan.blank()
+        } else {
+            plan.compute(r, z)?
         };
         point.round();
         if let (Kind::Nodes, Some(known)) = (kind, known) {

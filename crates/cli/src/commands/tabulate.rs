@@ -73,7 +73,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     if let Some(extension) = extension(arguments) {
         let summary = extend(&arguments.output, &extension, &Bar::new()).map_err(failure)?;
         let content = lookup::read(&arguments.output).map_err(Failure::work)?;
-        return tell(&Grid::of(&content).map_err(failure)?, arguments, &summary);
+        let grid = Grid::parse(&content.origin.grid).map_err(failure)?;
+        return tell(&grid, arguments, &summary);
     }
     let grid = grid(arguments)?;
     // ends at once where it has all its blocks
@@ -138,7 +139,7 @@ fn extension(arguments: &Arguments) -> Option<Extension> {
 fn grid(arguments: &Arguments) -> Result<Grid, Failure> {
     let most = [arguments.r_max, arguments.z_max, arguments.time_factor];
     let name = arguments.grid.as_deref().unwrap_or("demo");
-    let grid = match Grid::preset(name).map_err(failure)? {
+    let grid = match Grid::preset(name) {
         Some(grid) => grid,
         None if is_file(name) => Grid::from_file(name.as_ref()).map_err(failure)?,
         None => {

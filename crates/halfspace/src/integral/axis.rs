@@ -8,7 +8,7 @@ use crate::arrivals::Arrivals;
 use crate::field::{Estimate, FIELDS, Six};
 use crate::medium::Medium;
 use crate::point::Point;
-use crate::potentials::order::Order;
+use crate::potentials::order::IMPULSE;
 use crate::profile::Profile;
 
 /// Radii below this fraction of the distance from the edge of the disc are continued.
@@ -22,13 +22,7 @@ const NODES: usize = 6;
 
 /// Whether the fields at a point are continued from larger radii.
 pub(crate) fn is_near<const N: i32>(profile: Profile, at: Point) -> bool {
-    match (profile, Order::of(N)) {
-        (Profile::Hertz, Order::Step | Order::StepIntegral) => false,
-        (Profile::Hertz, Order::Impulse)
-        | (Profile::Punch | Profile::Point, Order::Impulse | Order::Step | Order::StepIntegral) => {
-            at.r < NEAR * at.z.hypot(profile.radius())
-        }
-    }
+    (profile != Profile::Hertz || N == IMPULSE) && at.r < NEAR * at.z.hypot(profile.radius())
 }
 
 /// The value at `at` from `evaluate` at radii h, 2h, ..., by interpolation in r^2.

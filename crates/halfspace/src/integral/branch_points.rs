@@ -7,8 +7,7 @@ use crate::integral::panels::smallest_ellipse;
 use crate::integral::singularities::Singularities;
 use crate::medium::Medium;
 use crate::numeric::complex::{logarithm, root};
-use crate::numeric::lanes::Map;
-use crate::numeric::lanes::Pair;
+use crate::numeric::lanes::{Map, Pair};
 use crate::numeric::scalar::{Real, Scalar};
 use num_complex::Complex64;
 use pulp::Simd;
@@ -90,19 +89,10 @@ impl Map for Stretch {
     fn at<S: Simd>(&self, q: Pair<S>) -> Pair<S> {
         let w = (q - self.centre) * (1.0 / self.width);
         let zero = w.re.constant(0.0);
-        let right = Pair {
-            re: w.re.abs(),
-            im: w.re.where_below(zero, -w.im, w.im),
-        };
+        let right = Pair::new(w.re.abs(), w.re.where_below(zero, -w.im, w.im));
         let sum = right + (right * right + 1.0).root();
-        let sinh = Pair {
-            re: sum.norm_sqr().ln() * 0.5,
-            im: sum.im.angle_over(sum.re),
-        };
-        let signed = Pair {
-            re: w.re.where_below(zero, -sinh.re, sinh.re),
-            im: w.re.where_below(zero, -sinh.im, sinh.im),
-        };
+        let sinh = sum.logarithm();
+        let signed = Pair::where_below(w.re, zero, Pair::new(-sinh.re, -sinh.im), sinh);
         (signed + self.shift) * (1.0 / self.rate)
     }
 }
@@ -116,15 +106,14 @@ impl FixedSingularities {
         let i = Complex64::i();
         let both = |v: Complex64| [v, -v];
         // x is infinite at u = i, p and y vanish together with a square root at the branch points
-        let mut fast = vec![i];
-        fast.push(k.sqrt() / (1.0 - i * span.sqrt()));
+        let mut fast = vec![i, k.sqrt() / (1.0 - i * span.sqrt())];
         let mut slow = vec![i];
         for s in both(i / span.sqrt()) {
             for c in both(root(1.0 - s * s)) {
                 slow.push(s / (1.0 + c));
             }
         }
-        for zero in medium.rayleigh_cubic_roots() {
+        for zero in medium.rayleigh_cubic_roots {
             let x2 = zero * k;
             let square = (2.0 * x2 - k) * (2.0 * x2 - k);
             let is_zero = |rest: Complex64| (square + rest).norm() < 1e-6 * k * k;

@@ -6,26 +6,24 @@ use crate::field::{Field, Six};
 use crate::integral::fronts;
 use crate::integral::panels::ROUNDING;
 use crate::integral::setting::Setting;
-use crate::integral::side_by_side;
 use crate::integral::singularities::Singularities;
 use crate::integral::spectrum::{self, Wave, half_angle};
 use crate::integral::sum::Sum;
 use crate::numeric::scalar::Real;
 use crate::point::{Point, Sense};
 use crate::potentials::Potentials;
-use crate::potentials::compact::{compact, passed};
+use crate::potentials::compact::{PASSED, compact};
 use crate::potentials::order::{Order, STEP_INTEGRAL};
 use crate::potentials::shallow;
 use num_complex::Complex64;
 
 impl Setting {
-    /// Adds one wave in one sense over 0 < x < 1; `passed` is its time integral once it has passed.
+    /// Adds one wave in one sense over 0 < x < 1.
     pub(crate) fn fast<const N: i32>(
         &self,
         at: Point,
         wave: Wave,
         sense: Sense,
-        passed: f64,
         singularities: &mut Singularities,
         sum: &mut Sum,
     ) {
@@ -33,11 +31,9 @@ impl Setting {
         let shallow = shallow::applies::<N>(self.profile, at);
         match sense {
             Sense::Outgoing if at.t >= self.last_fast(at, wave, limit) => {
-                match Order::of(N) {
-                    Order::Impulse | Order::Step => {}
-                    Order::StepIntegral => {
-                        sum.add(1.0, [ROUNDING; 2], [0.0, passed, 0.0, 0.0, 0.0, 0.0]);
-                    }
+                if N == STEP_INTEGRAL {
+                    let passed = self.passed[wave as usize];
+                    sum.add(1.0, [ROUNDING; 2], [0.0, passed, 0.0, 0.0, 0.0, 0.0]);
                 }
                 return;
             }
@@ -46,44 +42,31 @@ impl Setting {
             Sense::Outgoing | Sense::Image => {}
         }
         fronts::singular::<N>(self, at, wave, Some(sense), singularities);
-        for i in singularities.intervals() {
-            let interval = singularities.interval(i);
+        for interval in singularities.intervals() {
             let (x, p, _) = half_angle(0.5 * (interval.0 + interval.1));
             let eta = self.eta(at, wave, sense, x, p);
             let at_surface = sense.sign() * at.t / x;
             if eta.abs() < limit || shallow && at_surface.abs() < limit {
                 singularities.visit(interval, self.digits(at, shallow), &mut |nodes| {
-                    if side_by_side::applies::<N>(self.profile, at, shallow) {
-                        side_by_side::add(self, at, wave, Some(sense), nodes, sum);
-                        return;
-                    }
-                    for (place, weight, error) in nodes.iter() {
-                        let (x, p, jacobian) = half_angle(place);
-                        let term = self.fast_term::<N>(at, wave, sense, (x, p), shallow);
-                        sum.add(weight * jacobian, error, term);
-                    }
+                    self.add_nodes::<N>(at, wave, Some(sense), nodes, shallow, sum);
                 });
-            } else if eta < 0.0 {
-                match Order::of(N) {
-                    Order::Impulse | Order::Step => {}
-                    Order::StepIntegral => {
-                        self.add_passed(at, wave, interval, sum);
-                    }
-                }
+            } else if eta < 0.0 && N == STEP_INTEGRAL {
+                self.add_passed(at.r, wave, interval, sum);
             }
         }
     }
 
-    /// The integrand at slowness x, p = sqrt(1 - x^2).
+    /// dx/du and the integrand at the half-angle u.
     #[inline]
-    fn fast_term<const N: i32>(
+    pub(crate) fn fast_term<const N: i32>(
         &self,
         at: Point,
         wave: Wave,
         sense: Sense,
-        (x, p): (f64, f64),
+        u: f64,
         shallow: bool,
-    ) -> Six {
+    ) -> (f64, Six) {
+        let (x, p, jacobian) = half_angle(u);
         let eta = self.eta(at, wave, sense, x, p);
         let psi = in_time::<N>(compact::<N>(self.profile, eta, at.r), sense, x);
         let amplitudes = spectrum::fast(wave, self.k, x, p);
@@ -97,31 +80,26 @@ impl Setting {
             let (a, g) = shallow::compact_difference(surface, step, eta, at.r);
             amplitudes.set_traction(&mut term, a, g, at.r);
         }
-        term
+        (jacobian, term)
     }
 
     /// int of the amplitude of w times x/2 dx over the whole fast interval: the time integral of a wave
     /// that has passed.
     pub(crate) fn passed_whole(&self, wave: Wave) -> f64 {
         let mut sum = Sum::default();
-        let anywhere = Point {
-            r: 1.0,
-            z: 0.0,
-            t: 0.0,
-        };
-        self.add_passed(anywhere, wave, (0.0, 1.0), &mut sum);
+        self.add_passed(1.0, wave, (0.0, 1.0), &mut sum);
         sum.value()[Field::DisplacementZ.index()]
     }
 
     /// Adds the time integral of an outgoing wave that has passed on an interval.
-    fn add_passed(&self, at: Point, wave: Wave, interval: (f64, f64), sum: &mut Sum) {
+    fn add_passed(&self, r: f64, wave: Wave, interval: (f64, f64), sum: &mut Sum) {
         let mut singularities = self.fixed.fast.clone();
         singularities.pole = Complex64::i();
-        singularities.visit(interval, self.digits(at, false), &mut |nodes| {
+        singularities.visit(interval, self.deep_digits, &mut |nodes| {
             for (place, weight, error) in nodes.iter() {
                 let (x, p, jacobian) = half_angle(place);
-                let psi = passed::<STEP_INTEGRAL>().map(|v| -x * v);
-                let term = spectrum::fast(wave, self.k, x, p).fields(&psi, at.r);
+                let psi = PASSED.map(|v| -x * v);
+                let term = spectrum::fast(wave, self.k, x, p).fields(&psi, r);
                 sum.add(weight * jacobian, error, term);
             }
         });

@@ -47,7 +47,10 @@ pub(crate) fn singular<const N: i32>(
     };
     singularities.take(own, Strength::of::<N>(profile), setting.front_rounding(at));
     let shallow = shallow::applies::<N>(profile, at);
-    for at in [at].into_iter().chain(shallow.then(|| shallow::above(at))) {
+    for at in [at]
+        .into_iter()
+        .chain(shallow.then_some(Point { z: 0.0, ..at }))
+    {
         match sense {
             Some(sense) => add_fast(singularities, setting, at, wave, sense),
             None => add_slow(singularities, setting, at, wave),
@@ -66,7 +69,8 @@ fn add_fast(
     for_each_front(setting, at, wave, sense, |v| match wave {
         Wave::P => with_mirror(v, |u| singularities.add(u)),
         Wave::S => {
-            let (x, y) = (setting.root_k * sine(v), cosine(v));
+            let sine = 2.0 * v / (1.0 + v * v);
+            let (x, y) = (setting.root_k * sine, cosine(v));
             if y.re > 0.0 {
                 let u = x / (1.0 + root(1.0 - x * x));
                 with_mirror(u, |u| singularities.add(u));
@@ -134,23 +138,13 @@ fn with_reciprocal(point: Complex64, mut add: impl FnMut(Complex64)) {
     }
 }
 
-fn sine(u: Complex64) -> Complex64 {
-    2.0 * u / (1.0 + u * u)
-}
-
 fn cosine(u: Complex64) -> Complex64 {
     let square = u * u;
     (1.0 - square) / (1.0 + square)
 }
 
-/// The distances |e| of the front equation: two, or one for a point force.
-fn edges(r: f64, radius: f64) -> impl Iterator<Item = f64> {
-    let nearest = (radius > 0.0).then_some((radius - r).abs());
-    [radius + r].into_iter().chain(nearest)
-}
-
 /// Roots u of (sense t - z) u^2 - 2 e u + (z + sense t) = 0, t in units of the slowness of the wave, for
-/// both e > 0; those for -e are their negatives. Of a conjugate pair one is given.
+/// both e > 0, or the one for a point force; those for -e are their negatives. Of a conjugate pair one is given.
 fn for_each_front(
     setting: &Setting,
     at: Point,
@@ -164,7 +158,9 @@ fn for_each_front(
             f(u);
         }
     };
-    for e in edges(at.r, setting.profile.radius()) {
+    let radius = setting.profile.radius();
+    let nearest = (radius > 0.0).then_some((radius - at.r).abs());
+    for e in [radius + at.r].into_iter().chain(nearest) {
         let reach = (z * z + e * e).sqrt();
         let discriminant = (reach - t) * (reach + t);
         if discriminant >= 0.0 {

@@ -31,7 +31,7 @@ pub(crate) mod sum;
 
 use crate::domain::NEAREST;
 use crate::field::{Estimate, Field, Six};
-use crate::medium::Medium;
+use crate::numeric::lanes::dispatch;
 use crate::point::{Point, Sense};
 use crate::potentials::closed_form::SMALL_RADIUS;
 use crate::potentials::far_front;
@@ -39,48 +39,31 @@ use crate::potentials::order::STEP;
 use crate::potentials::shallow;
 use crate::profile::Profile;
 use num_complex::Complex64;
+use panels::Nodes;
 use setting::Setting;
+use side_by_side::Panel;
 use singularities::Singularities;
-use spectrum::{Pole, Wave};
+use spectrum::Wave;
 use std::f64::consts::PI;
 use sum::Sum;
 
-/// The integral of one half-space under one profile.
-#[derive(Debug, Clone)]
-pub(crate) struct Integral {
-    pub(crate) setting: Setting,
-    poles: [Pole; 2],
-    /// int of the amplitude of w over the fast interval, times x/2, for P and S: a wave that has passed.
-    passed: [f64; 2],
-}
-
-impl Integral {
-    pub(crate) fn new(medium: &Medium, profile: Profile, tolerance: f64) -> Self {
-        let setting = Setting::new(medium, profile, tolerance);
-        Self {
-            poles: [Wave::P, Wave::S].map(|wave| spectrum::pole(wave, medium)),
-            passed: [Wave::P, Wave::S].map(|wave| setting.passed_whole(wave)),
-            setting,
-        }
-    }
-
+impl Setting {
     /// The remainder or one of its time integrals, continued to the axis where the fronts of a point force or a punch
     /// meet there.
     pub(crate) fn evaluate<const N: i32>(&self, at: Point) -> Estimate {
-        let Setting {
-            medium, profile, ..
-        } = &self.setting;
-        let at = Point {
-            t: at.t.max(NEAREST),
-            ..at
-        };
-        let mut estimate = if axis::is_near::<N>(*profile, at) {
-            axis::continued(medium, *profile, at, |at| self.integrate::<N>(at))
+        let t = at.t.max(NEAREST);
+        let at = Point { t, ..at };
+        let mut estimate = if axis::is_near::<N>(self.profile, at) {
+            axis::continued(&self.medium, self.profile, at, |at| self.integrate::<N>(at))
         } else {
             self.integrate::<N>(at)
         };
+        // on the surface sigma_zz is the load and sigma_rz is zero from the start: both remainders vanish
         if at.z == 0.0 {
-            impose_surface(&mut estimate);
+            for field in [Field::StressZz, Field::StressRz] {
+                estimate.value[field.index()] = 0.0;
+                estimate.error[field.index()] = 0.0;
+            }
         }
         estimate
     }
@@ -89,19 +72,16 @@ impl Integral {
         /// Outside the disc the pressure is zero, and at a distance from the edge so are its rounding errors.
         const CLEAR_OF_EDGE: f64 = 1.01;
         let mut sum = Sum::default();
-        self.setting.rayleigh_wave::<N>(&self.poles, at, &mut sum);
+        self.rayleigh_wave::<N>(at, &mut sum);
         let mut singularities = Singularities::new([], Complex64::ZERO, &[]);
         for wave in [Wave::P, Wave::S] {
             for sense in [Sense::Outgoing, Sense::Image] {
-                let passed = self.passed[wave as usize];
-                self.setting
-                    .fast::<N>(at, wave, sense, passed, &mut singularities, &mut sum);
+                self.fast::<N>(at, wave, sense, &mut singularities, &mut sum);
             }
-            self.setting
-                .slow::<N>(at, wave, &mut singularities, &mut sum);
+            self.slow::<N>(at, wave, &mut singularities, &mut sum);
         }
-        let mut floor = rounding_floor::<N>(self.setting.profile, at.r);
-        if at.r > CLEAR_OF_EDGE && shallow::applies::<N>(self.setting.profile, at) {
+        let mut floor = rounding_floor::<N>(self.profile, at.r);
+        if at.r > CLEAR_OF_EDGE && shallow::applies::<N>(self.profile, at) {
             for field in [Field::StressZz, Field::StressRz] {
                 floor[field.index()] *= 8.0 * at.z.sqrt();
             }
@@ -112,13 +92,35 @@ impl Integral {
             error: std::array::from_fn(|f| error[f] / PI + floor[f]),
         }
     }
-}
 
-/// On the surface sigma_zz is the load and sigma_rz is zero from the start: both remainders vanish.
-fn impose_surface(estimate: &mut Estimate) {
-    for field in [Field::StressZz, Field::StressRz] {
-        estimate.value[field.index()] = 0.0;
-        estimate.error[field.index()] = 0.0;
+    /// Adds the nodes of one panel; a wave below slowness one has one sense, above it both.
+    pub(crate) fn add_nodes<const N: i32>(
+        &self,
+        at: Point,
+        wave: Wave,
+        sense: Option<Sense>,
+        nodes: &Nodes,
+        shallow: bool,
+        sum: &mut Sum,
+    ) {
+        if side_by_side::applies::<N>(self.profile, at, shallow) {
+            dispatch(Panel {
+                setting: self,
+                at,
+                wave,
+                sense,
+                nodes,
+                sum,
+            });
+            return;
+        }
+        for (place, weight, error) in nodes.iter() {
+            let (jacobian, term) = match sense {
+                Some(sense) => self.fast_term::<N>(at, wave, sense, place, shallow),
+                None => self.slow_term::<N>(at, wave, place, shallow),
+            };
+            sum.add(weight * jacobian, error, term);
+        }
     }
 }
 

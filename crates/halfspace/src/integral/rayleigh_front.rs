@@ -3,7 +3,7 @@
 //! Theory: `docs/theory.md` (T19).
 
 use crate::medium::Medium;
-use crate::numeric::complex::{logarithm, reciprocal, root_inside, times_minus_i};
+use crate::numeric::complex::{logarithm, reciprocal, root_inside, times_i, times_minus_i};
 use crate::numeric::double::Double;
 use crate::point::Point;
 use crate::potentials::Potentials;
@@ -37,7 +37,7 @@ impl Front {
         {
             return None;
         }
-        let path = medium.exact_rayleigh_speed() * t.into();
+        let path = medium.exact_rayleigh_speed * t.into();
         let (inner, outer) = (Double::sum(r, -1.0), Double::sum(r, 1.0));
         Some(Self {
             r,
@@ -83,7 +83,7 @@ fn at_front(xi: Complex64, r: f64, factors: [[f64; 2]; 2]) -> Potentials<Complex
     let phi = [0, 1].map(|i| times_minus_i(logarithm(zeta[i] + rho[i])));
     let eta = times_minus_i(xi);
     let psi = chord_primitives::<STEP, Complex64>(eta, r, phi, rho);
-    from_primitives::<STEP>(psi, eta, r)
+    from_primitives::<STEP, Complex64>(psi, eta, r, times_i)
 }
 
 /// A_2 and B_2/r there, the difference between xi + step and xi = -i c t for real step > 0, to its own last digits.
@@ -120,5 +120,5 @@ fn step_at_front(
     let scale = 0.75 / PI;
     let a = scale * (d_m1 - eta * d_m0 - h * m0);
     let g = scale / (r * r) * (d_m2 - eta * d_m1 - h * m1);
-    (Complex64::new(-a.im, a.re), g)
+    (times_i(a), g)
 }

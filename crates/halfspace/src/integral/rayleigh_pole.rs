@@ -7,10 +7,10 @@
 use crate::integral::panels::ROUNDING;
 use crate::integral::rayleigh_front::Front;
 use crate::integral::setting::Setting;
-use crate::integral::side_by_side;
-use crate::integral::spectrum::Pole;
+use crate::integral::side_by_side::{self, Two};
 use crate::integral::strength::Strength;
 use crate::integral::sum::Sum;
+use crate::numeric::lanes::dispatch;
 use crate::point::Point;
 use crate::potentials::closed_form::potentials;
 use crate::potentials::order::Order;
@@ -20,21 +20,21 @@ use std::f64::consts::PI;
 
 impl Setting {
     /// Adds pi times the Rayleigh wave at a point: the residues of P and S.
-    pub(crate) fn rayleigh_wave<const N: i32>(&self, poles: &[Pole; 2], at: Point, sum: &mut Sum) {
+    pub(crate) fn rayleigh_wave<const N: i32>(&self, at: Point, sum: &mut Sum) {
         let c = self.medium.rayleigh_speed();
         let shallow = shallow::applies::<N>(self.profile, at);
         let front = Front::near::<N>(&self.medium, self.profile, at);
-        let arguments = poles
-            .each_ref()
-            .map(|pole| Complex64::new(pole.decay * at.z, -c * at.t));
+        let arguments = (self.poles).map(|pole| Complex64::new(pole.decay * at.z, -c * at.t));
         let both = match &front {
             Some(front) => arguments.map(|xi| front.potentials(xi)),
-            None if side_by_side::applies::<N>(self.profile, at, false) => {
-                side_by_side::potentials(self.profile, arguments, at.r)
-            }
+            None if side_by_side::applies::<N>(self.profile, at, false) => dispatch(Two {
+                profile: self.profile,
+                xi: arguments,
+                r: at.r,
+            }),
             None => arguments.map(|xi| potentials::<N>(self.profile, xi, at.r)),
         };
-        for ((pole, xi), mut psi) in poles.iter().zip(arguments).zip(both) {
+        for ((pole, xi), mut psi) in self.poles.iter().zip(arguments).zip(both) {
             // d/dt of order n + 1 is i c times order n
             match Order::of(N) {
                 Order::Impulse => psi = psi.map(|v| v * Complex64::new(0.0, c)),

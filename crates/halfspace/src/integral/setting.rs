@@ -1,7 +1,7 @@
 //! What one integral over slowness depends on besides the point: half-space, profile, tolerance.
 
 use crate::integral::branch_points::FixedSingularities;
-use crate::integral::spectrum::Wave;
+use crate::integral::spectrum::{Pole, Wave, pole};
 use crate::medium::Medium;
 use crate::point::Point;
 use crate::profile::Profile;
@@ -21,12 +21,16 @@ pub(crate) struct Setting {
     /// sqrt(1/kappa^2 - 1).
     pub(crate) span: f64,
     pub(crate) fixed: FixedSingularities,
+    /// For P and S.
+    pub(crate) poles: [Pole; 2],
+    /// int of the amplitude of w over the fast interval, times x/2, for P and S: a wave that has passed.
+    pub(crate) passed: [f64; 2],
 }
 
 impl Setting {
     pub(crate) fn new(medium: &Medium, profile: Profile, tolerance: f64) -> Self {
         let k = medium.shear_slowness_squared();
-        Self {
+        let mut setting = Self {
             medium: medium.clone(),
             profile,
             tolerance,
@@ -35,7 +39,11 @@ impl Setting {
             root_k: k.sqrt(),
             span: (k - 1.0).sqrt(),
             fixed: FixedSingularities::new(medium),
-        }
+            poles: [Wave::P, Wave::S].map(|wave| pole(wave, medium)),
+            passed: [0.0; 2],
+        };
+        setting.passed = [Wave::P, Wave::S].map(|wave| setting.passed_whole(wave));
+        setting
     }
 
     /// Relative accuracy of each quadrature rule, as minus its natural logarithm.

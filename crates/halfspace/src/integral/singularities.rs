@@ -13,7 +13,6 @@ use crate::numeric::scalar::Scalar;
 use arrayvec::ArrayVec;
 use num_complex::Complex64;
 use pulp::Simd;
-use std::ops::Range;
 
 /// Power of the variable toward a cut of a single singularity.
 const SQUARE: i32 = 2;
@@ -47,8 +46,6 @@ pub(crate) struct Singularities {
     /// Ends of the interval at which the variable stands for the square root of the distance in slowness.
     root_ends: &'static [f64],
     rounding: f64,
-    /// The cuts in order, between the ends of the interval.
-    ends: ArrayVec<f64, { CAPACITY + 2 }>,
     /// The points as the last piece of the interval saw them.
     images: Points,
 }
@@ -68,7 +65,6 @@ impl Singularities {
             strength: Strength::Bounded,
             root_ends,
             rounding: ROUNDING,
-            ends: ArrayVec::new(),
             images: Points::new(),
         };
         fixed.into_iter().for_each(|point| singularities.add(point));
@@ -108,27 +104,21 @@ impl Singularities {
         }
     }
 
-    /// Numbers of the intervals between cuts, in order.
-    pub(crate) fn intervals(&mut self) -> Range<usize> {
-        let Self { cuts, ends, .. } = self;
-        cuts.sort_unstable_by(f64::total_cmp);
-        ends.clear();
-        ends.push(0.0);
-        for &cut in cuts.iter() {
-            if !same(cut, ends[ends.len() - 1]) {
-                ends.push(cut);
+    /// The intervals between cuts, in order.
+    pub(crate) fn intervals(&mut self) -> ArrayVec<(f64, f64), { CAPACITY + 1 }> {
+        self.cuts.sort_unstable_by(f64::total_cmp);
+        let (mut intervals, mut from) = (ArrayVec::new(), 0.0);
+        for &cut in &self.cuts {
+            if !same(cut, from) {
+                intervals.push((from, cut));
+                from = cut;
             }
         }
-        if same(ends[ends.len() - 1], 1.0) {
-            ends.pop();
+        match intervals.last_mut() {
+            Some(last) if same(from, 1.0) => last.1 = 1.0,
+            _ => intervals.push((from, 1.0)),
         }
-        ends.push(1.0);
-        0..ends.len() - 1
-    }
-
-    /// Ends of interval `i`.
-    pub(crate) fn interval(&self, i: usize) -> (f64, f64) {
-        (self.ends[i], self.ends[i + 1])
+        intervals
     }
 
     /// Passes on the nodes of a rule on one interval a panel at a time, accurate to exp(-`digits`) of the size of the
@@ -258,15 +248,12 @@ impl Map for Image {
     #[inline(always)]
     fn at<S: Simd>(&self, v: Pair<S>) -> Pair<S> {
         let scale = v.re.constant(self.scale);
-        let image = Pair {
-            re: (v.re - self.start) / scale,
-            im: v.im / scale,
-        };
+        let image = Pair::new((v.re - self.start) / scale, v.im / scale);
         let least = v.re.constant(self.least * self.least);
-        let nowhere = Pair {
-            re: v.re.constant(Points::NOWHERE),
-            im: v.re.constant(Points::NOWHERE),
-        };
+        let nowhere = Pair::new(
+            v.re.constant(Points::NOWHERE),
+            v.re.constant(Points::NOWHERE),
+        );
         let found = Pair::where_below(image.norm_sqr(), least, nowhere, image);
         if self.square { found.root() } else { found }
     }
@@ -281,8 +268,8 @@ mod tests {
     fn integral(singularity: Complex64, f: impl Fn(f64) -> f64) -> (f64, usize) {
         let mut singularities = Singularities::new([singularity], NOWHERE, &[1.0]);
         let (mut sum, mut count) = (0.0, 0);
-        for i in singularities.intervals() {
-            singularities.visit(singularities.interval(i), 28.0, &mut |nodes| {
+        for interval in singularities.intervals() {
+            singularities.visit(interval, 28.0, &mut |nodes| {
                 sum += nodes
                     .iter()
                     .map(|(place, weight, _)| weight * f(place))
@@ -305,8 +292,8 @@ mod tests {
     fn logarithms_at_double_cuts_are_integrated() {
         let mut singularities = Singularities::new([0.3.into(), 0.3.into()], NOWHERE, &[1.0]);
         let mut sum = 0.0;
-        for i in singularities.intervals() {
-            singularities.visit(singularities.interval(i), 28.0, &mut |nodes| {
+        for interval in singularities.intervals() {
+            singularities.visit(interval, 28.0, &mut |nodes| {
                 let terms = nodes
                     .iter()
                     .map(|(place, weight, _)| weight * (place - 0.3).abs().ln());

@@ -5,7 +5,6 @@
 use crate::field::Six;
 use crate::integral::fronts;
 use crate::integral::setting::Setting;
-use crate::integral::side_by_side;
 use crate::integral::singularities::Singularities;
 use crate::integral::spectrum::{self, Wave};
 use crate::integral::sum::Sum;
@@ -37,40 +36,29 @@ impl Setting {
     ) {
         let shallow = shallow::applies::<N>(self.profile, at);
         fronts::singular::<N>(self, at, wave, None, singularities);
-        for i in singularities.intervals() {
-            singularities.visit(
-                singularities.interval(i),
-                self.digits(at, shallow),
-                &mut |nodes| {
-                    if side_by_side::applies::<N>(self.profile, at, shallow) {
-                        side_by_side::add(self, at, wave, None, nodes, sum);
-                        return;
-                    }
-                    for (place, weight, error) in nodes.iter() {
-                        let (q, dq) = self.fixed.stretch.half_angle(place);
-                        let inverse = 1.0 / (1.0 + q * q);
-                        let p_abs = self.span * 2.0 * q * inverse;
-                        let y = self.span * (1.0 - q) * (1.0 + q) * inverse;
-                        let x = (1.0 + p_abs * p_abs).sqrt();
-                        let term = self.slow_term::<N>(at, wave, (x, p_abs, y), shallow);
-                        // dx = p^ dp^/x, dp^ = 2 y/(1 + q^2) dq
-                        let jacobian = p_abs * 2.0 * y * inverse / x * dq;
-                        sum.add(weight * jacobian, error, term);
-                    }
-                },
-            );
+        for interval in singularities.intervals() {
+            singularities.visit(interval, self.digits(at, shallow), &mut |nodes| {
+                self.add_nodes::<N>(at, wave, None, nodes, shallow, sum);
+            });
         }
     }
 
-    /// The integrand at slowness x, p = -i `p_abs`, y = sqrt(K - x^2).
+    /// dx/ds and the integrand at the stretched half-angle s.
     #[inline]
-    fn slow_term<const N: i32>(
+    pub(crate) fn slow_term<const N: i32>(
         &self,
         at: Point,
         wave: Wave,
-        (x, p_abs, y): (f64, f64, f64),
+        s: f64,
         shallow: bool,
-    ) -> Six {
+    ) -> (f64, Six) {
+        let (q, dq) = self.fixed.stretch.half_angle(s);
+        let inverse = 1.0 / (1.0 + q * q);
+        let p_abs = self.span * 2.0 * q * inverse;
+        let y = self.span * (1.0 - q) * (1.0 + q) * inverse;
+        let x = (1.0 + p_abs * p_abs).sqrt();
+        // dx = p^ dp^/x, dp^ = 2 y/(1 + q^2) dq
+        let jacobian = p_abs * 2.0 * y * inverse / x * dq;
         let (re, im) = spectrum::inverse_rayleigh(self.k, x, p_abs, y);
         let slowness = Slowness {
             x,
@@ -92,7 +80,7 @@ impl Setting {
             };
             amplitudes.set_traction(&mut term, a, g, at.r);
         }
-        term
+        (jacobian, term)
     }
 
     /// Re of -i/R times the sum of both senses, or times i x their difference for the time integral.

@@ -82,30 +82,7 @@ pub(crate) fn fast<T: Real>(wave: Wave, k: f64, x: T, p: T) -> Amplitudes<T> {
     let g = x2 * 2.0 - k;
     let both = x2 * p * y * 4.0;
     let inverse = x.constant(1.0) / (g * g + both).at_least(SMALLEST);
-    match wave {
-        Wave::P => {
-            let over_x = g * inverse / x;
-            Amplitudes {
-                w: p * g * inverse,
-                u: x2 * over_x,
-                zz: -g * over_x,
-                rz: p * g * inverse * -2.0,
-                rr: (x2 * 2.0 + (k - 2.0)) * over_x,
-                tt: over_x * (k - 2.0),
-            }
-        }
-        Wave::S => {
-            let cross = x * p * y * inverse * 4.0;
-            Amplitudes {
-                w: p * x2 * inverse * -2.0,
-                u: cross * 0.5,
-                zz: -cross,
-                rz: p * g * inverse * 2.0,
-                rr: cross,
-                tt: x.constant(0.0),
-            }
-        }
-    }
+    amplitudes(wave, k, (x, p, y), inverse, 4.0)
 }
 
 /// 1/R = re + i im at slowness 1 < x < 1/kappa, where p = -i `p_abs`.
@@ -124,27 +101,39 @@ pub(crate) fn inverse_rayleigh<T: Real>(k: f64, x: T, p_abs: T, y: T) -> (T, T) 
 /// For P the factor is -i/R throughout; for S it is -i/R of `w` and `rz` and 1/R of the others.
 #[inline(always)]
 pub(crate) fn slow<T: Real>(wave: Wave, k: f64, x: T, p_abs: T, y: T) -> Amplitudes<T> {
+    amplitudes(wave, k, (x, p_abs, y), x.constant(1.0), -4.0)
+}
+
+/// Amplitudes from x, p or its modulus, y and 1/R; those of S but for `w` and `rz` have `cross` of both roots.
+#[inline(always)]
+fn amplitudes<T: Real>(
+    wave: Wave,
+    k: f64,
+    (x, p, y): (T, T, T),
+    inverse: T,
+    cross: f64,
+) -> Amplitudes<T> {
     let x2 = x * x;
     let g = x2 * 2.0 - k;
     match wave {
         Wave::P => {
-            let over_x = g / x;
+            let over_x = g * inverse / x;
             Amplitudes {
-                w: p_abs * g,
-                u: over_x * x2,
-                zz: -over_x * g,
-                rz: p_abs * g * -2.0,
-                rr: over_x * (x2 * 2.0 + (k - 2.0)),
+                w: p * g * inverse,
+                u: x2 * over_x,
+                zz: -g * over_x,
+                rz: p * g * inverse * -2.0,
+                rr: (x2 * 2.0 + (k - 2.0)) * over_x,
                 tt: over_x * (k - 2.0),
             }
         }
         Wave::S => {
-            let cross = x * p_abs * y * -4.0;
+            let cross = x * p * y * inverse * cross;
             Amplitudes {
-                w: p_abs * x2 * -2.0,
+                w: p * x2 * inverse * -2.0,
                 u: cross * 0.5,
                 zz: -cross,
-                rz: p_abs * g * 2.0,
+                rz: p * g * inverse * 2.0,
                 rr: cross,
                 tt: x.constant(0.0),
             }
@@ -166,47 +155,28 @@ pub(crate) fn pole(wave: Wave, medium: &Medium) -> Pole {
     let (a, b) = ((1.0 - c2).sqrt(), (1.0 - c2 * k).sqrt());
     let g = 2.0 - c2 * k;
     let scale = 2.0 / (medium.rayleigh_speed() * medium.rayleigh_slope());
-    let (decay, amplitudes) = match wave {
-        Wave::P => (
-            a,
-            Amplitudes {
-                w: a * g,
-                u: g,
-                zz: -g * g,
-                rz: -2.0 * a * g,
-                rr: g * (2.0 + (k - 2.0) * c2),
-                tt: g * (k - 2.0) * c2,
+    match wave {
+        Wave::P => Pole {
+            decay: a,
+            amplitudes: Amplitudes {
+                w: scale * (a * g),
+                u: scale * g,
+                zz: scale * (-g * g),
+                rz: scale * (-2.0 * a * g),
+                rr: scale * (g * (2.0 + (k - 2.0) * c2)),
+                tt: scale * (g * (k - 2.0) * c2),
             },
-        ),
-        Wave::S => (
-            b,
-            Amplitudes {
-                w: -2.0 * a,
-                u: -2.0 * a * b,
-                zz: 4.0 * a * b,
-                rz: 2.0 * a * g,
-                rr: -4.0 * a * b,
+        },
+        Wave::S => Pole {
+            decay: b,
+            amplitudes: Amplitudes {
+                w: scale * (-2.0 * a),
+                u: scale * (-2.0 * a * b),
+                zz: scale * (4.0 * a * b),
+                rz: scale * (2.0 * a * g),
+                rr: scale * (-4.0 * a * b),
                 tt: 0.0,
             },
-        ),
-    };
-    let Amplitudes {
-        w,
-        u,
-        zz,
-        rz,
-        rr,
-        tt,
-    } = amplitudes;
-    Pole {
-        decay,
-        amplitudes: Amplitudes {
-            w: scale * w,
-            u: scale * u,
-            zz: scale * zz,
-            rz: scale * rz,
-            rr: scale * rr,
-            tt: scale * tt,
         },
     }
 }

@@ -1,5 +1,6 @@
 //! Complex functions of the closed forms, with the branches and limits that they need.
 
+use crate::numeric::scalar::Real;
 use num_complex::Complex64;
 use std::f64::consts::FRAC_PI_2;
 
@@ -20,6 +21,11 @@ pub(crate) fn root(v: Complex64) -> Complex64 {
 pub(crate) fn reciprocal(v: Complex64) -> Complex64 {
     let scale = 1.0 / v.norm_sqr();
     Complex64::new(v.re * scale, -v.im * scale)
+}
+
+/// i v.
+pub(crate) fn times_i(v: Complex64) -> Complex64 {
+    Complex64::new(-v.im, v.re)
 }
 
 /// -i v.
@@ -61,8 +67,11 @@ pub(crate) fn root_inside(zeta: Complex64, inside: f64) -> Complex64 {
 }
 
 /// (r - s)(r + s) at the ends s = eta -+ 1 of the chord, exact at the edge of the disc.
-#[inline]
-pub(crate) fn inside(eta: f64, r: f64) -> [f64; 2] {
+#[inline(always)]
+pub(crate) fn inside<T: Real>(eta: T, r: f64) -> [T; 2] {
     let (inner, outer) = (r - 1.0, r + 1.0);
-    [(outer - eta) * (inner + eta), (inner - eta) * (outer + eta)]
+    [
+        (-eta + outer) * (eta + inner),
+        (-eta + inner) * (eta + outer),
+    ]
 }

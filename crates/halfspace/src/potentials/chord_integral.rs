@@ -7,7 +7,6 @@
 use crate::numeric::scalar::Scalar;
 use crate::potentials::Potentials;
 use crate::potentials::order::Order;
-use num_complex::Complex64;
 use std::f64::consts::PI;
 
 /// The chord integrals of a Hertz disc between s = eta - 1 and eta + 1, from phi and q at both ends.
@@ -73,14 +72,14 @@ pub(crate) fn chord_primitives<const N: i32, T: Scalar>(
 
 /// Potentials from chord primitives: powers of i from the change of variable, and the part of
 /// F_0 = (1 - zeta/rho)/r and F_1 = (rho - zeta)/r that is free of roots.
-#[inline]
-pub(crate) fn from_primitives<const N: i32>(
-    psi: Potentials<Complex64>,
-    eta: Complex64,
+#[inline(always)]
+pub(crate) fn from_primitives<const N: i32, T: Scalar>(
+    psi: Potentials<T>,
+    eta: T,
     r: f64,
-) -> Potentials<Complex64> {
+    times_i: impl Fn(T) -> T,
+) -> Potentials<T> {
     let force = 0.5 / (PI * r * r);
-    let times_i = |v: Complex64| Complex64::new(-v.im, v.re);
     match Order::of(N) {
         Order::Impulse => {
             unreachable!("potentials of the impulse response are integrated by parts")
@@ -92,7 +91,7 @@ pub(crate) fn from_primitives<const N: i32>(
             g_lower: psi.g_lower,
         },
         Order::StepIntegral => Potentials {
-            a_upper: -times_i(psi.a_upper),
+            a_upper: times_i(psi.a_upper) * -1.0,
             a_lower: psi.a_lower,
             g_upper: psi.g_upper - times_i(eta) * force,
             g_lower: times_i(psi.g_lower) + force,

@@ -12,7 +12,7 @@
 //!
 //! Theory: `docs/theory.md` (T12 to T14).
 
-use crate::numeric::complex::{inside, logarithm, reciprocal, root_inside, times_minus_i};
+use crate::numeric::complex::{inside, logarithm, reciprocal, root_inside, times_i, times_minus_i};
 use crate::potentials::Potentials;
 use crate::potentials::chord_integral::{chord_primitives, from_primitives};
 use crate::potentials::end::{End, end_orders};
@@ -52,11 +52,8 @@ pub(crate) fn potentials<const N: i32>(
 
 /// The step response of a distant point, xi = d + i eta; the potentials of the conjugate are conjugate.
 fn at_far_front(xi: Complex64, r: f64) -> Potentials<Complex64> {
-    let eta = xi.im.abs();
-    let psi = far_front::potentials(
-        [r - 1.0, r + 1.0].map(|edge| Complex64::new(edge - eta, xi.re)),
-        r,
-    );
+    let delta = far_front::delta(xi.im, r);
+    let psi = far_front::potentials(delta.map(|re| Complex64::new(re, xi.re)), r);
     if xi.im < 0.0 {
         psi.map(|v| v.conj())
     } else {
@@ -81,7 +78,7 @@ fn by_primitives<const N: i32>(xi: Complex64, r: f64) -> Potentials<Complex64> {
         sum.map(|sum| times_minus_i(logarithm(sum)))
     };
     let psi = chord_primitives::<N, Complex64>(eta, r, phi, rho);
-    from_primitives::<N>(psi, eta, r)
+    from_primitives::<N, Complex64>(psi, eta, r, times_i)
 }
 
 /// The same on the imaginary axis, where real and imaginary part separate into real functions.
@@ -106,7 +103,7 @@ fn on_imaginary_axis<const N: i32>(eta: f64, r: f64) -> Potentials<Complex64> {
     };
     let im = chord_primitives::<N, f64>(eta, r, log, w);
     let psi = re.zip(im, Complex64::new);
-    from_primitives::<N>(psi, eta.into(), r)
+    from_primitives::<N, Complex64>(psi, eta.into(), r, times_i)
 }
 
 fn by_parts<const N: i32>(profile: Profile, xi: Complex64, r: f64) -> Potentials<Complex64> {

@@ -23,7 +23,7 @@ use crate::potentials::Potentials;
 use crate::potentials::chord_integral::chord_primitives;
 use crate::potentials::far_front;
 use crate::potentials::multipole;
-use crate::potentials::order::{Order, STEP};
+use crate::potentials::order::{Order, STEP, STEP_INTEGRAL};
 use crate::profile::Profile;
 use num_complex::Complex64;
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -42,7 +42,7 @@ pub(crate) fn compact<const N: i32>(profile: Profile, eta: f64, r: f64) -> Poten
     match profile {
         Profile::Hertz => match Order::of(N) {
             Order::Impulse => hertz_impulse(eta, r),
-            Order::Step | Order::StepIntegral if r < AXIS => hertz_on_axis::<N>(eta),
+            Order::StepIntegral if r < AXIS => hertz_integral_on_axis(eta),
             Order::Step if r > far_front::FAR => hertz_far(eta, r),
             Order::Step | Order::StepIntegral => hertz::<N>(eta, r),
         },
@@ -72,9 +72,8 @@ fn hertz<const N: i32>(eta: f64, r: f64) -> Potentials<f64> {
     let ((phi1, q1), (phi2, q2)) = (circle(eta, -1.0, r), circle(eta, 1.0, r));
     let mut psi = chord_primitives::<N, f64>(eta, r, [phi1, phi2], [q1, q2]);
     // measured from their values before the arrival
-    match Order::of(N) {
-        Order::Impulse | Order::Step => {}
-        Order::StepIntegral => psi.a_upper -= 0.25,
+    if N == STEP_INTEGRAL {
+        psi.a_upper -= 0.25;
     }
     psi
 }
@@ -96,7 +95,7 @@ fn hertz_far(eta: f64, r: f64) -> Potentials<f64> {
                 g_lower: psi.g_lower.re,
             }
         }
-        None => far_front::compact([(r - 1.0) - distance, (r + 1.0) - distance], r),
+        None => far_front::compact(far_front::delta(eta, r), r),
     };
     // a2 and b3 are odd
     let sign = 1.0_f64.copysign(eta);
@@ -107,17 +106,13 @@ fn hertz_far(eta: f64, r: f64) -> Potentials<f64> {
     }
 }
 
-/// The compact parts after the wave has passed, below minus the reach of the disc.
-#[inline]
-pub(crate) fn passed<const N: i32>() -> Potentials<f64> {
-    match Order::of(N) {
-        Order::Impulse | Order::Step => Potentials::default(),
-        Order::StepIntegral => Potentials {
-            a_upper: -0.5,
-            ..Potentials::default()
-        },
-    }
-}
+/// The compact parts of the integral of the step response after the wave has passed, below minus the reach of the disc.
+pub(crate) const PASSED: Potentials<f64> = Potentials {
+    a_upper: -0.5,
+    a_lower: 0.0,
+    g_upper: 0.0,
+    g_lower: 0.0,
+};
 
 /// d/d eta of (a3, a2, b3/r, b2/r); the inverse roots are those of the fronts.
 #[inline]
@@ -137,35 +132,24 @@ fn hertz_impulse(eta: f64, r: f64) -> Potentials<f64> {
     }
 }
 
-/// The limit r = 0, where the circle shrinks to a point of the chord.
+/// The limit r = 0 of the integral of the step response, where the circle shrinks to a point of the chord.
+///
+/// The step response itself is [`side_by_side`](crate::integral::side_by_side) there.
 #[inline]
-fn hertz_on_axis<const N: i32>(eta: f64) -> Potentials<f64> {
+fn hertz_integral_on_axis(eta: f64) -> Potentials<f64> {
     if eta >= 1.0 {
         return Potentials::default();
     }
     if eta <= -1.0 {
-        return passed::<N>();
+        return PASSED;
     }
     let square = eta * eta;
     let inside = 1.0 - square;
-    let a3 = 0.375 * inside;
-    let b3 = -0.375 * eta;
-    let a4 = 0.375 * eta * (1.0 - square / 3.0) - 0.25;
-    let b4 = 0.1875 * inside;
-    match Order::of(N) {
-        Order::Impulse => unreachable!("the impulse response is continued to the axis"),
-        Order::Step => Potentials {
-            a_upper: a3,
-            a_lower: -0.75 * eta,
-            g_upper: b3,
-            g_lower: 0.375,
-        },
-        Order::StepIntegral => Potentials {
-            a_upper: a4,
-            a_lower: a3,
-            g_upper: b4,
-            g_lower: b3,
-        },
+    Potentials {
+        a_upper: 0.375 * eta * (1.0 - square / 3.0) - 0.25,
+        a_lower: 0.375 * inside,
+        g_upper: 0.1875 * inside,
+        g_lower: -0.375 * eta,
     }
 }
 
@@ -233,7 +217,6 @@ fn point<const N: i32>(eta: f64, r: f64) -> Potentials<f64> {
 mod tests {
     use super::*;
     use crate::potentials::closed_form::potentials;
-    use crate::potentials::order::STEP_INTEGRAL;
 
     /// The parts named in the module text, taken from the complex potentials.
     #[test]

@@ -16,7 +16,8 @@
 //!
 //! Nothing is left of the distance but its root, so all digits of the front are kept.
 
-use crate::numeric::scalar::Scalar;
+use crate::numeric::complex::{root, times_minus_i};
+use crate::numeric::scalar::{Real, Scalar};
 use crate::potentials::Potentials;
 use num_complex::Complex64;
 use std::f64::consts::PI;
@@ -25,7 +26,7 @@ use std::ops::Mul;
 /// Radius from which on the closed forms are replaced.
 pub(crate) const FAR: f64 = 25.0;
 
-pub(crate) const C: f64 = 0.375 / PI;
+const C: f64 = 0.375 / PI;
 
 /// Most terms of the series, enough at [`FAR`] for |delta| <= 11.
 const MOST_TERMS: usize = 26;
@@ -94,6 +95,13 @@ pub(crate) fn chord<D: Scalar, T: Scalar + Mul<D, Output = T>>(
     }
 }
 
+/// delta = r - |eta| -+ 1 of a distant point.
+#[inline(always)]
+pub(crate) fn delta<T: Real>(eta: T, r: f64) -> [T; 2] {
+    let distance = eta.abs();
+    [-distance + (r - 1.0), -distance + (r + 1.0)]
+}
+
 /// The compact parts (a3, a2, b3/r, b2/r) at r - 9 < eta, from `delta` = r - eta -+ 1 at sigma = -1 and 1.
 ///
 /// They vanish before the front, delta < 0.
@@ -117,21 +125,30 @@ pub(crate) fn compact_of<T: Scalar>(Chord { i, k }: Chord<T>, r: f64) -> Potenti
 
 /// The potentials at xi = d + i eta, eta > 0, from `delta` = r - eta -+ 1 + i d at sigma = -1 and 1.
 pub(crate) fn potentials(delta: [Complex64; 2], r: f64) -> Potentials<Complex64> {
-    let root = delta.map(|delta| {
+    let roots = delta.map(|delta| {
         if delta.im == 0.0 && delta.re < 0.0 {
             Complex64::new(0.0, (-delta.re).sqrt())
         } else {
-            crate::numeric::complex::root(delta)
+            root(delta)
         }
     });
     let size = delta[0].norm().max(delta[1].norm());
-    let Chord { i, k } = chord(delta, root, terms(size, r, ALL), r);
+    let chord = chord(delta, roots, terms(size, r, ALL), r);
+    of_chord(chord, r, times_minus_i)
+}
+
+/// The same from the chord integrals.
+#[inline(always)]
+pub(crate) fn of_chord<T: Scalar>(
+    Chord { i, k }: Chord<T>,
+    r: f64,
+    times_minus_i: impl Fn(T) -> T,
+) -> Potentials<T> {
     let ring = C / (r * r);
-    let times_minus_i = |v: Complex64| Complex64::new(v.im, -v.re);
     Potentials {
-        a_upper: C * i[0],
-        a_lower: 2.0 * C * times_minus_i(k[0]),
-        g_upper: ring * (4.0 / 3.0 + times_minus_i(r * i[0] - i[1])),
-        g_lower: -2.0 * ring * (r * k[0] - k[1]),
+        a_upper: i[0] * C,
+        a_lower: times_minus_i(k[0]) * (2.0 * C),
+        g_upper: (times_minus_i(i[0] * r - i[1]) + 4.0 / 3.0) * ring,
+        g_lower: (k[0] * r - k[1]) * (-2.0 * ring),
     }
 }

@@ -45,15 +45,12 @@ pub(crate) fn terms(xi: Complex64, r: f64, nearest: f64) -> Option<usize> {
     let y2 = xi.re * xi.re;
     let sum = ((gap - 1.0).powi(2) + y2).sqrt() + ((gap + 1.0).powi(2) + y2).sqrt();
     let distance = 0.5 * sum;
-    (distance >= nearest).then(|| terms_at(distance))
-}
-
-/// The same at a distance from which on the series is taken.
-#[inline]
-pub(crate) fn terms_at(distance: f64) -> usize {
+    if distance < nearest {
+        return None;
+    }
     let terms = [(60.0, 4), (25.0, 5), (14.0, 6), (9.5, 7)];
     let found = terms.into_iter().find(|(least, _)| distance >= *least);
-    found.map_or(MOST_TERMS, |(_, n)| n)
+    Some(found.map_or(MOST_TERMS, |(_, n)| n))
 }
 
 /// Those that leave exp(-`digits`) at the nearest distance at which the series is taken.
@@ -105,9 +102,12 @@ const fn terms_of(profile: Profile) -> [Term; MOST_TERMS] {
     terms
 }
 
-static HERTZ: [Term; MOST_TERMS] = terms_of(Profile::Hertz);
-static PUNCH: [Term; MOST_TERMS] = terms_of(Profile::Punch);
-static POINT: [Term; MOST_TERMS] = terms_of(Profile::Point);
+/// Of each profile, in the order in which they are declared.
+static TERMS: [[Term; MOST_TERMS]; 3] = [
+    terms_of(Profile::Hertz),
+    terms_of(Profile::Punch),
+    terms_of(Profile::Point),
+];
 
 /// The series of the two orders without the terms in M_0 that are not Q_0, Q_1 or V_1.
 ///
@@ -122,22 +122,12 @@ pub(crate) fn sums<const N: i32, T: Scalar>(
     q0: T,
 ) -> Potentials<T> {
     let zero = q0.constant(0.0);
-    let mut sum = Potentials {
-        a_upper: zero,
-        a_lower: zero,
-        g_upper: zero,
-        g_lower: zero,
-    };
+    let mut sum = Potentials::all(zero);
     // Q_{2j-1}, Q_{2j}, V_{2j-1}, V_{2j}
     let (mut q_odd, mut q_even) = (zero, q0);
     let (mut v_odd, mut v_even) = (zero, zero);
     let mut sign = 1.0;
-    let table = match profile {
-        Profile::Hertz => &HERTZ,
-        Profile::Punch => &PUNCH,
-        Profile::Point => &POINT,
-    };
-    for (j, term) in table.iter().take(terms).enumerate() {
+    for (j, term) in TERMS[profile as usize].iter().take(terms).enumerate() {
         let k = 2.0 * j as f64;
         let m = sign * term.moment;
         let q_next = (over * q_even * (2.0 * k + 1.0) - inverse2 * q_odd * k) * term.inverse[0];

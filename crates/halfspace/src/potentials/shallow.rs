@@ -34,11 +34,6 @@ pub(crate) fn applies<const N: i32>(profile: Profile, at: Point) -> bool {
     N == STEP && profile == Profile::Hertz && at.z > 0.0 && at.z < DEEPEST && at.r > NEAREST
 }
 
-/// The same point on the surface.
-pub(crate) fn above(at: Point) -> Point {
-    Point { z: 0.0, ..at }
-}
-
 /// Distance of an imaginary number from the singularities, which lie at +-i (1 +- r).
 pub(crate) fn gap(xi: Complex64, r: f64) -> f64 {
     let height = xi.im.abs();

@@ -1,24 +1,25 @@
 //! Functions of time as Chebyshev series on the panels of a zone.
 
-use super::zone::{Zone, panel_of};
+use super::zone::{Zone, panel_ends, panel_of};
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::OnceLock;
 
-/// N functions of the angle of a zone: Chebyshev series of each panel, fitted where the panel is first met.
-#[derive(Debug, Clone)]
-pub(super) struct Curve<const N: usize> {
-    zone: Zone,
-    series: Vec<OnceLock<[Vec<f64>; N]>>,
-}
-
 pub(super) const TERMS: usize = 24;
 
-impl<const N: usize> Curve<N> {
-    /// On a zone of so many panels.
-    pub(super) fn new(zone: Zone, panels: usize) -> Self {
+/// Functions of the angle of a zone: Chebyshev series of each panel, fitted where the panel is first met.
+#[derive(Debug, Clone)]
+pub(super) struct Curve {
+    /// Of the panels, as fractions of pi/2.
+    ends: Vec<f64>,
+    series: Vec<OnceLock<[Vec<f64>; 3]>>,
+}
+
+impl Curve {
+    pub(super) fn new(zone: Zone) -> Self {
+        let ends = panel_ends(zone);
         Self {
-            zone,
-            series: vec![OnceLock::new(); panels],
+            series: vec![OnceLock::new(); ends.len() - 1],
+            ends,
         }
     }
 
@@ -27,9 +28,10 @@ impl<const N: usize> Curve<N> {
         &self,
         which: usize,
         angle: f64,
-        f: impl Fn(usize, &[f64; TERMS]) -> [[f64; N]; TERMS],
+        f: impl Fn(usize, &[f64; TERMS]) -> [[f64; 3]; TERMS],
     ) -> f64 {
-        let (panel, from, to) = panel_of(self.zone, angle / FRAC_PI_2);
+        let panel = panel_of(&self.ends, angle / FRAC_PI_2);
+        let [from, to] = [self.ends[panel], self.ends[panel + 1]];
         let u = (2.0 * angle / FRAC_PI_2 - from - to) / (to - from);
         let ends = [from, to].map(|fraction| fraction * FRAC_PI_2);
         let series = self.series[panel].get_or_init(|| fit(ends, |angles| f(panel, angles)));
@@ -43,10 +45,7 @@ impl<const N: usize> Curve<N> {
 }
 
 /// The series of functions between two angles.
-fn fit<const N: usize>(
-    [from, to]: [f64; 2],
-    f: impl Fn(&[f64; TERMS]) -> [[f64; N]; TERMS],
-) -> [Vec<f64>; N] {
+fn fit([from, to]: [f64; 2], f: impl Fn(&[f64; TERMS]) -> [[f64; 3]; TERMS]) -> [Vec<f64>; 3] {
     static COSINES: OnceLock<[[f64; TERMS]; TERMS]> = OnceLock::new();
     let n = TERMS as f64;
     let cosine = |k: usize, i: usize| (PI * k as f64 * (i as f64 + 0.5) / n).cos();

@@ -3,7 +3,7 @@
 //! Theory: `docs/theory.md` (T25, T26).
 
 use super::chord::{Moments, POWERS};
-use super::zone::{Zone, panel_ends};
+use super::zone::{ZONES, Zone, panel_ends};
 use crate::medium::Medium;
 use crate::numeric::gauss;
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -18,9 +18,10 @@ pub(super) struct Measure {
     pub(super) medium: Medium,
     pub(super) rayleigh_slowness: f64,
     pub(super) rayleigh_mass: f64,
-    pub(super) ends: [Vec<f64>; 2],
+    /// Of the panels of both zones, in angles.
+    ends: [Vec<f64>; 2],
     /// Moments above the upper end of each panel.
-    pub(super) beyond: [Vec<Moments>; 2],
+    beyond: [Vec<Moments>; 2],
 }
 
 /// Slownesses in 1/c1 and masses of the measure mu, of total mass one, Rayleigh's wave last.
@@ -29,7 +30,7 @@ pub(super) struct Measure {
 /// x^2 = 1 + (K - 1) sin^2(angle); `panels` are the ends of the panels in angles from 0 to pi/2.
 #[must_use]
 pub fn surface_measure(medium: &Medium, panels: [&[f64]; 2], nodes: usize) -> Vec<(f64, f64)> {
-    let zones = [Zone::Fast, Zone::Slow].into_iter().zip(panels);
+    let zones = ZONES.into_iter().zip(panels);
     let found = zones.flat_map(|(zone, ends)| {
         let panels = ends.windows(2);
         panels.flat_map(move |pair| points(medium, zone, [pair[0], pair[1]], nodes))
@@ -84,7 +85,7 @@ impl Measure {
             medium: medium.clone(),
             rayleigh_slowness,
             rayleigh_mass,
-            ends: [panel_ends(Zone::Fast), panel_ends(Zone::Slow)],
+            ends: ZONES.map(|zone| panel_ends(zone).iter().map(|end| end * FRAC_PI_2).collect()),
             beyond: [vec![], vec![]],
         };
         let c = medium.rayleigh_speed();

@@ -23,10 +23,10 @@ mod zone;
 
 use crate::medium::Medium;
 use chord::{Chord, Moments};
-use curve::{Curve, TERMS};
+use curve::Curve;
 use measure::Measure;
 pub use measure::surface_measure;
-use zone::Zone;
+use zone::{ZONES, Zone};
 
 /// Which deflection of the loaded disc is meant.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -37,8 +37,10 @@ pub enum Deflection {
     Mean,
 }
 
-/// Both zones, by their index.
-const ZONES: [Zone; 2] = [Zone::Fast, Zone::Slow];
+/// Which of the fitted functions is meant.
+const STEP: usize = 0;
+const INTEGRAL: usize = 1;
+const SLOPE: usize = 2;
 
 /// Step response of the deflection of a Hertz-loaded disc on the surface of a half-space.
 ///
@@ -64,10 +66,8 @@ pub struct SurfaceResponse {
     relaxation_time: f64,
     measure: Measure,
     total: Moments,
-    /// Step response and its integral, for each zone.
-    curves: [Curve<2>; 2],
-    /// Impulse response for each zone.
-    impulse: [Curve<1>; 2],
+    /// For each zone.
+    curves: [Curve; 2],
 }
 
 impl SurfaceResponse {
@@ -77,14 +77,12 @@ impl SurfaceResponse {
         let measure = Measure::new(medium);
         let chord = Chord::new(deflection);
         let total = measure.total();
-        let panels = |zone: Zone| measure.beyond[zone as usize].len();
         Self {
             deflection,
             static_compliance: chord.static_factor * (1.0 - medium.poisson_ratio()),
             shear_slowness: medium.shear_slowness_squared().sqrt(),
             relaxation_time: chord.integral(chord.support) * total[0],
-            curves: ZONES.map(|zone| Curve::new(zone, panels(zone))),
-            impulse: ZONES.map(|zone| Curve::new(zone, panels(zone))),
+            curves: ZONES.map(Curve::new),
             measure,
             total,
         }
@@ -119,31 +117,16 @@ impl SurfaceResponse {
     /// W(t): step response over its static value; 0 for t <= 0, 1 for t >= [`Self::memory`], NaN for NaN.
     #[must_use]
     pub fn step(&self, t: f64) -> f64 {
-        if t.is_nan() {
-            return t;
-        }
-        if t <= 0.0 {
-            return 0.0;
-        }
-        self.fitted(t, 0).unwrap_or_else(|| {
-            1.0 - self.measure.rayleigh_mass
-                * self.chord().value(t / self.measure.rayleigh_slowness)
+        self.value(t, STEP, |chord, eta| {
+            1.0 - self.measure.rayleigh_mass * chord.value(eta)
         })
     }
 
     /// int_0^t W dt in r0/c1; t - [`Self::relaxation_time`] once the response is static, 0 for t <= 0, NaN for NaN.
     #[must_use]
     pub fn step_integral(&self, t: f64) -> f64 {
-        if t.is_nan() {
-            return t;
-        }
-        if t <= 0.0 {
-            return 0.0;
-        }
-        self.fitted(t, 1).unwrap_or_else(|| {
-            let chord = self.chord();
-            let late =
-                chord.integral(chord.support) - chord.integral(t / self.measure.rayleigh_slowness);
+        self.value(t, INTEGRAL, |chord, eta| {
+            let late = chord.integral(chord.support) - chord.integral(eta);
             t - self.relaxation_time
                 + self.measure.rayleigh_mass * self.measure.rayleigh_slowness * late
         })
@@ -161,61 +144,41 @@ impl SurfaceResponse {
     /// Accuracy 1e-11 of the value at t = 0.
     #[must_use]
     pub fn impulse(&self, t: f64) -> f64 {
+        self.value(t, SLOPE, |chord, eta| {
+            if eta >= chord.support {
+                return 0.0;
+            }
+            let terms = chord.terms(eta).filter(|&(k, _)| k > 0);
+            let slope: f64 = terms.map(|(k, term)| f64::from(k) * term / eta).sum();
+            -self.measure.rayleigh_mass * slope / self.measure.rayleigh_slowness
+        })
+    }
+
+    /// One of the fitted functions; `late` has it where only the Rayleigh wave is left, of whose chord eta is the place.
+    fn value(&self, t: f64, which: usize, late: impl Fn(&Chord, f64) -> f64) -> f64 {
         if t.is_nan() {
             return t;
         }
-        if t < 0.0 {
+        if t < 0.0 || t == 0.0 && which != SLOPE {
             return 0.0;
         }
         let chord = self.chord();
         let x = t / chord.support;
         let Some(zone) = Zone::of(x, self.shear_slowness) else {
-            let eta = t / self.measure.rayleigh_slowness;
-            return if eta < chord.support {
-                let terms = chord.terms(eta).filter(|&(k, _)| k > 0);
-                let slope: f64 = terms.map(|(k, term)| f64::from(k) * term / eta).sum();
-                -self.measure.rayleigh_mass * slope / self.measure.rayleigh_slowness
-            } else {
-                0.0
-            };
+            return late(&chord, t / self.measure.rayleigh_slowness);
         };
         let angle = zone.angle(self.shear_slowness, x);
-        self.impulse[zone as usize].value(0, angle, |panel, angles| {
-            self.fill(zone, panel, angles, |t, above| {
-                let terms = chord.terms(t).zip(&above[1..]);
-                let sum = terms.map(|((k, term), moment)| f64::from(k) * term * moment);
-                [-sum.sum::<f64>() / t]
-            })
-        })
-    }
-
-    /// The fitted curve at t, or nothing where only the Rayleigh wave is left.
-    fn fitted(&self, t: f64, which: usize) -> Option<f64> {
-        let chord = self.chord();
-        let x = t / chord.support;
-        let zone = Zone::of(x, self.shear_slowness)?;
-        let angle = zone.angle(self.shear_slowness, x);
-        let curve = &self.curves[zone as usize];
-        Some(curve.value(which, angle, |panel, angles| {
-            self.fill(zone, panel, angles, |t, above| {
+        self.curves[zone as usize].value(which, angle, |panel, angles| {
+            let above = self.measure.above(zone, panel, angles);
+            std::array::from_fn(|i| {
+                let slowness = zone.slowness(self.shear_slowness.powi(2), angles[i].sin());
+                let (t, above) = (chord.support * slowness, &above[i]);
                 let integral = t - chord.overlap_integral(t, &self.total, above);
-                [1.0 - chord.overlap(t, above), integral]
+                let terms = chord.terms(t).zip(&above[1..]);
+                let slopes = terms.map(|((k, term), moment)| f64::from(k) * term * moment);
+                let slope = -slopes.sum::<f64>() / t;
+                [1.0 - chord.overlap(t, above), integral, slope]
             })
-        }))
-    }
-
-    /// Functions of the time and of the moments above it, at the angles of a panel.
-    fn fill<const N: usize>(
-        &self,
-        zone: Zone,
-        panel: usize,
-        angles: &[f64; TERMS],
-        f: impl Fn(f64, &Moments) -> [f64; N],
-    ) -> [[f64; N]; TERMS] {
-        let above = self.measure.above(zone, panel, angles);
-        std::array::from_fn(|i| {
-            let slowness = zone.slowness(self.shear_slowness.powi(2), angles[i].sin());
-            f(self.chord().support * slowness, &above[i])
         })
     }
 

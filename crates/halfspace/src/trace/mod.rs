@@ -11,7 +11,7 @@ mod interpolation;
 mod segment;
 
 use crate::arrivals::Arrivals;
-use crate::domain::{NEAREST, check, check_hertz, check_place_under, check_time, check_width};
+use crate::domain::{FARTHEST, NEAREST, check, check_hertz, check_place_under, check_time};
 use crate::error::DomainError;
 use crate::field::Six;
 use crate::kernel::Kernel;
@@ -57,12 +57,8 @@ impl Kernel {
     /// [`DomainError`] for r, z or end outside [0, 1e20], and for a profile other than Hertz, whose stresses are infinite
     /// at fronts.
     pub fn trace(&self, r: f64, z: f64, end: f64) -> Result<Trace, DomainError> {
-        self.trace_under(
-            r,
-            z,
-            end,
-            (self.tolerance(), &|length: f64| length.min(1.0)),
-        )
+        let rise = |length: f64| length.min(1.0);
+        self.trace_under(r, z, end, (self.tolerance(), &rise))
     }
 
     /// R(t) as far as a force needs it that changes by no more than `rise` of its peak within a time.
@@ -223,7 +219,8 @@ impl Trace {
         count: usize,
         mut f: impl FnMut(usize, [Six; 3]),
     ) -> Result<(), DomainError> {
-        check_width(width)?;
+        let range = NEAREST..=FARTHEST;
+        check(range.contains(&width), "width", width, "[1e-20, 1e20]")?;
         let end = count as f64 * width;
         check(end <= self.end, "t", end, "[0, end of the trace]")?;
         let mut first = 0;

@@ -84,7 +84,7 @@ impl KernelSource {
     pub(crate) fn reach(&self) -> [f64; 2] {
         match self {
             Self::Direct(_) => [FARTHEST; 2],
-            Self::Table(table) => [table.r_max(), table.z_max()],
+            Self::Table(table) => [table.content().r_max, table.content().z_max],
         }
     }
 

@@ -1,6 +1,5 @@
 //! What can be wrong with the file of a table.
 
-use crate::error::ContentError;
 use crate::schema::{FILE_TYPE_VALUE, MAJOR_READ};
 use fault::{Class, Culprit, Fault};
 use std::fmt;
@@ -42,39 +41,10 @@ pub enum BadTable {
         /// What is wrong, or the first line of what the HDF5 library said.
         detail: String,
     },
-    /// A dataset has other dimensions than the axes demand.
-    #[error("{item} has the dimensions {found:?}, needed {needed:?}")]
-    Dimensions {
-        /// Path of the dataset inside the file.
-        item: String,
-        /// Dimensions that the axes demand.
-        needed: Vec<usize>,
-        /// Dimensions found.
-        found: Vec<usize>,
-    },
-    /// More memory than a file of this size can need.
-    #[error(
-        "{item} makes {needed} bytes of numbers to load, more than the {limit} that its size explains"
-    )]
-    TooLarge {
-        /// Path of the dataset inside the file.
-        item: String,
-        /// Bytes to be loaded up to there.
-        needed: u64,
-        /// Bytes allowed.
-        limit: u64,
-    },
-    /// The numbers read are no table.
-    #[error(transparent)]
-    Content(#[from] ContentError),
-    /// The content does not have the checksum that the file states.
-    #[error("content hash {found}, stated {stated}: the content was changed")]
-    Checksum {
-        /// Hash in the file.
-        stated: String,
-        /// Hash of the content.
-        found: String,
-    },
+    /// The numbers are no table: other dimensions than the axes demand, more than the size of the file explains, values that
+    /// may not be there, or another checksum than the file states.
+    #[error("{0}")]
+    Wrong(String),
     /// The file could not be written: what the system or the HDF5 library said.
     #[error("{0}")]
     Unwritable(String),
@@ -104,11 +74,9 @@ impl fmt::Display for TableError {
                 write!(f, "{path} {what}")
             }
             B::Damaged(_) => write!(f, "kernel table {path} {what}"),
-            B::Item { .. }
-            | B::Dimensions { .. }
-            | B::TooLarge { .. }
-            | B::Content(_)
-            | B::Checksum { .. } => write!(f, "kernel table {path}: {what}"),
+            B::Item { .. } | B::Wrong(_) => {
+                write!(f, "kernel table {path}: {what}")
+            }
         }
     }
 }

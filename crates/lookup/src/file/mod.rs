@@ -12,6 +12,6 @@ mod write;
 
 pub use damage::damaged_patches;
 pub use error::{BadTable, TableError};
-pub use read::{check_whole, holds, read, stated_hash};
+pub use read::{check_whole, holds, read, same_hash, stated_hash};
 pub use table_file::TableFile;
 pub use write::write;

@@ -1,6 +1,6 @@
 //! File to content.
 
-use super::error::{BadTable, TableError};
+use super::error::TableError;
 use super::open::open;
 use super::source::{Place, Source};
 use super::write::PATCH;
@@ -23,8 +23,10 @@ impl Table {
     pub fn open(path: &Path) -> Result<Self, TableError> {
         let source = open(path)?;
         let content = source.everything()?;
-        source.compare(&content)?;
-        Self::new(content).map_err(|error| source.content(error))
+        if !source.is_sealed() {
+            source.same_hash(&content)?;
+        }
+        Self::new(content).map_err(|error| source.wrong(error))
     }
 }
 
@@ -81,7 +83,7 @@ pub fn holds(path: &Path, content: &Content) -> Result<bool, TableError> {
 /// gives how it was made.
 ///
 /// # Errors
-/// As [`read`], and [`BadTable::Checksum`].
+/// As [`read`], and [`BadTable::Wrong`](crate::BadTable::Wrong).
 pub fn check_whole(path: &Path) -> Result<Origin, TableError> {
     let source = open(path)?;
     if source.is_sealed() {
@@ -91,6 +93,14 @@ pub fn check_whole(path: &Path) -> Result<Origin, TableError> {
     let content = source.everything()?;
     source.same_hash(&content)?;
     Ok(content.origin)
+}
+
+/// The hash of `content`, read from the table at `path`, which is the one that the file states.
+///
+/// # Errors
+/// As [`read`], and [`BadTable::Wrong`](crate::BadTable::Wrong) where it is another.
+pub fn same_hash(path: &Path, content: &Content) -> Result<String, TableError> {
+    open(path)?.same_hash(content)
 }
 
 /// The SHA-256 that the file at `path` states.
@@ -136,23 +146,15 @@ impl Source {
         Ok(content)
     }
 
-    /// Compares the content of a file whose bytes nothing else covers.
-    pub(super) fn compare(&self, content: &Content) -> Result<(), TableError> {
-        if self.is_sealed() {
-            Ok(())
-        } else {
-            self.same_hash(content)
-        }
-    }
-
-    fn same_hash(&self, content: &Content) -> Result<(), TableError> {
+    /// The hash of the content, which is the one that the file states.
+    pub(super) fn same_hash(&self, content: &Content) -> Result<String, TableError> {
         let stated = self.text(&self.root(), schema::CONTENT_SHA256)?;
         let found = content_hash(content);
         if stated == found {
-            Ok(())
-        } else {
-            Err(BadTable::Checksum { stated, found }.of(self.path()))
+            return Ok(found);
         }
+        let wrong = format!("content hash {found}, stated {stated}: the content was changed");
+        Err(self.wrong(wrong))
     }
 
     /// Everything but the slices, valid, and their list by ascending ratio.
@@ -173,7 +175,7 @@ impl Source {
             between: Vec::new(),
         };
         content.between = self.between(&root, &content)?;
-        validate::frame(&content).map_err(|error| self.content(error))?;
+        validate::frame(&content).map_err(|error| self.wrong(error))?;
         let reached = &content.origin.accuracy_reached;
         if reached.len() != content.pulse_lengths.len() || reached.iter().any(|x| !x.is_finite()) {
             let item = root.item(schema::ACCURACY_REACHED);
@@ -181,7 +183,7 @@ impl Source {
         }
         let listed = self.listed(&root)?;
         let ratios: Vec<f64> = listed.iter().map(|slice| slice.ratio).collect();
-        validate::ascending("poisson_ratio", &ratios).map_err(|error| self.content(error))?;
+        validate::ascending("poisson_ratio", &ratios).map_err(|error| self.wrong(error))?;
         Ok((content, listed))
     }
 
@@ -223,7 +225,7 @@ impl Source {
                 ratio: self.number(&place, schema::POISSON_RATIO)?,
                 role: Role::from_name(&role).ok_or_else(|| {
                     let detail = format!("{role:?} is neither grid nor exact");
-                    self.item(&place.item(schema::ROLE), &detail)
+                    self.item(&place.item(schema::ROLE), detail)
                 })?,
                 place,
             });
@@ -261,7 +263,7 @@ impl Source {
         let [cells, terms] = size(first)?;
         for (listed, _) in &slices[1..] {
             validate::same_size(listed.ratio, size(listed)?, [cells, terms])
-                .map_err(|error| self.content(error))?;
+                .map_err(|error| self.wrong(error))?;
         }
         let list = |name, last| {
             let needed = [content.r.len(), content.z.len(), FIELDS, last];
@@ -302,7 +304,7 @@ impl Source {
         let found = self.verification(&listed.place, content, places, &wanted.meshes)?;
         let count = wanted.meshes.iter().map(Range::len).product();
         validate::probes(content, &validate::group(listed.ratio), &found, count)
-            .map_err(|error| self.content(error))?;
+            .map_err(|error| self.wrong(error))?;
         Ok(found)
     }
 

@@ -1,9 +1,8 @@
 //! Reading single items of an open file: each is looked at before memory is asked for it.
 
 use super::error::{BadTable, TableError};
-use crate::error::ContentError;
 use crate::validate::product;
-use ledger::{Dataset, Group, H5Type, HdfError, HdfFile};
+use ledger::{Dataset, Group, H5Type, HdfFile};
 use std::cell::Cell;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -14,7 +13,7 @@ const GROWTH: u64 = 32;
 /// A file that is being read.
 #[derive(Debug)]
 pub(super) struct Source {
-    path: PathBuf,
+    pub(super) path: PathBuf,
     file: HdfFile,
     /// Bytes of numbers loaded so far.
     loaded: Cell<u64>,
@@ -46,10 +45,6 @@ impl Source {
         }
     }
 
-    pub(super) fn path(&self) -> &Path {
-        &self.path
-    }
-
     pub(super) fn is_sealed(&self) -> bool {
         self.file.is_sealed()
     }
@@ -71,7 +66,7 @@ impl Source {
     /// The groups that a group holds.
     pub(super) fn groups(&self, parent: &Place) -> Result<Vec<Place>, TableError> {
         let names = parent.group.members();
-        let names = names.map_err(|error| self.unreadable(&parent.name, &error))?;
+        let names = names.map_err(|error| self.item(&parent.name, error))?;
         let groups = names.iter().map(|name| self.group(parent, name));
         groups.collect()
     }
@@ -81,7 +76,7 @@ impl Source {
         let name_in_file = parent.item(name);
         let group = parent.group.group(name);
         Ok(Place {
-            group: group.map_err(|error| self.unreadable(&name_in_file, &error))?,
+            group: group.map_err(|error| self.item(&name_in_file, error))?,
             name: name_in_file,
         })
     }
@@ -95,11 +90,11 @@ impl Source {
     ) -> Result<Dataset, TableError> {
         let item = place.item(name);
         let data = place.group.dataset(name);
-        let data = data.map_err(|error| self.unreadable(&item, &error))?;
+        let data = data.map_err(|error| self.item(&item, error))?;
         let found = data.shape().len();
         if found != rank {
             let detail = format!("it has {found} dimensions, needed {rank}");
-            return Err(self.item(&item, &detail));
+            return Err(self.item(&item, detail));
         }
         Ok(data)
     }
@@ -109,7 +104,7 @@ impl Source {
         let data = self.dataset(place, name, 1)?;
         self.admit(&place.item(name), data.count(), size_of::<T>())?;
         data.numbers(u64::MAX)
-            .map_err(|error| self.unreadable(&place.item(name), &error))
+            .map_err(|error| self.item(&place.item(name), error))
     }
 
     /// Dimensions of a dataset over (r, z, .., ..).
@@ -130,13 +125,9 @@ impl Source {
         let item = place.item(name);
         let data = self.dataset(place, name, 4)?;
         if data.shape() != needed {
-            let (needed, found) = (needed.to_vec(), data.shape().to_vec());
-            return Err(BadTable::Dimensions {
-                item,
-                needed,
-                found,
-            }
-            .of(&self.path));
+            let found = data.shape();
+            let wrong = format!("{item} has the dimensions {found:?}, needed {needed:?}");
+            return Err(self.wrong(wrong));
         }
         let [rows, columns] = wanted.clone();
         let numbers = product(&[rows.len(), columns.len(), needed[2], needed[3]]);
@@ -150,25 +141,25 @@ impl Source {
         let decoded = product(&[nodes, needed[2], needed[3], size_of::<f32>()]) as u64;
         self.decoded.set(self.decoded.get().saturating_add(decoded));
         data.block(&[rows, columns, 0..needed[2], 0..needed[3]], u64::MAX)
-            .map_err(|error| self.unreadable(&item, &error))
+            .map_err(|error| self.item(&item, error))
     }
 
     /// A text that is an attribute.
     pub(super) fn text(&self, place: &Place, name: &str) -> Result<String, TableError> {
         let text = place.group.text(name);
-        text.map_err(|error| self.unreadable(&place.item(name), &error))
+        text.map_err(|error| self.item(&place.item(name), error))
     }
 
     /// A number that is an attribute.
     pub(super) fn number<T: H5Type>(&self, place: &Place, name: &str) -> Result<T, TableError> {
         let number = place.group.number(name);
-        number.map_err(|error| self.unreadable(&place.item(name), &error))
+        number.map_err(|error| self.item(&place.item(name), error))
     }
 
     /// A list of numbers that is an attribute.
     pub(super) fn numbers(&self, place: &Place, name: &str) -> Result<Vec<f64>, TableError> {
         let numbers = place.group.numbers(name);
-        numbers.map_err(|error| self.unreadable(&place.item(name), &error))
+        numbers.map_err(|error| self.item(&place.item(name), error))
     }
 
     /// Counts numbers that are about to be loaded.
@@ -177,31 +168,23 @@ impl Source {
         let needed = self.loaded.get().saturating_add(more);
         let limit = self.file.length().saturating_mul(GROWTH);
         if needed > limit {
-            let item = item.to_owned();
-            return Err(BadTable::TooLarge {
-                item,
-                needed,
-                limit,
-            }
-            .of(&self.path));
+            let wrong = format!(
+                "{item} makes {needed} bytes of numbers to load, more than the {limit} that its size explains"
+            );
+            return Err(self.wrong(wrong));
         }
         self.loaded.set(needed);
         Ok(())
     }
 
-    /// An item that is not as it should be.
-    pub(super) fn item(&self, item: &str, detail: &str) -> TableError {
-        let (item, detail) = (item.to_owned(), detail.to_owned());
+    /// An item that cannot be read, or is not as it should be.
+    pub(super) fn item(&self, item: &str, detail: impl ToString) -> TableError {
+        let (item, detail) = (item.to_owned(), detail.to_string());
         BadTable::Item { item, detail }.of(&self.path)
     }
 
-    /// An item that cannot be read.
-    pub(super) fn unreadable(&self, item: &str, error: &HdfError) -> TableError {
-        self.item(item, &error.to_string())
-    }
-
     /// Numbers of the file that are no table.
-    pub(super) fn content(&self, source: impl Into<ContentError>) -> TableError {
-        BadTable::Content(source.into()).of(&self.path)
+    pub(super) fn wrong(&self, what: impl ToString) -> TableError {
+        BadTable::Wrong(what.to_string()).of(&self.path)
     }
 }

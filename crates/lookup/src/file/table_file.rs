@@ -4,7 +4,7 @@ use super::error::{BadTable, TableError};
 use super::open::open;
 use super::read::{Listed, Window};
 use super::source::Source;
-use crate::certificate::{Added, SAFETY};
+use crate::certificate::{Measured, SAFETY};
 use crate::content::{Content, FIELDS, Role, Slice, Verification};
 use crate::error::LookupError;
 use crate::hash::settings_id;
@@ -37,7 +37,7 @@ impl TableFile {
         let source = open(path)?;
         let (content, _) = source.head()?;
         if !source.is_sealed() {
-            source.compare(&source.everything()?)?;
+            source.same_hash(&source.everything()?)?;
         }
         Ok(Self {
             path: path.to_owned(),
@@ -71,12 +71,7 @@ impl TableFile {
         let ends = [("r/r0", content.r_max), ("z/r0", content.z_max)];
         for ((axis, max), value) in ends.into_iter().zip(farthest) {
             if value > max {
-                return Ok(Err(LookupError::Outside {
-                    axis,
-                    value,
-                    min: 0.0,
-                    max,
-                }));
+                return Ok(Err(LookupError::outside(axis, value, [0.0, max])));
             }
         }
         Ok(ratio::weights(&served(&source, &listed)?, poisson_ratio).map(drop))
@@ -109,8 +104,8 @@ impl TableFile {
                 let [below, above] = ratio::beside(&served, weights, poisson_ratio);
                 let beside = [of(above)?, of(below)?];
                 let coordinates = weights.iter().map(|&(i, _)| served[i].coordinate);
-                let added = Added::new(&content, between, coordinates, poisson_ratio);
-                let added = added.map_err(|error| source.content(error))?;
+                let added = Measured::between(&content, between, coordinates, poisson_ratio);
+                let added = added.map_err(|error| source.wrong(error))?;
                 vec![Slice {
                     poisson_ratio,
                     role: Role::Exact,
@@ -126,7 +121,7 @@ impl TableFile {
         };
         cut(&mut content, &wanted);
         let table = Table::part(content, first, source.decoded.get());
-        table.map_err(|error| source.content(error))
+        table.map_err(|error| source.wrong(error))
     }
 }
 
@@ -135,7 +130,7 @@ fn served(source: &Source, listed: &[Listed]) -> Result<Vec<Served>, TableError>
     let slices = listed.iter();
     let slices = slices.map(|slice| Served::new(slice.ratio, slice.role));
     let served: Result<_, DomainError> = slices.collect();
-    served.map_err(|error| source.content(error))
+    served.map_err(|error| source.wrong(error))
 }
 
 /// The nodes that places of a span need, with the meshes beside them, and the first of the meshes read that hold any.
@@ -181,7 +176,7 @@ fn blended(
     content: &Content,
     meshes: &[Range<usize>; 2],
     [above, below]: [Verification; 2],
-    added: &Added<'_>,
+    added: &Measured<'_>,
 ) -> Verification {
     let mut found = above;
     for (i, &error) in below.error.iter().enumerate() {

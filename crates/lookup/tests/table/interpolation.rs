@@ -30,7 +30,7 @@ fn nodes_return_the_stored_numbers() {
 fn one_ulp_to_either_side_of_a_node_changes_nothing_much() {
     let content = content();
     let table = Table::new(content.clone()).unwrap();
-    let (last_r, last_z) = (table.r_max(), table.z_max());
+    let (last_r, last_z) = (table.content().r_max, table.content().z_max);
     for &r in &content.r {
         for &z in &content.z {
             let centre = cells(&table, r, z, 0, 3);
@@ -55,8 +55,8 @@ fn one_ulp_to_either_side_of_a_node_changes_nothing_much() {
 #[test]
 fn between_nodes_the_field_is_interpolated_to_high_order_also_beside_the_axis_and_at_the_edges() {
     let table = table();
-    for r in [0.0, 1e-9, 0.01, 0.07, 0.3, 1.0, 1.99, table.r_max()] {
-        for z in [0.0, 0.03, 0.2, 0.77, table.z_max().next_down()] {
+    for r in [0.0, 1e-9, 0.01, 0.07, 0.3, 1.0, 1.99, table.content().r_max] {
+        for z in [0.0, 0.03, 0.2, 0.77, table.content().z_max.next_down()] {
             for (j, cell) in cells(&table, r, z, 0, CELLS).iter().enumerate() {
                 for (field, &value) in cell.iter().enumerate() {
                     let exact = average(r, z, field, j as f64 * WIDTH, (j + 1) as f64 * WIDTH);
@@ -167,7 +167,7 @@ fn outside_is_an_error_that_names_axis_value_and_range() {
             .unwrap_err()
             .to_string()
     };
-    let (r, z) = (table.r_max(), table.z_max());
+    let (r, z) = (table.content().r_max, table.content().z_max);
     assert_eq!(
         message(0.3, 7.0, 0.0),
         format!("r/r0 = 7 is outside the table's range [0, {r}]")

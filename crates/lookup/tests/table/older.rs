@@ -70,7 +70,8 @@ fn they_are_read_and_say_their_version() {
     let mut expected = content();
     expected.origin.format_version = "2.1".to_owned();
     assert_eq!(read(&path).unwrap(), expected);
-    assert_eq!(Table::open(&path).unwrap().format_version(), "2.1");
+    let table = Table::open(&path).unwrap();
+    assert_eq!(table.content().origin.format_version, "2.1");
     TableFile::open(&path).unwrap();
 }
 
@@ -81,7 +82,8 @@ fn a_changed_number_is_found_by_the_hash_of_the_content() {
         let data = file.dataset("slices/nu_0.3/remainder").unwrap();
         data.write_slice(&[0.25_f32], (1, 2, 3, 4..5)).unwrap();
     });
-    assert!(matches!(error.what, BadTable::Checksum { .. }), "{error}");
+    let words = ": the content was changed";
+    assert!(error.to_string().ends_with(words), "{error}");
 }
 
 #[test]
@@ -183,10 +185,8 @@ fn sizes_are_compared_before_memory_is_asked_for() {
             data.unwrap().write(&zeros).unwrap();
         });
     });
-    assert!(
-        matches!(error.what, BadTable::Dimensions { ref needed, .. } if *needed == [15, 12, 6, 40]),
-        "{error}"
-    );
+    let words = "/moment has the dimensions [15, 12, 6, 39], needed [15, 12, 6, 40]";
+    assert!(error.to_string().ends_with(words), "{error}");
     // Terabytes that are nowhere.
     let error = refused(&folder, |file| {
         file.unlink("r").unwrap();
@@ -195,8 +195,6 @@ fn sizes_are_compared_before_memory_is_asked_for() {
             .create("r")
             .unwrap();
     });
-    assert!(
-        matches!(error.what, BadTable::TooLarge { ref item, .. } if item == "/r"),
-        "{error}"
-    );
+    let words = ": /r makes 1099511627776 bytes of numbers to load, more than the ";
+    assert!(error.to_string().contains(words), "{error}");
 }

@@ -11,7 +11,7 @@ fn a_part_of_a_file_gives_the_same_answers() {
     write(&path, &sliced()).unwrap();
     let whole = Table::open(&path).unwrap();
     let file = TableFile::open(&path).unwrap();
-    let (r_max, z_max) = (whole.r_max(), whole.z_max());
+    let (r_max, z_max) = (whole.content().r_max, whole.content().z_max);
     let nodes = |table: &Table| [table.content().r.len(), table.content().z.len()];
     for (nu, tabulated) in [
         (0.08, true),
@@ -32,7 +32,7 @@ fn a_part_of_a_file_gives_the_same_answers() {
         ] {
             let part = file.part(nu, [nearest, farthest]).unwrap();
             assert_eq!(part.poisson_ratios(), [nu]);
-            assert!(part.r_max() >= farthest[0] && part.z_max() >= farthest[1]);
+            assert!(part.content().r_max >= farthest[0] && part.content().z_max >= farthest[1]);
             let smaller = farthest[0] == 0.0 || nearest[0] > 0.5 * r_max;
             assert!(!smaller || nodes(&part)[0] < nodes(&whole)[0]);
             for x in [0.0, 0.31, 0.77, 1.0] {
@@ -73,9 +73,9 @@ fn a_part_of_what_is_not_served_has_the_ranges_of_the_whole() {
     write(&path, &sliced()).unwrap();
     let whole = Table::open(&path).unwrap();
     let file = TableFile::open(&path).unwrap();
-    let beyond = [0.0, whole.z_max() + 1e-9];
+    let beyond = [0.0, whole.content().z_max + 1e-9];
     let part = file.part(0.08, [beyond; 2]).unwrap();
-    assert_eq!(part.z_max(), whole.z_max());
+    assert_eq!(part.content().z_max, whole.content().z_max);
     let part = file.part(0.45, [[0.1; 2]; 2]).unwrap();
     assert_eq!(part.poisson_ratios(), whole.poisson_ratios());
 }

@@ -106,7 +106,7 @@ impl Probed {
     fn is_within(&self, table: &Table) -> bool {
         let radius_m = self.reference.units().disc_radius_m;
         let [r, z] = self.place_m.map(|x| x / radius_m);
-        r <= table.r_max() && z <= table.z_max()
+        r <= table.content().r_max && z <= table.content().z_max
     }
 
     /// The program's own way by kernels computed for the point: times in s with the fields in m and Pa.

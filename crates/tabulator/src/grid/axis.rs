@@ -48,23 +48,17 @@ impl Axis {
     #[must_use]
     pub fn graded(max: f64, spacing: f64, focus: f64, focus_spacing: f64, growth: f64) -> Self {
         Self {
-            max,
-            spacing,
             focus: Some(focus),
             focus_spacing: Some(focus_spacing),
             growth: Some(growth),
-            extended_to: None,
+            ..Self::uniform(max, spacing)
         }
     }
 
     /// The nodes, ascending from 0 to `max`, the focus among them, rounded to multiples of 2^-16; then the extension.
     #[must_use]
     pub fn nodes(&self) -> Vec<f64> {
-        let mut nodes = self.inner();
-        let step = self.last_step(&nodes);
-        let count = self.extension(step) as usize;
-        nodes.extend((1..=count).map(|i| self.max + step * i as f64));
-        nodes
+        self.padded(0)
     }
 
     /// The nodes up to `max`.
@@ -72,16 +66,11 @@ impl Axis {
         let focus = self.focus.unwrap_or(0.0).clamp(0.0, self.max);
         let mut nodes = Vec::new();
         if focus > 0.0 {
-            let mut inner = self.one_side(focus);
-            inner.reverse();
-            nodes.extend(inner.iter().map(|distance| focus - distance));
-            nodes.pop();
+            let inner = self.one_side(focus);
+            nodes.extend(inner[1..].iter().rev().map(|distance| focus - distance));
         }
-        nodes.extend(
-            self.one_side(self.max - focus)
-                .iter()
-                .map(|distance| focus + distance),
-        );
+        let outer = self.one_side(self.max - focus);
+        nodes.extend(outer.iter().map(|distance| focus + distance));
         for node in &mut nodes {
             *node = (*node * 65536.0).round() / 65536.0;
         }
@@ -103,7 +92,7 @@ impl Axis {
     pub(crate) fn count(&self) -> f64 {
         let nodes = self.inner();
         if nodes.windows(2).all(|pair| pair[0] < pair[1]) {
-            nodes.len() as f64 + self.extension(self.last_step(&nodes))
+            nodes.len() as f64 + self.extension(last_step(&nodes))
         } else {
             f64::INFINITY
         }
@@ -112,10 +101,10 @@ impl Axis {
     /// [`Self::nodes`] and `count` more beyond `max`, at the last spacing.
     #[must_use]
     pub fn padded(&self, count: usize) -> Vec<f64> {
-        let mut nodes = self.nodes();
-        let step = self.last_step(&nodes);
-        let within = nodes.iter().filter(|&&node| node > self.max).count();
-        nodes.extend((1..=count).map(|i| self.max + step * (within + i) as f64));
+        let mut nodes = self.inner();
+        let step = last_step(&nodes);
+        let beyond = self.extension(step) as usize + count;
+        nodes.extend((1..=beyond).map(|i| self.max + step * i as f64));
         nodes
     }
 
@@ -123,12 +112,6 @@ impl Axis {
     #[must_use]
     pub fn end(&self) -> f64 {
         self.nodes().last().copied().unwrap_or(self.max)
-    }
-
-    /// The step before `max`.
-    fn last_step(&self, nodes: &[f64]) -> f64 {
-        let last = nodes.iter().filter(|&&node| node <= self.max).count() - 1;
-        nodes[last] - nodes[last - 1]
     }
 
     /// Distances 0 ..= `length` from the focus, equally spaced in int dx/spacing(x).
@@ -178,6 +161,11 @@ impl Axis {
         let growth = self.growth.filter(|growth| *growth > 0.0)?;
         (start < self.spacing).then(|| (start, growth, (self.spacing - start) / growth))
     }
+}
+
+/// The step before the last node.
+fn last_step(nodes: &[f64]) -> f64 {
+    nodes[nodes.len() - 1] - nodes[nodes.len() - 2]
 }
 
 #[cfg(test)]

@@ -1,8 +1,7 @@
 //! Which settings make a grid.
 
 use crate::error::BuildError;
-use crate::grid::Axis;
-use crate::grid::Grid;
+use crate::grid::{Axis, Grid};
 
 /// Bytes that the numbers of a table may take in memory.
 const MOST_BYTES: f64 = 64e9;

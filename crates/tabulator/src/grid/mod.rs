@@ -10,7 +10,7 @@ pub use presets::PRESETS;
 
 use crate::error::BuildError;
 use halfspace::Medium;
-use lookup::{Content, Role};
+use lookup::Role;
 use serde::{Deserialize, Serialize};
 use std::fs::File;
 use std::io::{self, Read};
@@ -64,7 +64,6 @@ impl Grid {
     /// [`BuildError`] when the file cannot be read, has unknown keys or values outside their ranges.
     pub fn from_file(path: &Path) -> Result<Self, BuildError> {
         let text = read(path).map_err(|source| BuildError::File {
-            action: "read",
             path: path.to_owned(),
             source,
         })?;
@@ -89,14 +88,6 @@ impl Grid {
         })?;
         grid.validate()?;
         Ok(grid)
-    }
-
-    /// The grid that a table was made with.
-    ///
-    /// # Errors
-    /// As [`Self::parse`].
-    pub fn of(content: &Content) -> Result<Self, BuildError> {
-        Self::parse(&content.origin.grid)
     }
 
     /// The same with other Poisson ratios, and other largest radii, depths and multiples of the last arrival, where they are
@@ -161,10 +152,8 @@ impl Grid {
     /// # Errors
     /// [`BuildError::Domain`] for a ratio outside (-1, 0.5).
     pub fn between(&self, interval: usize) -> Result<f64, BuildError> {
-        let [low, high] = [
-            self.poisson_ratios[interval],
-            self.poisson_ratios[interval + 1],
-        ];
+        let ratios = &self.poisson_ratios;
+        let (low, high) = (ratios[interval], ratios[interval + 1]);
         let middle = 0.5 * (lookup::ratio_coordinate(low)? + lookup::ratio_coordinate(high)?);
         bisect(low, high, middle)
     }

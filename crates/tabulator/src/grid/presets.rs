@@ -1,25 +1,14 @@
 //! Grids with names.
 
-use crate::error::BuildError;
-use crate::grid::Axis;
-use crate::grid::{Grid, bisect, defaults};
+use crate::grid::{Axis, Grid, defaults};
 
 /// Names that [`Grid::preset`] knows.
 pub const PRESETS: [&str; 3] = ["demo", "standard", "wide"];
 
-/// `count` ratios from `first` to `last` at equal steps of [`lookup::ratio_coordinate`], to three decimals.
-fn ratios(first: f64, last: f64, count: usize) -> Result<Vec<f64>, BuildError> {
-    let (start, end) = (
-        lookup::ratio_coordinate(first)?,
-        lookup::ratio_coordinate(last)?,
-    );
-    (0..count)
-        .map(|i| {
-            let wanted = start + (end - start) * i as f64 / (count - 1) as f64;
-            Ok((1000.0 * bisect(first, last, wanted)?).round() / 1000.0)
-        })
-        .collect()
-}
+/// Poisson ratios at equal steps of [`lookup::ratio_coordinate`], to three decimals.
+const RATIOS: [f64; 11] = [
+    0.0, 0.099, 0.176, 0.237, 0.286, 0.327, 0.361, 0.389, 0.413, 0.433, 0.45,
+];
 
 impl Grid {
     /// One slice at nu = 0.30, r and z to 6 r0: built in seconds.
@@ -40,41 +29,51 @@ impl Grid {
     }
 
     /// Every Poisson ratio from 0 to 0.45, r and z to 6 r0: minutes.
-    ///
-    /// # Errors
-    /// [`BuildError::Domain`], which no ratio of the preset causes.
-    pub fn standard() -> Result<Self, BuildError> {
-        Ok(Self {
-            poisson_ratios: ratios(0.0, 0.45, 11)?,
+    #[must_use]
+    pub fn standard() -> Self {
+        Self {
+            poisson_ratios: RATIOS.to_vec(),
             cell_width: 0.125,
             r: Axis::graded(6.0, 0.1, 1.0, 0.025, 0.12),
             z: Axis::graded(6.0, 0.1, 0.0, 0.02, 0.12),
             ..Self::demo()
-        })
+        }
     }
 
     /// [`Self::standard`] to 12 r0, with fewer nodes to a length.
-    ///
-    /// # Errors
-    /// As [`Self::standard`].
-    pub fn wide() -> Result<Self, BuildError> {
-        Ok(Self {
+    #[must_use]
+    pub fn wide() -> Self {
+        Self {
             r: Axis::graded(12.0, 0.15, 1.0, 0.04, 0.12),
             z: Axis::graded(12.0, 0.15, 0.0, 0.03, 0.12),
-            ..Self::standard()?
-        })
+            ..Self::standard()
+        }
     }
 
     /// The preset called `name`.
-    ///
-    /// # Errors
-    /// As [`Self::standard`].
-    pub fn preset(name: &str) -> Result<Option<Self>, BuildError> {
-        Ok(match name {
+    #[must_use]
+    pub fn preset(name: &str) -> Option<Self> {
+        match name {
             "demo" => Some(Self::demo()),
-            "standard" => Some(Self::standard()?),
-            "wide" => Some(Self::wide()?),
+            "standard" => Some(Self::standard()),
+            "wide" => Some(Self::wide()),
             _ => None,
-        })
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::grid::bisect;
+
+    #[test]
+    fn ratios_are_at_equal_steps() {
+        let [start, end] = [0.0, 0.45].map(|nu| lookup::ratio_coordinate(nu).unwrap());
+        for (i, ratio) in RATIOS.into_iter().enumerate() {
+            let wanted = start + (end - start) * i as f64 / 10.0;
+            let found = bisect(0.0, 0.45, wanted).unwrap();
+            assert_eq!((1000.0 * found).round() / 1000.0, ratio);
+        }
     }
 }

@@ -32,12 +32,7 @@ impl CheckReport {
     }
 }
 
-/// Largest difference of averages and tails that single precision and the kernel's tolerance explain.
-fn allowed(tolerance: f64) -> f64 {
-    2e-7 + 100.0 * tolerance
-}
-
-/// The same of moments, which are computed and rounded to about 1e-5, and at fronts within 30 times that.
+/// Largest difference of moments, which are computed and rounded to about 1e-5, and at fronts within 30 times that.
 const ALLOWED_OF_MOMENTS: f64 = 4e-4;
 /// Of tables with numbers of revision 1, most of whose moments followed from five averages.
 const ALLOWED_OF_FIRST_MOMENTS: f64 = 5e-3;
@@ -73,11 +68,11 @@ pub fn check_table(path: &Path, sample: usize, seed: u64) -> Result<CheckReport,
             ..CheckReport::default()
         });
     }
-    let wrong = |source| BadTable::Content(source).of(path);
+    let wrong = |error: ContentError| BadTable::Wrong(error.to_string()).of(path);
     let table = Table::new(content).map_err(wrong)?;
     let content = table.content();
-    let grid = Grid::of(content).map_err(|error| error.in_file(path))?;
-    same_axes(&grid, content)?.map_err(wrong)?;
+    let grid = Grid::parse(&content.origin.grid).map_err(|error| error.in_file(path))?;
+    same_axes(&grid, grid.cells()?, content).map_err(wrong)?;
     let nodes = content.r.len() * content.z.len();
     let total = nodes * content.slices.len();
     let plans = content
@@ -85,20 +80,16 @@ pub fn check_table(path: &Path, sample: usize, seed: u64) -> Result<CheckReport,
         .iter()
         .map(|slice| grid.point(slice.poisson_ratio))
         .collect::<Result<Vec<_>, _>>()?;
-    let limit = allowed(grid.tolerance);
+    // of averages and tails, what single precision and the kernel's tolerance explain
+    let limit = 2e-7 + 100.0 * grid.tolerance;
     let found: Vec<(f64, Vec<String>)> = picks(total, sample, seed)
         .into_par_iter()
         .map(|pick| {
             let (index, node) = (pick / nodes, pick % nodes);
             let [r, z] = place(content, node);
             let exact = plans[index].compute(r, z)?;
-            Ok(compare(
-                content,
-                &content.slices[index],
-                node,
-                &exact,
-                limit,
-            ))
+            let slice = &content.slices[index];
+            Ok(compare(content, slice, node, &exact, limit))
         })
         .collect::<Result<_, BuildError>>()?;
     Ok(CheckReport {
@@ -192,51 +183,39 @@ fn compare(
 }
 
 /// Whether the axes and cells are those of the settings.
-fn same_axes(grid: &Grid, content: &Content) -> Result<Result<(), ContentError>, BuildError> {
-    let cells = grid.cells()?;
+fn same_axes(grid: &Grid, cells: usize, content: &Content) -> Result<(), ContentError> {
     let [r, z] = grid.nodes();
     let ratios: Vec<f64> = grid.slices().iter().map(|slice| slice.0).collect();
     let found: Vec<f64> = content.slices.iter().map(|s| s.poisson_ratio).collect();
+    same("r", &r, &content.r)?;
+    same("z", &z, &content.z)?;
+    same("slices", &ratios, &found)?;
     let nodes = content.r.len() * content.z.len();
-    let lists = same("r", &r, &content.r)
-        .and_then(|()| same("z", &z, &content.z))
-        .and_then(|()| same("slices", &ratios, &found));
-    Ok(lists.and_then(|()| {
-        content.slices.iter().try_for_each(|slice| {
-            for (item, needed, found) in [
-                ("tail", grid.tail_terms, slice.tail_terms(nodes)),
-                ("time", cells, slice.cells),
-            ] {
-                if needed != found {
-                    return Err(shape(item, needed, found));
-                }
-            }
-            Ok(())
-        })
-    }))
+    for slice in &content.slices {
+        same_length("tail", grid.tail_terms, slice.tail_terms(nodes))?;
+        same_length("time", cells, slice.cells)?;
+    }
+    Ok(())
 }
 
 /// Whether a list is that of the settings.
 fn same(item: &str, needed: &[f64], found: &[f64]) -> Result<(), ContentError> {
-    if needed.len() != found.len() {
-        return Err(shape(item, needed.len(), found.len()));
-    }
+    same_length(item, needed.len(), found.len())?;
     match (0..found.len()).find(|&i| needed[i] != found[i]) {
-        Some(i) => Err(ContentError::Value {
-            item: format!("{item}[{i}]"),
-            value: found[i],
-            range: "the value that the settings say",
-        }),
+        Some(i) => Err(ContentError::Wrong(format!(
+            "{item}[{i}] = {}, allowed: the value that the settings say",
+            found[i]
+        ))),
         None => Ok(()),
     }
 }
 
-fn shape(item: &str, needed: usize, found: usize) -> ContentError {
-    ContentError::Shape {
-        item: item.to_owned(),
-        needed,
-        found,
+fn same_length(item: &str, needed: usize, found: usize) -> Result<(), ContentError> {
+    if needed == found {
+        return Ok(());
     }
+    let wrong = format!("{item} has {found} values, needed {needed}");
+    Err(ContentError::Wrong(wrong))
 }
 
 /// Increment of the state (Steele, Lea and Flood 2014, SplitMix64).

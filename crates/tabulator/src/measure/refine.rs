@@ -3,8 +3,7 @@
 use crate::assemble::assemble;
 use crate::block;
 use crate::error::BuildError;
-use crate::grid::Grid;
-use crate::grid::within;
+use crate::grid::{Grid, within};
 use crate::progress::Progress;
 use crate::rows::rows;
 use std::collections::HashMap;

@@ -53,9 +53,7 @@ pub(crate) fn verify(
         .collect::<Result<_, BuildError>>()?;
     let mut whole = Verification::default();
     for part in parts {
-        whole.direct.extend(part.direct);
-        whole.looked_up.extend(part.looked_up);
-        whole.error.extend(part.error);
+        whole.extend(&part, 0..part.error.len());
     }
     Ok(whole)
 }

@@ -43,7 +43,10 @@ impl Region {
         let between = low + (high - low) * draws[0];
         let slice = ratios[((draws[0] * ratios.len() as f64) as usize).min(ratios.len() - 1)];
         let either = if draws[3] < 0.5 { slice } else { between };
-        let (r, z) = (draws[1] * table.r_max(), draws[2] * table.z_max());
+        let (r, z) = (
+            draws[1] * table.content().r_max,
+            draws[2] * table.content().z_max,
+        );
         match self {
             Self::Between => [between, r, z],
             Self::Slices => [slice, r, z],

@@ -68,7 +68,7 @@ fn at(
     seed: u64,
     lengths: Lengths<'_>,
 ) -> Result<Vec<Observation>, BuildError> {
-    let grid = Grid::of(table.content())?;
+    let grid = Grid::parse(&table.content().origin.grid)?;
     let ratios = table.poisson_ratios();
     let (low, high) = (ratios[0], ratios[ratios.len() - 1]);
     let found: Vec<Vec<Observation>> = (0..places as u64)
@@ -76,7 +76,10 @@ fn at(
         .map(|i| {
             let draw = |k: u64| uniform(seed, i * stride + k);
             let nu = low + (high - low) * draw(0);
-            let (r, z) = (draw(1) * table.r_max(), draw(2) * table.z_max());
+            let (r, z) = (
+                draw(1) * table.content().r_max,
+                draw(2) * table.content().z_max,
+            );
             let exact = exact(table, &grid, nu, r, z)?;
             lengths(&|k| draw(3 + k))
                 .into_iter()

@@ -1,10 +1,11 @@
 //! The potentials, each number by the forms that hold for them.
 
-use super::far::{LARGEST, at_far_front, by_series, far_delta, series_on_imaginary_axis};
+use super::far::{LARGEST, at_far_front, by_series, series_on_imaginary_axis};
 use super::near::{
-    by_parts, by_primitives, compact_on_axis, compact_punch, held_primitives, inside,
+    by_parts, by_primitives, compact_on_axis, compact_punch, held_primitives,
     primitives_on_imaginary_axis, punch,
 };
+use crate::numeric::complex::inside;
 use crate::numeric::lanes::{Lanes, Pair};
 use crate::numeric::scalar::{Real, Scalar};
 use crate::potentials::Potentials;
@@ -52,16 +53,10 @@ impl<S: Simd> Reach<S> {
         far: Potentials<Pair<S>>,
         r: f64,
     ) -> Potentials<Pair<S>> {
-        let (distance, limit) = (
-            self.distance,
-            self.distance.constant(multipole::nearest::<STEP>(r)),
-        );
-        Potentials {
-            a_upper: Pair::where_below(distance, limit, near.a_upper, far.a_upper),
-            a_lower: Pair::where_below(distance, limit, near.a_lower, far.a_lower),
-            g_upper: Pair::where_below(distance, limit, near.g_upper, far.g_upper),
-            g_lower: Pair::where_below(distance, limit, near.g_lower, far.g_lower),
-        }
+        let limit = self.distance.constant(multipole::nearest::<STEP>(r));
+        near.zip(far, |near, far| {
+            Pair::where_below(self.distance, limit, near, far)
+        })
     }
 }
 
@@ -110,22 +105,21 @@ pub(super) fn compact<S: Simd>(
         return held_primitives(eta, r, inside(eta, r));
     }
     let zero = eta.constant(0.0);
-    let pair = |re, im| Pair { re, im };
     let distance = eta.abs();
-    let reach = Reach::new(pair(zero, distance), r);
-    let mut psi = Potentials::all(pair(zero, zero));
+    let reach = Reach::new(Pair::new(zero, distance), r);
+    let mut psi = Potentials::all(Pair::new(zero, zero));
     if reach.some_near {
-        let delta = far_delta(eta, r);
+        let delta = far_front::delta(eta, r);
         let root = [delta[0].max(zero).sqrt(), delta[1].max(zero).sqrt()];
         let near = far_front::compact_of(
             far_front::chord(delta, root, far_front::terms(LARGEST, r, digits), r),
             r,
         );
         psi = Potentials {
-            a_upper: pair(near.a_upper, zero),
-            a_lower: pair(zero, near.a_lower),
-            g_upper: pair(zero, near.g_upper),
-            g_lower: pair(near.g_lower, zero),
+            a_upper: Pair::new(near.a_upper, zero),
+            a_lower: Pair::new(zero, near.a_lower),
+            g_upper: Pair::new(zero, near.g_upper),
+            g_lower: Pair::new(near.g_lower, zero),
         };
     }
     if reach.some_far {

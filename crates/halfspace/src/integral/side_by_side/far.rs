@@ -4,7 +4,7 @@ use super::near::root_inside;
 use crate::numeric::lanes::{Lanes, Pair};
 use crate::numeric::scalar::{Real, Scalar};
 use crate::potentials::Potentials;
-use crate::potentials::far_front::{self, C, Chord};
+use crate::potentials::far_front;
 use crate::potentials::multipole;
 use crate::potentials::order::STEP;
 use crate::profile::Profile;
@@ -68,20 +68,10 @@ pub(super) fn series_on_imaginary_axis<S: Simd>(
     }
 }
 
-/// delta = r - |eta| -+ 1 of a distant point.
-#[inline(always)]
-pub(super) fn far_delta<S: Simd>(eta: Lanes<S>, r: f64) -> [Lanes<S>; 2] {
-    let distance = eta.abs();
-    [-distance + (r - 1.0), -distance + (r + 1.0)]
-}
-
 #[inline(always)]
 fn root_of_real<S: Simd>(value: Lanes<S>) -> Pair<S> {
     let zero = value.constant(0.0);
-    Pair {
-        re: value.max(zero).sqrt(),
-        im: (-value).max(zero).sqrt(),
-    }
+    Pair::new(value.max(zero).sqrt(), (-value).max(zero).sqrt())
 }
 
 /// The potentials of a distant point, on the imaginary axis or off it.
@@ -92,27 +82,16 @@ pub(super) fn at_far_front<S: Simd>(
     on_axis: bool,
 ) -> Potentials<Pair<S>> {
     let zero = xi.re.constant(0.0);
-    let (real, terms) = (far_delta(xi.im, r), far_front::terms(LARGEST, r, digits));
-    let Chord { i, k } = if on_axis {
-        let root = [root_of_real(real[0]), root_of_real(real[1])];
-        far_front::chord(real, root, terms, r)
+    let delta = far_front::delta(xi.im, r);
+    let terms = far_front::terms(LARGEST, r, digits);
+    let chord = if on_axis {
+        let root = [root_of_real(delta[0]), root_of_real(delta[1])];
+        far_front::chord(delta, root, terms, r)
     } else {
-        let (re, im) = (real, xi.re);
-        let delta = [Pair { re: re[0], im }, Pair { re: re[1], im }];
+        let delta = [Pair::new(delta[0], xi.re), Pair::new(delta[1], xi.re)];
         far_front::chord(delta, [delta[0].root(), delta[1].root()], terms, r)
     };
-    let ring = C / (r * r);
-    let psi = Potentials {
-        a_upper: i[0] * C,
-        a_lower: k[0].times_minus_i() * (2.0 * C),
-        g_upper: ((i[0] * r - i[1]).times_minus_i() + 4.0 / 3.0) * ring,
-        g_lower: (k[0] * r - k[1]) * (-2.0 * ring),
-    };
+    let psi = far_front::of_chord(chord, r, Pair::times_minus_i);
     // the conjugate where xi is below the real axis
-    Potentials {
-        a_upper: Pair::where_below(xi.im, zero, psi.a_upper.conj(), psi.a_upper),
-        a_lower: Pair::where_below(xi.im, zero, psi.a_lower.conj(), psi.a_lower),
-        g_upper: Pair::where_below(xi.im, zero, psi.g_upper.conj(), psi.g_upper),
-        g_lower: Pair::where_below(xi.im, zero, psi.g_lower.conj(), psi.g_lower),
-    }
+    psi.map(|v| Pair::where_below(xi.im, zero, v.conj(), v))
 }

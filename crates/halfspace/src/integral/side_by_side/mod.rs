@@ -11,7 +11,7 @@ use crate::integral::panels::Nodes;
 use crate::integral::setting::Setting;
 use crate::integral::spectrum::{self, Wave, half_angle};
 use crate::integral::sum::Sum;
-use crate::numeric::lanes::{Lanes, Pair, WIDTH, dispatch};
+use crate::numeric::lanes::{Lanes, Pair, WIDTH};
 use crate::numeric::scalar::{Real, Scalar};
 use crate::point::{Point, Sense};
 use crate::potentials::Potentials;
@@ -32,38 +32,11 @@ pub(crate) fn applies<const N: i32>(profile: Profile, at: Point, shallow: bool) 
         }
 }
 
-/// Adds the nodes of one panel; a wave below slowness one has one sense, above it both.
-pub(crate) fn add(
-    setting: &Setting,
-    at: Point,
-    wave: Wave,
-    sense: Option<Sense>,
-    nodes: &Nodes,
-    sum: &mut Sum,
-) {
-    dispatch(Panel {
-        setting,
-        at,
-        wave,
-        sense,
-        nodes,
-        sum,
-    });
-}
-
 /// The potentials at two places.
-pub(crate) fn potentials(
-    profile: Profile,
-    xi: [Complex64; 2],
-    r: f64,
-) -> [Potentials<Complex64>; 2] {
-    dispatch(Two { profile, xi, r })
-}
-
-struct Two {
-    profile: Profile,
-    xi: [Complex64; 2],
-    r: f64,
+pub(crate) struct Two {
+    pub(crate) profile: Profile,
+    pub(crate) xi: [Complex64; 2],
+    pub(crate) r: f64,
 }
 
 impl WithSimd for Two {
@@ -79,13 +52,14 @@ impl WithSimd for Two {
     }
 }
 
-struct Panel<'a> {
-    setting: &'a Setting,
-    at: Point,
-    wave: Wave,
-    sense: Option<Sense>,
-    nodes: &'a Nodes,
-    sum: &'a mut Sum,
+/// The nodes of one panel, to be added to a sum; a wave below slowness one has one sense, above it both.
+pub(crate) struct Panel<'a> {
+    pub(crate) setting: &'a Setting,
+    pub(crate) at: Point,
+    pub(crate) wave: Wave,
+    pub(crate) sense: Option<Sense>,
+    pub(crate) nodes: &'a Nodes,
+    pub(crate) sum: &'a mut Sum,
 }
 
 impl<'a> WithSimd for Panel<'a> {
@@ -154,29 +128,15 @@ fn slow<S: Simd>(
     let (re, im) = spectrum::inverse_rayleigh(k, x, p_abs, y);
     let psi = match wave {
         Wave::P => {
-            let xi = Pair {
-                re: p_abs * over_x * at.z,
-                im: over_x * -at.t,
-            };
+            let xi = Pair::new(p_abs * over_x * at.z, over_x * -at.t);
             let psi = choice::potentials(profile, xi, (at.r, digits), at.z == 0.0);
             let factor = im * 2.0;
-            Potentials {
-                a_upper: factor * psi.a_upper.re,
-                a_lower: factor * psi.a_lower.re,
-                g_upper: factor * psi.g_upper.re,
-                g_lower: factor * psi.g_lower.re,
-            }
+            psi.map(|v| factor * v.re)
         }
         Wave::S => {
-            let re_xi = s.constant(0.0);
-            let minus = Pair {
-                re: re_xi,
-                im: (y * at.z - at.t) * over_x,
-            };
-            let plus = Pair {
-                re: re_xi,
-                im: (y * at.z + at.t) * over_x,
-            };
+            let zero = s.constant(0.0);
+            let minus = Pair::new(zero, (y * at.z - at.t) * over_x);
+            let plus = Pair::new(zero, (y * at.z + at.t) * over_x);
             let minus = choice::potentials(profile, minus, (at.r, digits), true);
             let plus = choice::potentials(profile, plus, (at.r, digits), true);
             // the upper ones of A and the lower ones of B over i R, the others over R

@@ -1,22 +1,13 @@
 //! The potentials near the chord, in closed form.
 
+use crate::numeric::complex::inside;
 use crate::numeric::lanes::{Lanes, Pair};
 use crate::numeric::scalar::{Real, Scalar};
 use crate::potentials::Potentials;
-use crate::potentials::chord_integral::chord_primitives;
+use crate::potentials::chord_integral::{chord_primitives, from_primitives};
 use crate::potentials::order::STEP;
 use pulp::Simd;
 use std::f64::consts::PI;
-
-/// (r - s)(r + s) at the ends s = eta -+ 1 of the chord, exact at the edge of the disc.
-#[inline(always)]
-pub(super) fn inside<S: Simd>(eta: Lanes<S>, r: f64) -> [Lanes<S>; 2] {
-    let (inner, outer) = (r - 1.0, r + 1.0);
-    [
-        (-eta + outer) * (eta + inner),
-        (-eta + inner) * (eta + outer),
-    ]
-}
 
 /// The chord primitives with phi and q held beyond the circle.
 #[inline(always)]
@@ -55,15 +46,13 @@ pub(super) fn compact_on_axis<S: Simd>(eta: Lanes<S>) -> Potentials<Lanes<S>> {
 #[inline(always)]
 pub(super) fn by_parts<S: Simd>(xi: Pair<S>, r: f64) -> Potentials<Pair<S>> {
     let Ends { zeta, rho, sum, .. } = Ends::new(xi, r);
-    let [upper, lower] = [
-        end(zeta[0], rho[0], sum[0], r),
-        end(zeta[1], rho[1], sum[1], r),
-    ];
+    let [upper_e, upper_f] = end(zeta[0], rho[0], sum[0], r);
+    let [lower_e, lower_f] = end(zeta[1], rho[1], sum[1], r);
     Potentials {
-        a_upper: chord_of_ends([upper.e[2], lower.e[2]], [upper.e[1], lower.e[1]]),
-        a_lower: chord_of_ends([upper.e[1], lower.e[1]], [upper.e[0], lower.e[0]]),
-        g_upper: chord_of_ends([upper.f[2], lower.f[2]], [upper.f[1], lower.f[1]]),
-        g_lower: chord_of_ends([upper.f[1], lower.f[1]], [upper.f[0], lower.f[0]]),
+        a_upper: chord_of_ends([upper_e[2], lower_e[2]], [upper_e[1], lower_e[1]]),
+        a_lower: chord_of_ends([upper_e[1], lower_e[1]], [upper_e[0], lower_e[0]]),
+        g_upper: chord_of_ends([upper_f[2], lower_f[2]], [upper_f[1], lower_f[1]]),
+        g_lower: chord_of_ends([upper_f[1], lower_f[1]], [upper_f[0], lower_f[0]]),
     }
 }
 
@@ -74,34 +63,26 @@ fn chord_of_ends<S: Simd>(outer: [Pair<S>; 2], inner: [Pair<S>; 2]) -> Pair<S> {
 }
 
 /// E_1 to E_3 and F_1/r to F_3/r at one end of the chord.
-struct End<S: Simd> {
-    e: [Pair<S>; 3],
-    f: [Pair<S>; 3],
-}
-
 #[inline(always)]
-fn end<S: Simd>(zeta: Pair<S>, rho: Pair<S>, sum: Pair<S>, r: f64) -> End<S> {
-    let log = Pair {
-        re: sum.norm_sqr().at_least(f64::MIN_POSITIVE).ln() * 0.5,
-        im: sum.im.angle_over(sum.re),
-    };
+fn end<S: Simd>(zeta: Pair<S>, rho: Pair<S>, sum: Pair<S>, r: f64) -> [[Pair<S>; 3]; 2] {
+    let log = sum.logarithm();
     let least = sum.re.constant(f64::MIN_POSITIVE);
     // at the very singularity on the axis any finite value will do
     let held = Pair::where_below(sum.norm_sqr(), least, sum.constant(1e-100), sum);
     let over = held.reciprocal();
     let square = zeta * zeta;
-    End {
-        e: [
+    [
+        [
             log * -1.0,
             zeta * log - rho,
             zeta * rho * 0.75 + (square * -0.5 + 0.25 * r * r) * log,
         ],
-        f: [
+        [
             over,
             (zeta * over + log) * -0.5,
             ((rho * sum + square) * over * (1.0 / 3.0) + zeta * log - rho) * 0.5,
         ],
-    }
+    ]
 }
 
 /// The compact parts of a punch.
@@ -158,16 +139,7 @@ struct Ends<S: Simd> {
 impl<S: Simd> Ends<S> {
     #[inline(always)]
     fn new(xi: Pair<S>, r: f64) -> Self {
-        let zeta = [
-            Pair {
-                im: xi.im - 1.0,
-                ..xi
-            },
-            Pair {
-                im: xi.im + 1.0,
-                ..xi
-            },
-        ];
+        let zeta = [Pair::new(xi.re, xi.im - 1.0), Pair::new(xi.re, xi.im + 1.0)];
         let inside = inside(xi.im, r);
         let rho = [
             root_inside(zeta[0], inside[0]),
@@ -175,10 +147,10 @@ impl<S: Simd> Ends<S> {
         ];
         let sum = [zeta[0] + rho[0], zeta[1] + rho[1]];
         let ratio = sum[1] * sum[0].conj();
-        let log = Pair {
-            re: (sum[1].norm_sqr() / sum[0].norm_sqr()).ln() * 0.5,
-            im: ratio.im.angle_over(ratio.re),
-        };
+        let log = Pair::new(
+            (sum[1].norm_sqr() / sum[0].norm_sqr()).ln() * 0.5,
+            ratio.im.angle_over(ratio.re),
+        );
         Self {
             zeta,
             rho,
@@ -192,16 +164,9 @@ impl<S: Simd> Ends<S> {
 #[inline(always)]
 pub(super) fn root_inside<S: Simd>(zeta: Pair<S>, inside: Lanes<S>) -> Pair<S> {
     let Pair { re: d, im: s } = zeta;
-    let root = Pair {
-        re: d * d + inside,
-        im: d * s * 2.0,
-    }
-    .root();
+    let root = Pair::new(d * d + inside, d * s * 2.0).root();
     // on the axis the side is that of s
-    Pair {
-        im: root.im.abs().copysign(s),
-        ..root
-    }
+    Pair::new(root.re, root.im.abs().copysign(s))
 }
 
 /// The chord primitives at complex xi, phi = -i L and q = rho in the variable eta = -i xi.
@@ -209,8 +174,9 @@ pub(super) fn root_inside<S: Simd>(zeta: Pair<S>, inside: Lanes<S>) -> Pair<S> {
 pub(super) fn by_primitives<S: Simd>(xi: Pair<S>, r: f64) -> Potentials<Pair<S>> {
     let Ends { rho, log, .. } = Ends::new(xi, r);
     let phi = [log.constant(0.0), log.times_minus_i()];
-    let psi = chord_primitives::<STEP, Pair<S>>(xi.times_minus_i(), r, phi, rho);
-    from_primitives(psi, r)
+    let eta = xi.times_minus_i();
+    let psi = chord_primitives::<STEP, Pair<S>>(eta, r, phi, rho);
+    from_primitives::<STEP, Pair<S>>(psi, eta, r, Pair::times_i)
 }
 
 /// The same on the imaginary axis.
@@ -236,17 +202,6 @@ pub(super) fn primitives_on_imaginary_axis<S: Simd>(eta: Lanes<S>, r: f64) -> Po
         let w = [w[0].copysign(s[0]), w[1].copysign(s[1])];
         chord_primitives::<STEP, Lanes<S>>(eta, r, log, w)
     };
-    from_primitives(re.zip(im, |re, im| Pair { re, im }), r)
-}
-
-/// Powers of i from the change of variable, and the part that is free of roots.
-#[inline(always)]
-fn from_primitives<S: Simd>(psi: Potentials<Pair<S>>, r: f64) -> Potentials<Pair<S>> {
-    let force = 0.5 / (PI * r * r);
-    Potentials {
-        a_upper: psi.a_upper,
-        a_lower: psi.a_lower.times_i(),
-        g_upper: psi.g_upper.times_i() + force,
-        g_lower: psi.g_lower,
-    }
+    let psi = re.zip(im, Pair::new);
+    from_primitives::<STEP, Pair<S>>(psi, Pair::new(eta, zero), r, Pair::times_i)
 }

@@ -14,43 +14,43 @@ pub(crate) struct Pair<S: Simd> {
 
 impl<S: Simd> Pair<S> {
     #[inline(always)]
+    pub(crate) fn new(re: Lanes<S>, im: Lanes<S>) -> Self {
+        Self { re, im }
+    }
+
+    /// Principal logarithm; of zero it is finite.
+    #[inline(always)]
+    pub(crate) fn logarithm(self) -> Self {
+        let square = self.norm_sqr().at_least(f64::MIN_POSITIVE);
+        Self::new(square.ln() * 0.5, self.im.angle_over(self.re))
+    }
+
+    #[inline(always)]
     pub(crate) fn norm_sqr(self) -> Lanes<S> {
         self.re * self.re + self.im * self.im
     }
 
     #[inline(always)]
     pub(crate) fn conj(self) -> Self {
-        Self {
-            im: -self.im,
-            ..self
-        }
+        Self::new(self.re, -self.im)
     }
 
     /// i times this.
     #[inline(always)]
     pub(crate) fn times_i(self) -> Self {
-        Self {
-            re: -self.im,
-            im: self.re,
-        }
+        Self::new(-self.im, self.re)
     }
 
     /// -i times this.
     #[inline(always)]
     pub(crate) fn times_minus_i(self) -> Self {
-        Self {
-            re: self.im,
-            im: -self.re,
-        }
+        Self::new(self.im, -self.re)
     }
 
     #[inline(always)]
     pub(crate) fn reciprocal(self) -> Self {
         let scale = self.re.constant(1.0) / self.norm_sqr();
-        Self {
-            re: self.re * scale,
-            im: -self.im * scale,
-        }
+        Self::new(self.re * scale, -self.im * scale)
     }
 
     /// Principal square root.
@@ -60,19 +60,19 @@ impl<S: Simd> Pair<S> {
         let large = ((modulus + self.re.abs()) * 0.5).sqrt();
         let small = self.im.abs() * 0.5 / large.at_least(f64::MIN_POSITIVE);
         let zero = self.re.constant(0.0);
-        Self {
-            re: self.re.where_below(zero, small, large),
-            im: self.re.where_below(zero, large, small).copysign(self.im),
-        }
+        Self::new(
+            self.re.where_below(zero, small, large),
+            self.re.where_below(zero, large, small).copysign(self.im),
+        )
     }
 
     /// `yes` where `value` is below `limit`, else `no`.
     #[inline(always)]
     pub(crate) fn where_below(value: Lanes<S>, limit: Lanes<S>, yes: Self, no: Self) -> Self {
-        Self {
-            re: value.where_below(limit, yes.re, no.re),
-            im: value.where_below(limit, yes.im, no.im),
-        }
+        Self::new(
+            value.where_below(limit, yes.re, no.re),
+            value.where_below(limit, yes.im, no.im),
+        )
     }
 }
 
@@ -81,10 +81,7 @@ impl<S: Simd> Add for Pair<S> {
 
     #[inline(always)]
     fn add(self, other: Self) -> Self {
-        Self {
-            re: self.re + other.re,
-            im: self.im + other.im,
-        }
+        Self::new(self.re + other.re, self.im + other.im)
     }
 }
 
@@ -93,10 +90,7 @@ impl<S: Simd> Sub for Pair<S> {
 
     #[inline(always)]
     fn sub(self, other: Self) -> Self {
-        Self {
-            re: self.re - other.re,
-            im: self.im - other.im,
-        }
+        Self::new(self.re - other.re, self.im - other.im)
     }
 }
 
@@ -105,10 +99,10 @@ impl<S: Simd> Mul for Pair<S> {
 
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
-        Self {
-            re: self.re * other.re - self.im * other.im,
-            im: self.re * other.im + self.im * other.re,
-        }
+        Self::new(
+            self.re * other.re - self.im * other.im,
+            self.re * other.im + self.im * other.re,
+        )
     }
 }
 
@@ -117,10 +111,7 @@ impl<S: Simd> Mul<Lanes<S>> for Pair<S> {
 
     #[inline(always)]
     fn mul(self, real: Lanes<S>) -> Self {
-        Self {
-            re: self.re * real,
-            im: self.im * real,
-        }
+        Self::new(self.re * real, self.im * real)
     }
 }
 
@@ -129,10 +120,7 @@ impl<S: Simd> Add<f64> for Pair<S> {
 
     #[inline(always)]
     fn add(self, other: f64) -> Self {
-        Self {
-            re: self.re + other,
-            ..self
-        }
+        Self::new(self.re + other, self.im)
     }
 }
 
@@ -141,10 +129,7 @@ impl<S: Simd> Sub<f64> for Pair<S> {
 
     #[inline(always)]
     fn sub(self, other: f64) -> Self {
-        Self {
-            re: self.re - other,
-            ..self
-        }
+        Self::new(self.re - other, self.im)
     }
 }
 
@@ -153,19 +138,13 @@ impl<S: Simd> Mul<f64> for Pair<S> {
 
     #[inline(always)]
     fn mul(self, other: f64) -> Self {
-        Self {
-            re: self.re * other,
-            im: self.im * other,
-        }
+        self * self.re.constant(other)
     }
 }
 
 impl<S: Simd> Scalar for Pair<S> {
     #[inline(always)]
     fn constant(self, value: f64) -> Self {
-        Self {
-            re: self.re.constant(value),
-            im: self.re.constant(0.0),
-        }
+        Self::new(self.re.constant(value), self.re.constant(0.0))
     }
 }

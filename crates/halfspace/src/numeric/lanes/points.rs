@@ -143,10 +143,9 @@ impl<M: Map> WithSimd for Mapped<'_, M> {
         let (re, _) = S::as_mut_simd_f64s(&mut re[..used]);
         let (im, _) = S::as_mut_simd_f64s(&mut im[..used]);
         for (re, im) in re.iter_mut().zip(im) {
-            let found = self.map.at(Pair {
-                re: Lanes::of(simd, *re),
-                im: Lanes::of(simd, *im),
-            });
+            let found = self
+                .map
+                .at(Pair::new(Lanes::of(simd, *re), Lanes::of(simd, *im)));
             (*re, *im) = (found.re.register, found.im.register);
         }
     }
