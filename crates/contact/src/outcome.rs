@@ -105,8 +105,8 @@ impl Place {
         let (nu, memory) = (collision.target_poisson_ratio, plan.groups.memory);
         let (fixed, groups) = if on_disc {
             let radius_m = disc_radius_m(settings, collision);
-            let (coupling, _) = collision.disc_groups(response.static_compliance(), radius_m);
-            ([nu, 0.0], [memory / response.memory(), coupling])
+            let (coupling, _) = collision.disc_groups(response.disc().static_compliance, radius_m);
+            ([nu, 0.0], [memory / response.disc().memory, coupling])
         } else {
             let fixed = [nu, collision.target_share()];
             (fixed, [memory / response.punch_memory(), 1.0])

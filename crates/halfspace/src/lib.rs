@@ -85,5 +85,5 @@ pub use kernel::Kernel;
 pub use medium::Medium;
 pub use numeric::gauss;
 pub use profile::Profile;
-pub use surface::{Deflection, SurfaceResponse, surface_measure};
+pub use surface::{Deflection, LoadedDisc, SurfaceResponse, surface_measure};
 pub use trace::Trace;

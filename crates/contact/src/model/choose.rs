@@ -340,8 +340,8 @@ fn groups(settings: &Settings, collision: &Collision, response: &impl DiscRespon
     let lag = collision.lag_of(wave_time, response);
     let (family, coupling, memory) = if fixed {
         let disc = disc_radius_m(settings, collision);
-        let (coupling, wave_time) = collision.disc_groups(response.static_compliance(), disc);
-        let memory = wave_time * response.memory();
+        let (coupling, wave_time) = collision.disc_groups(response.disc().static_compliance, disc);
+        let memory = wave_time * response.disc().memory;
         match settings.static_share {
             StaticShare::Full => (Family::Full, coupling, memory),
             StaticShare::Dynamic => (Family::Dynamic, 0.0, memory),

@@ -90,7 +90,7 @@ impl Plane {
         GrowingContact {
             waves: &self.waves,
             target_share: share,
-            wave_time: memory * CONTACT_TIME / (2.0 * self.centre.memory()),
+            wave_time: memory * CONTACT_TIME / (2.0 * self.centre.disc.memory),
         }
     }
 
@@ -99,7 +99,7 @@ impl Plane {
         FixedDisc {
             response: &self.centre,
             coupling,
-            wave_time: memory * CONTACT_TIME / self.centre.memory(),
+            wave_time: memory * CONTACT_TIME / self.centre.disc.memory,
             share: StaticShare::Full,
         }
     }
@@ -116,7 +116,7 @@ impl Plane {
         Groups {
             family: self.family,
             coupling: deflection,
-            lag: deflection * wave_time * self.centre.relaxation_time(),
+            lag: deflection * wave_time * self.centre.disc.relaxation_time,
             memory,
         }
     }
@@ -239,7 +239,7 @@ pub(super) fn place_of(target: &str, velocity_m_s: f64) -> Result<(f64, f64), An
     let collision = ball(target, velocity_m_s)?.collision();
     let medium = Medium::new(collision.target_poisson_ratio)?;
     let centre = SurfaceResponse::new(&medium, Deflection::Centre);
-    let memory = 2.0 * centre.memory() * collision.contact_wave_time();
+    let memory = 2.0 * centre.disc.memory * collision.contact_wave_time();
     Ok((collision.target_share(), memory / CONTACT_TIME))
 }
 
@@ -315,8 +315,8 @@ fn disc_figures(effort: Effort) -> Result<Vec<Picture>, AnyError> {
         let loss = 2.0 * tolerance;
         let theory = map.line(60, |coupling| {
             let lag = loss / quasi_static(coupling).1;
-            let wave_time = lag / (coupling * response.relaxation_time());
-            wave_time * response.memory() / CONTACT_TIME
+            let wave_time = lag / (coupling * response.disc.relaxation_time);
+            wave_time * response.disc.memory / CONTACT_TIME
         });
         let label = format!("theory: first-order loss of {loss:.0e}");
         figure.line(&label, Style::Dotted, theory);
