@@ -79,6 +79,7 @@ mod surface;
 mod trace;
 
 pub use arrivals::Arrivals;
+pub use domain::check;
 pub use error::DomainError;
 pub use field::{Estimate, FIELDS, Field, Six};
 pub use kernel::Kernel;

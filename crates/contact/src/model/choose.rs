@@ -34,7 +34,7 @@ use crate::disc::response::DiscResponse;
 use crate::error::ContactError;
 use crate::law::area_dashpot::{AreaDashpot, left_out};
 use crate::law::quasi_static::{quasi_static, quasi_static_radiation};
-use crate::law::radiation::{LOSS, radiation};
+use crate::law::radiation::{LOSS, MOST_LOSS, radiation};
 use crate::model::{Model, Plasticity, Rung, Scheme, Settings, StaticShare};
 use crate::names::Choice;
 
@@ -153,9 +153,6 @@ impl Groups {
     }
 }
 
-/// First-order loss 1 - e^2 up to which the radiation models are used: half of the energy.
-const LARGEST_FIRST_ORDER: f64 = 0.5;
-
 /// A model, its dimensionless groups and, where `auto` chose, its choice.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Plan {
@@ -226,7 +223,7 @@ impl Plan {
     pub(crate) fn closed_form(&self) -> Result<Found, ContactError> {
         let (coupling, lag) = (self.coupling(), self.damping());
         let loss = self.groups.first_order_loss();
-        if lag > 0.0 && loss > LARGEST_FIRST_ORDER {
+        if lag > 0.0 && loss > MOST_LOSS {
             return Err(ContactError::LossTooLarge { loss });
         }
         let left_out = self.groups.beyond_radiation()[0].min(1.0);

@@ -29,7 +29,7 @@ pub use measure::surface_measure;
 use zone::{ZONES, Zone};
 
 /// Which deflection of the loaded disc is meant.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Deflection {
     /// w(0, 0, t), the centre of the disc: the paper's choice.
     Centre,
@@ -77,6 +77,7 @@ const SLOPE: usize = 2;
 pub struct SurfaceResponse {
     /// What is the same for any force.
     pub disc: LoadedDisc,
+    chord: Chord,
     shear_slowness: f64,
     measure: Measure,
     total: Moments,
@@ -98,6 +99,7 @@ impl SurfaceResponse {
                 relaxation_time: chord.integral(chord.support) * total[0],
                 memory: chord.support * measure.rayleigh_slowness,
             },
+            chord,
             shear_slowness: medium.shear_slowness_squared().sqrt(),
             curves: ZONES.map(Curve::new),
             measure,
@@ -153,10 +155,10 @@ impl SurfaceResponse {
         if t < 0.0 || t == 0.0 && which != SLOPE {
             return 0.0;
         }
-        let chord = self.chord();
+        let chord = &self.chord;
         let x = t / chord.support;
         let Some(zone) = Zone::of(x, self.shear_slowness) else {
-            return late(&chord, t / self.measure.rayleigh_slowness);
+            return late(chord, t / self.measure.rayleigh_slowness);
         };
         let angle = zone.angle(self.shear_slowness, x);
         self.curves[zone as usize].value(which, angle, |panel, angles| {
@@ -171,10 +173,6 @@ impl SurfaceResponse {
                 [1.0 - chord.overlap(t, above), integral, slope]
             })
         })
-    }
-
-    fn chord(&self) -> Chord {
-        Chord::new(self.disc.deflection)
     }
 }
 

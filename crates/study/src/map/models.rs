@@ -14,7 +14,7 @@ use crate::scenes::{ball, paper_disc};
 use contact::law::area_dashpot::{AreaDashpot, left_out};
 use contact::law::hertz::CONTACT_TIME;
 use contact::law::quasi_static::{quasi_static, quasi_static_radiation};
-use contact::law::radiation::{LARGEST_LAG, LOSS, radiation};
+use contact::law::radiation::{MOST_LOSS, radiation};
 use contact::{Accuracy, FixedDisc, GrowingContact, Library, MarchError, Material, PunchWaves};
 use contact::{Family, Groups, Rung};
 use contact::{StaticShare, Summary, march_growing, march_implicit, refine};
@@ -154,7 +154,7 @@ impl Plane {
         // a growing contact has all of its compliance from the half-space at most
         let deflection = deflection.min(if is_disc { f64::INFINITY } else { 1.0 });
         let groups = self.groups(deflection, memory);
-        let lag_is_allowed = groups.first_order_loss() <= LOSS * LARGEST_LAG;
+        let lag_is_allowed = groups.first_order_loss() <= MOST_LOSS;
         if is_disc {
             let disc = self.disc(deflection, memory);
             let accuracy = Accuracy::of_contact(ACCURACY, None);
