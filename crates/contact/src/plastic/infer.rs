@@ -89,7 +89,7 @@ impl Fault for InferError {
             Self::Contact(_) => culprit,
             Self::Given(_) => Culprit::of(Class::Scene),
             Self::NoLaw { law, .. } => Culprit {
-                word: Some((*law).into()),
+                word: Some(law),
                 ..culprit.key("plasticity")
             },
             Self::Outside {
