@@ -89,7 +89,7 @@ impl Fault for InferError {
             Self::Contact(_) => culprit,
             Self::Given(_) => Culprit::of(Class::Scene),
             Self::NoLaw { law, .. } => Culprit {
-                word: Some(law),
+                word: Some((*law).into()),
                 ..culprit.key("plasticity")
             },
             Self::Outside {
