@@ -168,15 +168,11 @@ impl Collision {
         }))
     }
 
-    /// K = (4/3) E* sqrt(R) in N/m^(3/2), (37).
-    pub(crate) fn stiffness_n_m32(&self) -> f64 {
-        4.0 / 3.0 * self.effective_modulus_pa * self.tip_radius_m.sqrt()
-    }
-
-    /// Units of the collision: Hertz's largest approach and force.
+    /// Units of the collision: Hertz's largest approach and force, K = (4/3) E* sqrt(R), (37).
     #[must_use]
     pub fn units(&self) -> CollisionUnits {
-        CollisionUnits::new(self.stiffness_n_m32(), self.mass_kg, self.velocity_m_s)
+        let stiffness_n_m32 = 4.0 / 3.0 * self.effective_modulus_pa * self.tip_radius_m.sqrt();
+        CollisionUnits::new(stiffness_n_m32, self.mass_kg, self.velocity_m_s)
     }
 
     /// Units of the half-space's kernels for a disc.
@@ -214,7 +210,8 @@ impl Collision {
         disc_radius_m: f64,
         share: StaticShare,
     ) -> FixedDisc<'a, R> {
-        let (coupling, wave_time) = self.disc_groups(response.static_compliance(), disc_radius_m);
+        let (coupling, wave_time) =
+            self.disc_groups(response.disc().static_compliance, disc_radius_m);
         FixedDisc {
             response,
             coupling,
@@ -260,7 +257,7 @@ impl Collision {
     pub(crate) fn lag_of(&self, contact_wave_time: f64, response: &impl DiscResponse) -> f64 {
         // phi (2/3) a J_p with the punch's J, which is the same for any disc
         // (the Hertz disc's mean deflection has another static part and another relaxation, the same product)
-        let centre = response.static_compliance() * response.relaxation_time()
+        let centre = response.disc().static_compliance * response.disc().relaxation_time
             / (0.375 * (1.0 - self.target_poisson_ratio));
         self.target_share() * contact_wave_time * centre
     }

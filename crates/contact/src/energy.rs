@@ -31,8 +31,9 @@ pub(crate) fn radiated<R: DiscResponse>(
     history: &History,
     duration: f64,
 ) -> f64 {
-    debug_assert_eq!(mean.deflection(), Deflection::Mean);
-    let coupling = impact.coupling * mean.static_compliance() / impact.response.static_compliance();
+    debug_assert_eq!(mean.disc().deflection, Deflection::Mean);
+    let coupling =
+        impact.coupling * mean.disc().static_compliance / impact.response.disc().static_compliance;
     if let Some(work) = history.work_on(mean, coupling, impact.wave_time) {
         return work;
     }

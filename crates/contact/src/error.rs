@@ -160,15 +160,8 @@ pub enum MarchError {
         steps: usize,
     },
     /// A group of a contact that follows the load outside its range.
-    #[error("{name} = {} is outside {range}", fault::number(*value))]
-    OutOfRange {
-        /// Name of the group.
-        name: &'static str,
-        /// Its value.
-        value: f64,
-        /// Its range.
-        range: &'static str,
-    },
+    #[error(transparent)]
+    Domain(#[from] DomainError),
     /// The contact could not be followed.
     #[error(
         "the growing contact could not be followed beyond {time:.4} collision times at a tolerance of {tolerance:e} (target share {target_share}, wave time {wave_time})"

@@ -44,8 +44,8 @@ struct Cell {
     /// Logarithms to the base of two of the free groups, rounded down.
     octaves: [i32; 2],
     family: Family,
-    /// Whether the deflection of a fixed disc is the mean.
-    mean: bool,
+    /// That of a fixed disc.
+    deflection: Deflection,
     /// Poisson's ratio and, of a contact that follows the load, phi; C and e_y of the fit; in bits.
     fixed: [u64; 2],
     /// Tolerance, and that of the loss or zero; in bits.
@@ -105,8 +105,8 @@ impl Place {
         let (nu, memory) = (collision.target_poisson_ratio, plan.groups.memory);
         let (fixed, groups) = if on_disc {
             let radius_m = disc_radius_m(settings, collision);
-            let (coupling, _) = collision.disc_groups(response.static_compliance(), radius_m);
-            ([nu, 0.0], [memory / response.memory(), coupling])
+            let (coupling, _) = collision.disc_groups(response.disc().static_compliance, radius_m);
+            ([nu, 0.0], [memory / response.disc().memory, coupling])
         } else {
             let fixed = [nu, collision.target_share()];
             (fixed, [memory / response.punch_memory(), 1.0])
@@ -131,7 +131,7 @@ impl Place {
         let cell = Cell {
             octaves: octaves.map(|(octave, _)| octave),
             family,
-            mean: settings.deflection == Deflection::Mean,
+            deflection: settings.deflection,
             fixed: fixed.map(f64::to_bits),
             tolerances: tolerances.map(f64::to_bits),
         };
@@ -284,8 +284,7 @@ impl Cell {
             Family::Dynamic => StaticShare::Dynamic,
         };
         let of_mean = responses.disc(fixed[0], Deflection::Mean).ok()?;
-        let deflection = [Deflection::Centre, Deflection::Mean][usize::from(self.mean)];
-        let response = responses.disc(fixed[0], deflection).ok()?;
+        let response = responses.disc(fixed[0], self.deflection).ok()?;
         let impact = FixedDisc {
             response: &*response,
             coupling: second,

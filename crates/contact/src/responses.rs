@@ -136,9 +136,11 @@ mod tests {
             for deflection in [Deflection::Centre, Deflection::Mean] {
                 let exact = few.disc(nu, deflection).unwrap();
                 let found = many.disc(nu, deflection).unwrap();
-                let memory = exact.memory();
-                assert!((found.memory() / memory - 1.0).abs() < 1e-6, "nu = {nu}");
-                assert!((found.relaxation_time() / exact.relaxation_time() - 1.0).abs() < 1e-6);
+                let memory = exact.disc.memory;
+                assert!((found.disc.memory / memory - 1.0).abs() < 1e-6, "nu = {nu}");
+                assert!(
+                    (found.disc.relaxation_time / exact.disc.relaxation_time - 1.0).abs() < 1e-6
+                );
                 for i in 1..400 {
                     let t = memory * f64::from(i) / 300.0;
                     let (a, b) = (exact.integrals(t), found.integrals(t));

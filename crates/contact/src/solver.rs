@@ -336,7 +336,7 @@ impl<'a, S: Responses> Solver<'a, S> {
         deflection: Deflection,
     ) -> Result<Arc<Arc<S::Disc>>, DomainError> {
         self.disc
-            .take_if(|(_, disc)| disc.deflection() != deflection);
+            .take_if(|(_, disc)| disc.disc().deflection != deflection);
         remembered(&mut self.disc, ratio, || {
             self.responses.disc(ratio, deflection)
         })

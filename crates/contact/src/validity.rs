@@ -4,7 +4,6 @@
 
 use crate::bodies::material::Material;
 use crate::bodies::shape::Shape;
-use crate::bodies::wave_speeds::WaveSpeeds;
 use crate::bodies::{HalfSpace, Striker};
 use crate::collision::Collision;
 use crate::disc::CENTRE_COUPLING;
@@ -199,14 +198,12 @@ fn of_the_bodies(
             ));
         }
     }
-    let speeds = WaveSpeeds::of(half_space).ok();
-    let echo = speeds.and_then(|speeds| speeds.first_echo_s(half_space, [0.0; 2], 0.0));
-    if let Some(echo) = echo.filter(|&echo| echo < contact_time_s) {
-        let deep = half_space.thickness_m.map(|size| ("thickness_m", size));
-        let wide = half_space.radius_m.map(|size| ("radius_m", size));
-        let faces = deep.into_iter().chain(wide);
-        let nearest = faces.reduce(|one, other| if other.1 < one.1 { other } else { one });
-        let (key, size) = nearest.unwrap_or(("thickness_m", 0.0));
+    let deep = half_space.thickness_m.map(|size| ("thickness_m", size));
+    let wide = half_space.radius_m.map(|size| ("radius_m", size));
+    let faces = deep.into_iter().chain(wide);
+    let nearest = faces.reduce(|one, other| if other.1 < one.1 { other } else { one });
+    let echo = nearest.map(|(_, size)| 2.0 * size / half_space.longitudinal_speed_m_s());
+    if let (Some((key, size)), Some(echo)) = (nearest, echo.filter(|&echo| echo < contact_time_s)) {
         found.push(format!(
             "the echo from {key} = {size:.3e} m returns after {echo:.3e} s, before the contact ends at {contact_time_s:.3e} s: the block is not a half-space"
         ));

@@ -98,7 +98,7 @@ fn paper(response: &SurfaceResponse, share: StaticShare) -> (FixedDisc<'_>, Coll
     let c1 = (mu * 3.5 / 7830.0_f64).sqrt();
     let impact = FixedDisc {
         response,
-        coupling: response.static_compliance() * units.force_n / (mu * 0.004 * units.length_m),
+        coupling: response.disc.static_compliance * units.force_n / (mu * 0.004 * units.length_m),
         wave_time: 0.004 / c1 / units.time_s,
         share,
     };

@@ -22,7 +22,7 @@ fn worst(deflection: Deflection, ratios: &[f64], couplings: &[f64]) -> (f64, f64
                 let impact = FixedDisc {
                     response: &response,
                     coupling,
-                    wave_time: cells * step / response.memory(),
+                    wave_time: cells * step / response.disc.memory,
                     share: StaticShare::Full,
                 };
                 let run =

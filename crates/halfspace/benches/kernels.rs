@@ -101,7 +101,7 @@ fn accuracy() {
     let medium = Medium::new(POISSON_RATIO).unwrap();
     let centre = SurfaceResponse::new(&medium, Deflection::Centre);
     let errors: Vec<f64> = (1..=2000)
-        .map(|i| 1.1 * centre.memory() * f64::from(i) / 2000.0)
+        .map(|i| 1.1 * centre.disc.memory * f64::from(i) / 2000.0)
         .map(|t| (centre.step(t) - kausel::centre_step(&medium, medium.kappa() * t)).abs())
         .collect();
     heading("error of W of the surface centre against Kausel's closed form");
@@ -161,7 +161,7 @@ fn surface(criterion: &mut Criterion) {
         let response = SurfaceResponse::new(&medium, deflection);
         let mut random = Stream::new(13);
         let times: Vec<f64> = (0..1000)
-            .map(|_| random.within(0.0, response.memory()))
+            .map(|_| random.within(0.0, response.disc.memory))
             .collect();
         let sample = |&t: &f64| {
             black_box(response.step(t));

@@ -10,7 +10,10 @@ pub(crate) const FARTHEST: f64 = 1e20;
 pub(crate) const NEAREST: f64 = 1e-20;
 
 /// The error that names a value and its range, unless it is `allowed`.
-pub(crate) fn check(
+///
+/// # Errors
+/// [`DomainError::Range`].
+pub fn check(
     allowed: bool,
     argument: &'static str,
     value: f64,

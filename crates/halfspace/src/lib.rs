@@ -79,11 +79,12 @@ mod surface;
 mod trace;
 
 pub use arrivals::Arrivals;
+pub use domain::check;
 pub use error::DomainError;
 pub use field::{Estimate, FIELDS, Field, Six};
 pub use kernel::Kernel;
 pub use medium::Medium;
 pub use numeric::gauss;
 pub use profile::Profile;
-pub use surface::{Deflection, SurfaceResponse, surface_measure};
+pub use surface::{Deflection, LoadedDisc, SurfaceResponse, surface_measure};
 pub use trace::Trace;

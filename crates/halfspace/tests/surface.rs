@@ -84,7 +84,7 @@ fn published_values_are_reproduced() {
     for (nu, j) in memory {
         let medium = Medium::new(nu).unwrap();
         let centre = SurfaceResponse::new(&medium, Deflection::Centre);
-        let found = medium.kappa() * centre.static_compliance() * centre.relaxation_time();
+        let found = medium.kappa() * centre.disc.static_compliance * centre.disc.relaxation_time;
         assert!((found - j).abs() < 1e-8, "nu = {nu}: J = {found}");
     }
 }
@@ -95,10 +95,10 @@ fn the_integral_is_the_integral_of_the_step() {
         let medium = Medium::new(nu).unwrap();
         for deflection in [Deflection::Centre, Deflection::Mean] {
             let response = SurfaceResponse::new(&medium, deflection);
-            let h = 1e-3 * response.memory();
+            let h = 1e-3 * response.disc.memory;
             let fronts: Vec<f64> = [1.0, 1.0 / medium.kappa(), 1.0 / medium.rayleigh_speed()]
                 .iter()
-                .map(|f| f * response.memory() * medium.rayleigh_speed())
+                .map(|f| f * response.disc.memory * medium.rayleigh_speed())
                 .collect();
             for i in 1..1500 {
                 // Simpson's rule over one small interval away from the fronts
@@ -115,10 +115,10 @@ fn the_integral_is_the_integral_of_the_step() {
                     "nu = {nu}, {deflection:?}, t = {t}: {slope} {mean}"
                 );
             }
-            let late = 1.5 * response.memory();
+            let late = 1.5 * response.disc.memory;
             assert_eq!(response.step(late), 1.0);
             assert!(
-                (response.step_integral(late) - late + response.relaxation_time()).abs() < 1e-13
+                (response.step_integral(late) - late + response.disc.relaxation_time).abs() < 1e-13
             );
         }
     }
@@ -133,7 +133,7 @@ fn response_rises_from_zero_and_joins_smoothly() {
             assert_eq!(response.step(0.0), 0.0);
             assert!(response.step(1e-9).abs() < 1e-8);
             for front in [1.0, 1.0 / medium.kappa(), 1.0 / medium.rayleigh_speed()] {
-                let t = front * response.memory() * medium.rayleigh_speed();
+                let t = front * response.disc.memory * medium.rayleigh_speed();
                 let jump = response.step(t * (1.0 + 1e-12)) - response.step(t * (1.0 - 1e-12));
                 assert!(jump.abs() < 1e-10, "nu = {nu}, front at {t}: {jump:e}");
             }
@@ -148,7 +148,7 @@ fn initial_slope_is_the_plane_wave_impedance() {
         let medium = Medium::new(nu).unwrap();
         let centre = SurfaceResponse::new(&medium, Deflection::Centre);
         let z0 = 1.5 / std::f64::consts::PI;
-        let expected = medium.kappa().powi(2) * z0 / centre.static_compliance();
+        let expected = medium.kappa().powi(2) * z0 / centre.disc.static_compliance;
         let slope = centre.step(1e-6) / 1e-6;
         assert!(
             (slope / expected - 1.0).abs() < 1e-5,
@@ -218,7 +218,7 @@ fn both_deflections_hold_1e_13_on_the_whole_range() {
         let fronts = [1.0, 1.0 / kappa, 1.0 / medium.rayleigh_speed()];
         let mut worst = [0.0_f64; 2];
         for i in 1..60 {
-            let t = mean.memory() * 1.05 * f64::from(i) / 60.0;
+            let t = mean.disc.memory * 1.05 * f64::from(i) / 60.0;
             let exact = |t: f64| kausel::centre_step(&medium, kappa * t);
             worst[0] = worst[0].max((centre.step(0.5 * t) - exact(0.5 * t)).abs());
             let cuts = fronts.map(|f| t / f);
@@ -246,11 +246,11 @@ fn the_impulse_holds_1e_11() {
         for deflection in [Deflection::Centre, Deflection::Mean] {
             let response = SurfaceResponse::new(&medium, deflection);
             let size = response.impulse(0.0);
-            let scale = response.memory() * medium.rayleigh_speed();
+            let scale = response.disc.memory * medium.rayleigh_speed();
             let fronts =
                 [1.0, 1.0 / medium.kappa(), 1.0 / medium.rayleigh_speed()].map(|f| f * scale);
             let mut worst = 0.0_f64;
-            for [from, to] in graded(0.0, response.memory(), &fronts, 5) {
+            for [from, to] in graded(0.0, response.disc.memory, &fronts, 5) {
                 let mean: f64 = smooth_nodes(from, to)
                     .map(|(t, weight)| weight * response.impulse(t))
                     .sum();

@@ -138,7 +138,7 @@ fn growing_tends_to_the_radiation_law() {
             wave_time,
         };
         let found = Summary::new(&march_growing(&impact, 3.0 / 512.0).unwrap()).unwrap();
-        let law = radiation(0.5 * wave_time * response.relaxation_time());
+        let law = radiation(0.5 * wave_time * response.disc.relaxation_time);
         let difference = (found.loss / law.loss - 1.0).abs();
         println!(
             "loss {:.6}, law {:.6}, difference {difference:.1e}",

@@ -136,7 +136,7 @@ impl EnergySeries {
 /// Static mean deflection of the disc in m/N.
 fn static_mean_m_per_n(excitation: &Excitation) -> f64 {
     let response = SurfaceResponse::new(excitation.medium(), Deflection::Mean);
-    response.static_compliance() * excitation.units().displacement_m_per_n()
+    response.disc.static_compliance * excitation.units().displacement_m_per_n()
 }
 
 /// Cubic through the four samples around a place; the last one after them.

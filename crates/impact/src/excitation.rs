@@ -242,7 +242,7 @@ impl Excitation {
         match &self.force {
             Force::Contact(contact) => {
                 let units = &contact.units;
-                contact.samples.force_alone(time_s / units.time_s) * units.force_n
+                contact.samples.force(time_s / units.time_s)[0] * units.force_n
             }
             Force::Record(record) => record.at(time_s),
         }
@@ -450,7 +450,7 @@ impl Excitation {
     ) -> Vec<f64> {
         let response = SurfaceResponse::new(&self.medium, deflection);
         let weights = Weights::of_samples(&response, step_s, self.units.time_s(), force_n.len());
-        let static_m_per_n = response.static_compliance() * self.units.displacement_m_per_n();
+        let static_m_per_n = response.disc.static_compliance * self.units.displacement_m_per_n();
         let factor = share.factor();
         let above_n: Vec<f64> = force_n.iter().map(|p| p - base_n).collect();
         let of = |n: usize| factor * force_n[n] - weights.delayed(&above_n[..=n]);

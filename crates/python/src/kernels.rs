@@ -177,11 +177,10 @@ pub(crate) fn medium(py: Python<'_>, nu: f64) -> PyResult<Bound<'_, PyDict>> {
     found.set_item("rayleigh_speed", medium.rayleigh_speed())?;
     found.set_item("lambda_over_mu", medium.lambda_over_mu())?;
     for (name, deflection) in DEFLECTIONS {
-        let response = SurfaceResponse::new(&medium, deflection);
-        let relaxation_time = response.relaxation_time();
-        found.set_item(format!("{name}_compliance"), response.static_compliance())?;
-        found.set_item(format!("{name}_memory"), response.memory())?;
-        found.set_item(format!("{name}_relaxation_time"), relaxation_time)?;
+        let disc = SurfaceResponse::new(&medium, deflection).disc;
+        found.set_item(format!("{name}_compliance"), disc.static_compliance)?;
+        found.set_item(format!("{name}_memory"), disc.memory)?;
+        found.set_item(format!("{name}_relaxation_time"), disc.relaxation_time)?;
     }
     Ok(found)
 }

@@ -141,7 +141,7 @@ impl Relaxation<()> {
         coupling: f64,
         unit: f64,
     ) -> Relaxation<impl Fn(f64) -> f64 + '_> {
-        let memory = response.memory() * unit;
+        let memory = response.disc().memory * unit;
         let (moments, integral) = response.relaxation(memory > RESOLVED);
         let mut power = 1.0;
         Relaxation {
@@ -271,7 +271,7 @@ mod tests {
         let response = SurfaceResponse::new(&Medium::new(0.3).unwrap(), Deflection::Centre);
         for (a, memory, digits) in [(0.0, 0.01, 5e-4), (0.5, 0.5, 2e-3), (2.0, 1.5, 2e-3)] {
             let (edge, root) = edge(a);
-            let unit = memory / response.memory();
+            let unit = memory / response.disc().memory;
             let relaxation = Relaxation::of(&response, 1.0, unit);
             let force = |s: f64| root(s.max(0.0)).powi(3);
             // L = d/ds int (1 - W) p at the touch, int (1 - W)(x) p'(x) dx where the force ends

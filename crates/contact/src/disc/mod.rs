@@ -50,7 +50,7 @@ impl<R: DiscResponse> FixedDisc<'_, R> {
     /// Memory of the half-space in collision times.
     #[must_use]
     pub fn memory(&self) -> f64 {
-        self.response.memory() * self.wave_time
+        self.response.disc().memory * self.wave_time
     }
 
     /// Coupling of the static spring in the contact law: none for the dynamic share.

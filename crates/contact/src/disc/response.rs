@@ -4,29 +4,20 @@
 //! One table serves every impact on half-spaces of the same Poisson's ratio, whatever the units.
 
 use crate::numeric::quadrature::{GAUSS_4, GAUSS_8, gauss, hermite, quintic};
-use halfspace::{Deflection, SurfaceResponse};
+use halfspace::{Deflection, LoadedDisc, SurfaceResponse};
 
 /// The step response S W(t) of a disc's deflection under unit force: S its static value, W = 1 after its memory.
 ///
 /// Time in r0/c1, deflection in 1/(mu r0).
 pub trait DiscResponse {
-    /// Which deflection of the disc this is.
-    fn deflection(&self) -> Deflection;
-
-    /// S.
-    fn static_compliance(&self) -> f64;
-
-    /// int (1 - W) dt.
-    fn relaxation_time(&self) -> f64;
-
-    /// Time after which the response is static.
-    fn memory(&self) -> f64;
+    /// S and the memory, of which deflection.
+    fn disc(&self) -> &LoadedDisc;
 
     /// Memory of a flat punch in a/c1: the slowest wave across its diameter.
     fn punch_memory(&self) -> f64 {
-        match self.deflection() {
-            Deflection::Centre => 2.0 * self.memory(),
-            Deflection::Mean => self.memory(),
+        match self.disc().deflection {
+            Deflection::Centre => 2.0 * self.disc().memory,
+            Deflection::Mean => self.disc().memory,
         }
     }
 
@@ -41,10 +32,10 @@ pub trait DiscResponse {
 
 /// int s^k (1 - W) ds for k = 0 .. 3, from int W ds.
 fn moments(response: &SurfaceResponse, integral: impl Fn(f64) -> f64) -> [f64; 4] {
-    let relaxation = response.relaxation_time();
+    let relaxation = response.disc.relaxation_time;
     // by parts: k int s^(k-1) K ds
     let moment = |k: i32| {
-        gauss(&GAUSS_8, 0.0, response.memory(), |s| {
+        gauss(&GAUSS_8, 0.0, response.disc.memory, |s| {
             f64::from(k) * s.powi(k - 1) * (relaxation + integral(s) - s)
         })
     };
@@ -55,24 +46,12 @@ fn moments(response: &SurfaceResponse, integral: impl Fn(f64) -> f64) -> [f64; 4
 const COARSE_CELLS: usize = 6;
 
 impl DiscResponse for SurfaceResponse {
-    fn deflection(&self) -> Deflection {
-        self.deflection()
-    }
-
-    fn static_compliance(&self) -> f64 {
-        self.static_compliance()
-    }
-
-    fn relaxation_time(&self) -> f64 {
-        self.relaxation_time()
-    }
-
-    fn memory(&self) -> f64 {
-        self.memory()
+    fn disc(&self) -> &LoadedDisc {
+        &self.disc
     }
 
     fn relaxation(&self, resolved: bool) -> ([f64; 4], impl Fn(f64) -> f64 + '_) {
-        let memory = self.memory();
+        let memory = self.disc.memory;
         let width = memory / COARSE_CELLS as f64;
         let nodes: [[f64; 2]; COARSE_CELLS + 1] = if resolved {
             [[0.0; 2]; COARSE_CELLS + 1]
@@ -98,9 +77,9 @@ impl DiscResponse for SurfaceResponse {
         move |from, to| {
             let after = self.step_integral(to);
             // Beyond the memory int W = t - relaxation, whose integral is elementary.
-            let live = self.memory().clamp(from, to);
+            let live = self.disc.memory.clamp(from, to);
             let area = gauss(&GAUSS_4, from, live, |t| self.step_integral(t))
-                + (to - live) * (0.5 * (to + live) - self.relaxation_time());
+                + (to - live) * (0.5 * (to + live) - self.disc.relaxation_time);
             let moment = 0.5 * (to - from) * (before + after) - area;
             let rise = after - before;
             before = after;
@@ -114,9 +93,8 @@ impl DiscResponse for SurfaceResponse {
 /// Time in r0/c1. Accuracy 1e-9 of the memory and its square, for nu in [-0.5, 0.4999].
 #[derive(Debug, Clone, PartialEq)]
 pub struct ResponseTable {
-    deflection: Deflection,
-    static_compliance: f64,
-    memory: f64,
+    /// That of the response.
+    pub disc: LoadedDisc,
     /// int t^k (1 - W) dt for k = 0 .. 3, the first of them the relaxation time.
     moments: [f64; 4],
     /// W, int W/memory and int int W/memory^2 at equal steps of the memory.
@@ -131,7 +109,7 @@ impl ResponseTable {
     /// Tabulates a response.
     #[must_use]
     pub fn new(response: &SurfaceResponse) -> Self {
-        let memory = response.memory();
+        let memory = response.disc.memory;
         let mut nodes = vec![[0.0; 3]];
         let mut twice = 0.0;
         let (mut step, mut once) = (0.0, 0.0);
@@ -145,9 +123,7 @@ impl ResponseTable {
             nodes.push([step, once, twice]);
         }
         Self {
-            deflection: response.deflection(),
-            static_compliance: response.static_compliance(),
-            memory,
+            disc: response.disc,
             moments: moments(response, |t| response.step_integral(t)),
             nodes,
         }
@@ -159,13 +135,17 @@ impl ResponseTable {
     /// error is that of linear interpolation, of second order in the distance.
     #[must_use]
     pub fn between(near: &Self, far: &Self, fraction: f64) -> Self {
-        debug_assert_eq!(near.deflection, far.deflection);
+        let (one, other) = (&near.disc, &far.disc);
+        debug_assert_eq!(one.deflection, other.deflection);
         let mix = |a: f64, b: f64| a + fraction * (b - a);
         let mixed = |(a, b): (&[f64; 3], &[f64; 3])| std::array::from_fn(|k| mix(a[k], b[k]));
         Self {
-            deflection: near.deflection,
-            static_compliance: mix(near.static_compliance, far.static_compliance),
-            memory: mix(near.memory, far.memory),
+            disc: LoadedDisc {
+                static_compliance: mix(one.static_compliance, other.static_compliance),
+                relaxation_time: mix(one.relaxation_time, other.relaxation_time),
+                memory: mix(one.memory, other.memory),
+                ..*one
+            },
             moments: std::array::from_fn(|k| mix(near.moments[k], far.moments[k])),
             nodes: near.nodes.iter().zip(&far.nodes).map(mixed).collect(),
         }
@@ -176,15 +156,15 @@ impl ResponseTable {
     #[inline]
     pub fn integral(&self, t: f64) -> f64 {
         let Some(([[w0, v0, _], [w1, v1, _]], x)) = self.cell(t) else {
-            return self.nodes[CELLS][1] * self.memory + t - self.memory;
+            return self.nodes[CELLS][1] * self.disc.memory + t - self.disc.memory;
         };
-        hermite([*v0, w0 * WIDTH], [*v1, w1 * WIDTH], x) * self.memory
+        hermite([*v0, w0 * WIDTH], [*v1, w1 * WIDTH], x) * self.disc.memory
     }
 
     /// The cell that holds a time, its nodes and the place in it; none beyond the memory.
     #[inline]
     fn cell(&self, t: f64) -> Option<(&[[f64; 3]; 2], f64)> {
-        let place = (t / self.memory * CELLS as f64).max(0.0);
+        let place = (t / self.disc.memory * CELLS as f64).max(0.0);
         let i = place as usize;
         Some((self.nodes.get(i..)?.first_chunk()?, place - i as f64))
     }
@@ -193,7 +173,7 @@ impl ResponseTable {
     #[must_use]
     #[inline]
     pub fn integrals(&self, t: f64) -> [f64; 2] {
-        let m = self.memory;
+        let m = self.disc.memory;
         let jet = |[w, v, u]: &[f64; 3]| [*u, v * WIDTH, w * WIDTH * WIDTH];
         let Some(([before, after], x)) = self.cell(t) else {
             let [_, once, twice] = self.nodes[CELLS];
@@ -209,20 +189,8 @@ impl ResponseTable {
 }
 
 impl DiscResponse for ResponseTable {
-    fn deflection(&self) -> Deflection {
-        self.deflection
-    }
-
-    fn static_compliance(&self) -> f64 {
-        self.static_compliance
-    }
-
-    fn relaxation_time(&self) -> f64 {
-        self.moments[0]
-    }
-
-    fn memory(&self) -> f64 {
-        self.memory
+    fn disc(&self) -> &LoadedDisc {
+        &self.disc
     }
 
     fn relaxation(&self, _resolved: bool) -> ([f64; 4], impl Fn(f64) -> f64 + '_) {
@@ -256,7 +224,7 @@ mod tests {
             for deflection in [Deflection::Centre, Deflection::Mean] {
                 let exact = response(nu, deflection);
                 let table = ResponseTable::new(&exact);
-                let m = exact.memory();
+                let m = exact.disc.memory;
                 let (mut worst, mut twice, mut before) = (0.0_f64, 0.0, 0.0);
                 let fine = 20_000;
                 for i in 1..=fine {

@@ -204,7 +204,7 @@ mod tests {
                 let impact = FixedDisc {
                     response: &response,
                     coupling,
-                    wave_time: memory * duration / response.memory(),
+                    wave_time: memory * duration / response.disc().memory,
                     share: StaticShare::Full,
                 };
                 let march = |steps: f64| march_implicit(&impact, duration / steps).unwrap();
@@ -229,7 +229,7 @@ mod tests {
         let impact = FixedDisc {
             response: &response,
             coupling,
-            wave_time: memory * duration / response.memory(),
+            wave_time: memory * duration / response.disc().memory,
             share: StaticShare::Full,
         };
         let fine = march_implicit(&impact, duration / 4096.0).unwrap();
@@ -268,7 +268,7 @@ mod tests {
     #[test]
     fn the_weights_of_the_lag_are_exact_for_its_moments() {
         let response = SurfaceResponse::new(&Medium::new(0.25).unwrap(), Deflection::Mean);
-        let relaxation = Relaxation::of(&response, 1.0, 2.0 / response.memory());
+        let relaxation = Relaxation::of(&response, 1.0, 2.0 / response.disc().memory);
         let weights = delayed_weights(&relaxation);
         // p = (2 + s)^k at s = -2 .. 2: L(0) = sum_j (-1)^j p^(j+1)(0) M_j/j!
         let [m0, m1, m2, m3] = relaxation.moments;

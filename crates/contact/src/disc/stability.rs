@@ -54,7 +54,7 @@ pub(crate) fn check(
     let fed = |found| ContactError::EnergyFed { coupling, found };
     let steepness = 1.5 * coupling * largest_force(still).cbrt();
     let at_once = 1.0 - impact.share.factor();
-    let centre = impact.response.deflection() == Deflection::Centre;
+    let centre = impact.response.disc().deflection == Deflection::Centre;
     let sound = |negative: f64| steepness * (at_once + negative) <= MARGIN;
     let exactly = || sound(negative_compliance(impact.response));
     if !centre && sound(0.0) || centre && (sound(LARGEST_NEGATIVE) || exactly()) {
@@ -94,7 +94,7 @@ pub(crate) fn check(
 /// C(i w) = 1 - i w int_0^M V e^(-i w t) dt,     V = 1 - W, by its means over cells
 /// ```
 pub(crate) fn negative_compliance(response: &impl DiscResponse) -> f64 {
-    let width = response.memory() / SAMPLES as f64;
+    let width = response.disc().memory / SAMPLES as f64;
     let mut cell = response.cells(width);
     let left: Vec<f64> = (0..SAMPLES)
         .map(|j| 1.0 - cell(j as f64 * width, (j + 1) as f64 * width).0 / width)

@@ -60,7 +60,7 @@ impl Weights {
     /// For a step in r0/c1.
     fn fill(&mut self, response: &impl DiscResponse, h: f64, slack: f64, samples: usize) {
         let mut cell = response.cells(h);
-        let cells = ((response.memory() / h).ceil() as usize).min(samples.saturating_add(1));
+        let cells = ((response.disc().memory / h).ceil() as usize).min(samples.saturating_add(1));
         let values = &mut self.values;
         values.clear();
         values.resize(cells + 2, 0.0);
@@ -146,7 +146,7 @@ mod tests {
                     sum -= g * (p(i) - p(i - 1.0));
                 }
             }
-            let (t, m) = (n as f64 * h, response.memory());
+            let (t, m) = (n as f64 * h, response.disc().memory);
             let mut exact = 0.0;
             let panels = 400;
             for panel in 0..panels {
@@ -156,7 +156,7 @@ mod tests {
                 }
             }
             if t > m {
-                exact += (t - m) * (t + m - 2.0 * response.relaxation_time());
+                exact += (t - m) * (t + m - 2.0 * response.disc().relaxation_time);
             }
             assert!(
                 (sum / exact - 1.0).abs() < 1e-4 * h.min(1.0),

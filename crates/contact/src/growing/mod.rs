@@ -39,6 +39,7 @@ use crate::error::MarchError;
 use crate::growing::equations::March;
 use crate::growing::solved::SolvedContact;
 use crate::growing::waves::GrowingContact;
+use halfspace::check;
 
 /// Least and largest tolerance.
 const TOLERANCES: [f64; 2] = [1e-11, 1e-2];
@@ -92,14 +93,9 @@ pub fn solve_growing(
     contact: &GrowingContact<'_>,
     accuracy: &Accuracy,
 ) -> Result<SolvedContact, MarchError> {
-    let outside = |name, value, range| Err(MarchError::OutOfRange { name, value, range });
     let (phi, tau) = (contact.target_share, contact.wave_time);
-    if !(phi > 0.0 && phi <= 1.0) {
-        return outside("target_share", phi, "(0, 1]");
-    }
-    if !(tau > 0.0 && tau < 1e3) {
-        return outside("wave_time", tau, "(0, 1000)");
-    }
+    check(phi > 0.0 && phi <= 1.0, "target_share", phi, "(0, 1]")?;
+    check(tau > 0.0 && tau < 1e3, "wave_time", tau, "(0, 1000)")?;
     let [least, largest] = TOLERANCES;
     let parts = [Some(accuracy.tolerance), accuracy.loss, accuracy.deflection];
     let asked = parts.into_iter().flatten().fold(largest, f64::min);

@@ -15,7 +15,6 @@
 
 use crate::numeric::gauss::gauss_rule;
 use halfspace::{Medium, surface_measure};
-use std::f64::consts::FRAC_PI_2;
 use std::sync::{Arc, OnceLock};
 
 /// Nodes of the rules, coarse to fine.
@@ -46,8 +45,7 @@ impl PunchWaves {
     #[must_use]
     pub fn new(medium: &Medium) -> Self {
         let c = medium.rayleigh_speed();
-        let [fast, slow] = [FAST, SLOW].map(panels);
-        let mut points = surface_measure(medium, [&fast, &slow], NODES);
+        let mut points = surface_measure(medium, HALVINGS, NODES);
         let slowest = 1.0 / c;
         points.iter_mut().for_each(|(x, _)| *x /= slowest);
         let mut sum = [0.0; 3];
@@ -86,12 +84,10 @@ impl PunchWaves {
         0.5 * self.moment(1)
     }
 
-    /// int X^n dmu.
+    /// int X^n dmu, n = 0 to 3.
     #[must_use]
-    pub fn moment(&self, n: i32) -> f64 {
-        let known = usize::try_from(n).ok().and_then(|n| self.moments.get(n));
-        let reduced = || self.mixed(&|waves: &Self| [moment(&waves.points, n)])[0];
-        known.copied().unwrap_or_else(reduced) * self.memory.powi(n)
+    pub fn moment(&self, n: usize) -> f64 {
+        self.moments[n] * self.memory.powi(n as i32)
     }
 
     /// V_p(t), t in a/c1, and its integral from 0 to t; constant from the memory on.
@@ -99,28 +95,21 @@ impl PunchWaves {
     /// By summation; the convergence is that of the points: 1e-4, and of the integral 2e-6 of the relaxation time.
     #[must_use]
     pub fn relaxation(&self, t: f64) -> [f64; 2] {
-        let x = t / self.memory;
-        let [value, integral] = self.mixed(&|waves| {
-            let before = waves.sums[waves.points.partition_point(|(slowness, _)| *slowness <= x)];
-            let all = waves.sums[waves.points.len()];
-            let (mass, rate) = (all[1] - before[1], all[2] - before[2]);
-            [
-                mass - x * rate,
-                0.5 * before[0] + x * (mass - 0.5 * x * rate),
-            ]
-        });
+        let [value, integral] = self.reduced(t / self.memory);
         [value, self.memory * integral]
     }
 
-    /// What points give, linear between the neighbours where these waves have none of their own.
-    fn mixed<const N: usize>(&self, of: &impl Fn(&Self) -> [f64; N]) -> [f64; N] {
-        match &self.neighbours {
-            None => of(self),
-            Some((near, far, fraction)) => {
-                let (near, far) = (near.mixed(of), far.mixed(of));
-                std::array::from_fn(|k| near[k] + fraction * (far[k] - near[k]))
-            }
+    /// The same in the memory: of the points, linear between the neighbours where these waves have none of their own.
+    fn reduced(&self, x: f64) -> [f64; 2] {
+        if let Some((near, far, fraction)) = &self.neighbours {
+            let (near, far) = (near.reduced(x), far.reduced(x));
+            return std::array::from_fn(|k| near[k] + fraction * (far[k] - near[k]));
         }
+        let before = self.sums[self.points.partition_point(|(slowness, _)| *slowness <= x)];
+        let all = self.sums[self.points.len()];
+        let (mass, rate) = (all[1] - before[1], all[2] - before[2]);
+        let integral = 0.5 * before[0] + x * (mass - 0.5 * x * rate);
+        [mass - x * rate, integral]
     }
 
     /// The rule of a level, delays and rates; made when it is first asked for.
@@ -169,19 +158,9 @@ fn moment(points: &[(f64, f64)], n: i32) -> f64 {
 /// Nodes of a panel.
 const NODES: usize = 18;
 
-/// Halvings of the panels toward the ends of the two intervals of slowness on which the density is smooth in an angle:
-/// 0 < x < 1, x = sin(angle), and 1 < x < 1/kappa, x^2 = 1 + (K - 1) sin^2(angle).
-const FAST: [i32; 2] = [3, 16];
-const SLOW: [i32; 2] = [16, 4];
-
-/// Ends of panels in angles from 0 to pi/2; they shrink toward slowness one, where a zero of the Rayleigh function on
-/// a neighbouring sheet may be near, and a little toward the shear slowness.
-fn panels(halvings: [i32; 2]) -> Vec<f64> {
-    let [lower, upper] = halvings.map(|halvings| (1..=halvings).map(|j| 0.5_f64.powi(j)));
-    let below = [0.0].into_iter().chain(lower.rev());
-    let parts = below.chain(upper.skip(1).map(|x| 1.0 - x)).chain([1.0]);
-    parts.map(|part| FRAC_PI_2 * part).collect()
-}
+/// Halvings of the panels toward the ends of the two intervals of slowness: they shrink toward slowness one, where a zero
+/// of the Rayleigh function on a neighbouring sheet may be near, and a little toward the shear slowness.
+const HALVINGS: [[i32; 2]; 2] = [[3, 16], [16, 4]];
 
 #[cfg(test)]
 mod tests {
@@ -209,9 +188,9 @@ mod tests {
                 "nu = {nu}: {:e}",
                 waves.moment(0) - 1.0
             );
-            let relaxation = waves.relaxation_time() / centre.relaxation_time();
+            let relaxation = waves.relaxation_time() / centre.disc.relaxation_time;
             assert!((relaxation - 1.5).abs() < 1e-12, "nu = {nu}: {relaxation}");
-            assert!((waves.memory / centre.memory() - 2.0).abs() < 1e-14);
+            assert!((waves.memory / centre.disc.memory - 2.0).abs() < 1e-14);
         }
     }
 
@@ -243,7 +222,7 @@ mod tests {
                 late *= (until - from) / f64::from(MIDPOINTS);
                 let exact = 1.5 * early + 0.5 * y * y * late;
                 let error = waves.relaxation(fraction * end)[1] - exact;
-                worst = worst.max(error.abs() / centre.relaxation_time());
+                worst = worst.max(error.abs() / centre.disc.relaxation_time);
             }
         }
         println!("{worst:.1e} of the relaxation time");
@@ -259,7 +238,7 @@ mod tests {
                 let sum: f64 = (rule.iter())
                     .map(|(x, rate)| rate * x * (x / waves.memory).powi(power))
                     .sum();
-                let exact = waves.moment(power) / waves.memory.powi(power);
+                let exact = moment(&waves.points, power);
                 assert!((sum / exact - 1.0).abs() < 1e-11, "{level} {power}");
             }
         }

@@ -26,10 +26,10 @@ const PEAK_FORCE_TIME: f64 = -2.087_13;
 const CONTACT_TIME: f64 = 0.585_644;
 const PEAK_DISPLACEMENT: f64 = -0.2 * LOSS;
 
-/// Largest lag for which a first-order loss makes sense: half of the energy.
-pub const LARGEST_LAG: f64 = 0.5 / LOSS;
+/// Largest loss for which a first-order loss makes sense: half of the energy.
+pub const MOST_LOSS: f64 = 0.5;
 
-/// Results of an impact with lag c (collision units) to first order in c, c in [0, [`LARGEST_LAG`]].
+/// Results of an impact with lag c (collision units) to first order in c, [`LOSS`] c in [0, [`MOST_LOSS`]].
 ///
 /// The largest deflection is c times the largest slope of Hertz's pulse.
 #[must_use]

@@ -34,7 +34,7 @@ use crate::disc::response::DiscResponse;
 use crate::error::ContactError;
 use crate::law::area_dashpot::{AreaDashpot, left_out};
 use crate::law::quasi_static::{quasi_static, quasi_static_radiation};
-use crate::law::radiation::{LOSS, radiation};
+use crate::law::radiation::{LOSS, MOST_LOSS, radiation};
 use crate::model::{Model, Plasticity, Rung, Scheme, Settings, StaticShare};
 use crate::names::Choice;
 
@@ -153,9 +153,6 @@ impl Groups {
     }
 }
 
-/// First-order loss 1 - e^2 up to which the radiation models are used: half of the energy.
-const LARGEST_FIRST_ORDER: f64 = 0.5;
-
 /// A model, its dimensionless groups and, where `auto` chose, its choice.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Plan {
@@ -226,7 +223,7 @@ impl Plan {
     pub(crate) fn closed_form(&self) -> Result<Found, ContactError> {
         let (coupling, lag) = (self.coupling(), self.damping());
         let loss = self.groups.first_order_loss();
-        if lag > 0.0 && loss > LARGEST_FIRST_ORDER {
+        if lag > 0.0 && loss > MOST_LOSS {
             return Err(ContactError::LossTooLarge { loss });
         }
         let left_out = self.groups.beyond_radiation()[0].min(1.0);
@@ -340,8 +337,8 @@ fn groups(settings: &Settings, collision: &Collision, response: &impl DiscRespon
     let lag = collision.lag_of(wave_time, response);
     let (family, coupling, memory) = if fixed {
         let disc = disc_radius_m(settings, collision);
-        let (coupling, wave_time) = collision.disc_groups(response.static_compliance(), disc);
-        let memory = wave_time * response.memory();
+        let (coupling, wave_time) = collision.disc_groups(response.disc().static_compliance, disc);
+        let memory = wave_time * response.disc().memory;
         match settings.static_share {
             StaticShare::Full => (Family::Full, coupling, memory),
             StaticShare::Dynamic => (Family::Dynamic, 0.0, memory),

@@ -1,18 +1,5 @@
 //! Rules beside Gauss and Legendre's: Radau's, and Gauss's of a measure given by many point masses.
 
-/// P_n at x.
-pub(crate) fn legendre(n: usize, x: f64) -> f64 {
-    let (mut before, mut value) = (0.0, 1.0);
-    for k in 1..=n {
-        let k = k as f64;
-        (before, value) = (
-            value,
-            ((2.0 * k - 1.0) * x * value - (k - 1.0) * before) / k,
-        );
-    }
-    value
-}
-
 /// The n nodes of Radau's rule on (0, 1] that holds the right end, ascending: eigenvalues of Legendre's Jacobi matrix whose
 /// last entry makes the end one of them.
 pub(crate) fn radau(n: usize) -> Vec<f64> {

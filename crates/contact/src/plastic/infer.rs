@@ -13,29 +13,29 @@ use crate::solver::Solver;
 use fault::{Class, Culprit, Fault};
 use thiserror::Error;
 
-/// What was measured.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Measure {
-    /// Velocity of departure over that of approach.
-    Restitution,
-    /// Duration of the contact in s.
-    ContactTime,
-    /// Largest force in N.
-    PeakForce,
+choice! {
+    /// What was measured.
+    #[derive(Debug, Clone, Copy, PartialEq)]
+    pub enum Measure {
+        /// Velocity of departure over that of approach.
+        Restitution = "restitution",
+        /// Duration of the contact in s.
+        ContactTime = "contact_time_s",
+        /// Largest force in N.
+        PeakForce = "peak_force_n",
+    }
 }
 
-choice!(Measure: Restitution = "restitution", ContactTime = "contact_time_s", PeakForce = "peak_force_n");
-
-/// What is to be found.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Unknown {
-    /// Mean pressure of the flow in Pa.
-    YieldPressure,
-    /// Velocity of approach in m/s.
-    Velocity,
+choice! {
+    /// What is to be found.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub enum Unknown {
+        /// Mean pressure of the flow in Pa.
+        YieldPressure = "yield_pressure_pa",
+        /// Velocity of approach in m/s.
+        Velocity = "velocity_m_s",
+    }
 }
-
-choice!(Unknown: YieldPressure = "yield_pressure_pa", Velocity = "velocity_m_s");
 
 /// What was found.
 #[derive(Debug, Clone, Copy, PartialEq)]

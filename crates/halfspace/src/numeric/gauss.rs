@@ -1,4 +1,4 @@
-//! Gauss-Legendre rules.
+//! Gauss-Legendre rules, Legendre's polynomials and sums of Chebyshev's.
 //!
 //! ```
 //! // int_0^1 e^x dx = e - 1
@@ -133,10 +133,11 @@ fn finite_part(n: usize) -> Rule {
     Rule::of(nodes, weights)
 }
 
-/// Legendre polynomial of degree n >= 1 and its derivative at |x| < 1.
-fn legendre(n: usize, x: f64) -> (f64, f64) {
-    let (mut previous, mut current) = (1.0, x);
-    for k in 2..=n {
+/// Legendre polynomial of degree n and its derivative at |x| < 1.
+#[must_use]
+pub fn legendre(n: usize, x: f64) -> (f64, f64) {
+    let (mut previous, mut current) = (0.0, 1.0);
+    for k in 1..=n {
         let k = k as f64;
         (previous, current) = (
             current,
@@ -145,6 +146,17 @@ fn legendre(n: usize, x: f64) -> (f64, f64) {
     }
     let slope = n as f64 * (x * current - previous) / (x * x - 1.0);
     (current, slope)
+}
+
+/// A series in Chebyshev's polynomials at x in [-1, 1], by Clenshaw's recurrence.
+#[must_use]
+#[inline]
+pub fn chebyshev(series: &[f64], x: f64) -> f64 {
+    let (mut last, mut before) = (0.0, 0.0);
+    for &coefficient in series[1..].iter().rev() {
+        (last, before) = (2.0 * x * last - before + coefficient, last);
+    }
+    x * last - before + series[0]
 }
 
 #[cfg(test)]

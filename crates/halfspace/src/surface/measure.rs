@@ -3,7 +3,7 @@
 //! Theory: `docs/theory.md` (T25, T26).
 
 use super::chord::{Moments, POWERS};
-use super::zone::{ZONES, Zone, panel_ends};
+use super::zone::{ZONES, Zone, halved, panel_ends};
 use crate::medium::Medium;
 use crate::numeric::gauss;
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -27,15 +27,18 @@ pub(super) struct Measure {
 /// Slownesses in 1/c1 and masses of the measure mu, of total mass one, Rayleigh's wave last.
 ///
 /// By Gauss's rule of so many nodes on panels of its two intervals, 0 < x < 1, x = sin(angle), and 1 < x < 1/kappa,
-/// x^2 = 1 + (K - 1) sin^2(angle); `panels` are the ends of the panels in angles from 0 to pi/2.
+/// x^2 = 1 + (K - 1) sin^2(angle); the panels are halved so often toward both ends, 0 and pi/2, of the angle of each.
 #[must_use]
-pub fn surface_measure(medium: &Medium, panels: [&[f64]; 2], nodes: usize) -> Vec<(f64, f64)> {
-    let zones = ZONES.into_iter().zip(panels);
-    let found = zones.flat_map(|(zone, ends)| {
-        let panels = ends.windows(2);
-        panels.flat_map(move |pair| points(medium, zone, [pair[0], pair[1]], nodes))
-    });
-    found.chain([rayleigh(medium)]).collect()
+pub fn surface_measure(medium: &Medium, halvings: [[i32; 2]; 2], nodes: usize) -> Vec<(f64, f64)> {
+    let mut found = vec![];
+    for (zone, halvings) in ZONES.into_iter().zip(halvings) {
+        for pair in halved(halvings).windows(2) {
+            let panel = [pair[0], pair[1]].map(|part| FRAC_PI_2 * part);
+            found.extend(points(medium, zone, panel, nodes));
+        }
+    }
+    found.push(rayleigh(medium));
+    found
 }
 
 /// Slowness and mass of Rayleigh's wave.

@@ -29,12 +29,27 @@ pub use measure::surface_measure;
 use zone::{ZONES, Zone};
 
 /// Which deflection of the loaded disc is meant.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Deflection {
     /// w(0, 0, t), the centre of the disc: the paper's choice.
     Centre,
     /// The pressure-weighted mean of w(r, 0, t) over the disc: work-conjugate to the force.
     Mean,
+}
+
+/// What there is of a disc's deflection under any force: its static value, and how long it takes to be reached.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LoadedDisc {
+    /// Which deflection this is.
+    pub deflection: Deflection,
+    /// Static deflection under unit force, in 1/(mu r0): 3 (1 - nu)/8 at the centre, 4/5 of it in the mean.
+    pub static_compliance: f64,
+    /// int_0^inf (1 - W) dt in r0/c1: the first-order memory of the half-space.
+    ///
+    /// The J of the radiation law is kappa times [`Self::static_compliance`] times this.
+    pub relaxation_time: f64,
+    /// Time after which the response is exactly static, in r0/c1: c1/c_R at the centre, twice that in the mean.
+    pub memory: f64,
 }
 
 /// Which of the fitted functions is meant.
@@ -46,7 +61,7 @@ const SLOPE: usize = 2;
 ///
 /// Time is reduced by r0/c1, deflection by P/(mu r0).
 /// The deflection under a suddenly applied unit force is
-/// [`static_compliance`](Self::static_compliance) times [`step`](Self::step).
+/// [`static_compliance`](LoadedDisc::static_compliance) times [`step`](Self::step).
 ///
 /// Accuracy: 1e-13 for nu in [-0.5, 0.4999], tested against the closed form of Kausel (2012).
 ///
@@ -60,10 +75,10 @@ const SLOPE: usize = 2;
 /// ```
 #[derive(Debug, Clone)]
 pub struct SurfaceResponse {
-    deflection: Deflection,
-    static_compliance: f64,
+    /// What is the same for any force.
+    pub disc: LoadedDisc,
+    chord: Chord,
     shear_slowness: f64,
-    relaxation_time: f64,
     measure: Measure,
     total: Moments,
     /// For each zone.
@@ -78,43 +93,21 @@ impl SurfaceResponse {
         let chord = Chord::new(deflection);
         let total = measure.total();
         Self {
-            deflection,
-            static_compliance: chord.static_factor * (1.0 - medium.poisson_ratio()),
+            disc: LoadedDisc {
+                deflection,
+                static_compliance: chord.static_factor * (1.0 - medium.poisson_ratio()),
+                relaxation_time: chord.integral(chord.support) * total[0],
+                memory: chord.support * measure.rayleigh_slowness,
+            },
+            chord,
             shear_slowness: medium.shear_slowness_squared().sqrt(),
-            relaxation_time: chord.integral(chord.support) * total[0],
             curves: ZONES.map(Curve::new),
             measure,
             total,
         }
     }
 
-    /// Which deflection this is.
-    #[must_use]
-    pub fn deflection(&self) -> Deflection {
-        self.deflection
-    }
-
-    /// Static deflection under unit force, in 1/(mu r0): 3 (1 - nu)/8 at the centre, 4/5 of it in the mean.
-    #[must_use]
-    pub fn static_compliance(&self) -> f64 {
-        self.static_compliance
-    }
-
-    /// Time after which the response is exactly static, in r0/c1: c1/c_R at the centre, twice that in the mean.
-    #[must_use]
-    pub fn memory(&self) -> f64 {
-        self.chord().support * self.measure.rayleigh_slowness
-    }
-
-    /// int_0^inf (1 - W) dt in r0/c1: the first-order memory of the half-space.
-    ///
-    /// The J of the radiation law is kappa times [`Self::static_compliance`] times this.
-    #[must_use]
-    pub fn relaxation_time(&self) -> f64 {
-        self.relaxation_time
-    }
-
-    /// W(t): step response over its static value; 0 for t <= 0, 1 for t >= [`Self::memory`], NaN for NaN.
+    /// W(t): step response over its static value; 0 for t <= 0, 1 for t >= [`LoadedDisc::memory`], NaN for NaN.
     #[must_use]
     pub fn step(&self, t: f64) -> f64 {
         self.value(t, STEP, |chord, eta| {
@@ -122,12 +115,12 @@ impl SurfaceResponse {
         })
     }
 
-    /// int_0^t W dt in r0/c1; t - [`Self::relaxation_time`] once the response is static, 0 for t <= 0, NaN for NaN.
+    /// int_0^t W dt in r0/c1; t - [`LoadedDisc::relaxation_time`] once the response is static, 0 for t <= 0, NaN for NaN.
     #[must_use]
     pub fn step_integral(&self, t: f64) -> f64 {
         self.value(t, INTEGRAL, |chord, eta| {
             let late = chord.integral(chord.support) - chord.integral(eta);
-            t - self.relaxation_time
+            t - self.disc.relaxation_time
                 + self.measure.rayleigh_mass * self.measure.rayleigh_slowness * late
         })
     }
@@ -138,8 +131,8 @@ impl SurfaceResponse {
     /// W'(t) = -int phi'(t/x) dmu(x)/x = -sum_k k a_k t^(k-1) M_k(t),   M_k(t) = int_{x > t/support} x^(-k) dmu
     /// ```
     ///
-    /// The limit from above at t = 0, where [`Self::static_compliance`] times it is kappa^2 Z(0) for
-    /// the centre, (32); 0 for t < 0 and for t >= [`Self::memory`], where the centre jumps.
+    /// The limit from above at t = 0, where [`LoadedDisc::static_compliance`] times it is kappa^2 Z(0) for
+    /// the centre, (32); 0 for t < 0 and for t >= [`LoadedDisc::memory`], where the centre jumps.
     /// The sampled kernel of the paper's scheme (41).
     /// Accuracy 1e-11 of the value at t = 0.
     #[must_use]
@@ -162,10 +155,10 @@ impl SurfaceResponse {
         if t < 0.0 || t == 0.0 && which != SLOPE {
             return 0.0;
         }
-        let chord = self.chord();
+        let chord = &self.chord;
         let x = t / chord.support;
         let Some(zone) = Zone::of(x, self.shear_slowness) else {
-            return late(&chord, t / self.measure.rayleigh_slowness);
+            return late(chord, t / self.measure.rayleigh_slowness);
         };
         let angle = zone.angle(self.shear_slowness, x);
         self.curves[zone as usize].value(which, angle, |panel, angles| {
@@ -181,10 +174,6 @@ impl SurfaceResponse {
             })
         })
     }
-
-    fn chord(&self) -> Chord {
-        Chord::new(self.deflection)
-    }
 }
 
 #[cfg(test)]
@@ -199,7 +188,7 @@ mod tests {
             for deflection in [Deflection::Centre, Deflection::Mean] {
                 let response = SurfaceResponse::new(&medium, deflection);
                 let size = response.impulse(0.0);
-                let memory = response.memory();
+                let memory = response.disc.memory;
                 for part in [0.003, 0.07, 0.2, 0.33, 0.57, 0.81, 0.93, 0.999] {
                     let (t, h) = (part * memory, 1e-5 * memory);
                     let slope = (response.step(t + h) - response.step(t - h)) / (2.0 * h);
@@ -211,7 +200,7 @@ mod tests {
             }
             // (32): G(0+) = kappa^2 Z(0), Z(0) = 3/(2 pi)
             let centre = SurfaceResponse::new(&medium, Deflection::Centre);
-            let start = centre.static_compliance() * centre.impulse(0.0);
+            let start = centre.disc.static_compliance * centre.impulse(0.0);
             let expected = medium.kappa().powi(2) * 1.5 / PI;
             assert!((start / expected - 1.0).abs() < 1e-9, "nu = {nu}: {start}");
         }

@@ -45,6 +45,16 @@ impl Zone {
 /// How often the panels halve toward slowness zero and, of the fast zone, toward slowness one.
 const PANEL_HALVINGS: i32 = 16;
 
+/// Parts of one that are halved so often toward zero and toward one: their ends, ascending.
+pub(super) fn halved([lower, upper]: [i32; 2]) -> Vec<f64> {
+    let shrink = |j: i32| 0.5_f64.powi(j);
+    let mut ends = vec![0.0];
+    ends.extend((1..=lower).rev().map(shrink));
+    ends.extend((2..=upper).map(|j| 1.0 - shrink(j)));
+    ends.push(1.0);
+    ends
+}
+
 /// Ends of the panels of a zone as fractions of pi/2, ascending.
 ///
 /// They shrink by halves toward slowness zero (the chord function scales as t/x), toward slowness one
@@ -56,11 +66,7 @@ pub(super) fn panel_ends(zone: Zone) -> Vec<f64> {
         Zone::Fast => PANEL_HALVINGS,
         Zone::Slow => 3,
     };
-    let shrink = |j: i32| 0.5_f64.powi(j);
-    let mut octaves = vec![0.0];
-    octaves.extend((1..=PANEL_HALVINGS).rev().map(shrink));
-    octaves.extend((2..=upper_halvings).map(|j| 1.0 - shrink(j)));
-    octaves.push(1.0);
+    let octaves = halved([PANEL_HALVINGS, upper_halvings]);
     let pairs = octaves.windows(2);
     let halves = pairs.flat_map(|pair| [pair[0], 0.5 * (pair[0] + pair[1])]);
     halves.chain([1.0]).collect()

@@ -14,7 +14,7 @@ use crate::scenes::{ball, paper_disc};
 use contact::law::area_dashpot::{AreaDashpot, left_out};
 use contact::law::hertz::CONTACT_TIME;
 use contact::law::quasi_static::{quasi_static, quasi_static_radiation};
-use contact::law::radiation::{LARGEST_LAG, LOSS, radiation};
+use contact::law::radiation::{MOST_LOSS, radiation};
 use contact::{Accuracy, FixedDisc, GrowingContact, Library, MarchError, Material, PunchWaves};
 use contact::{Family, Groups, Rung};
 use contact::{StaticShare, Summary, march_growing, march_implicit, refine};
@@ -90,7 +90,7 @@ impl Plane {
         GrowingContact {
             waves: &self.waves,
             target_share: share,
-            wave_time: memory * CONTACT_TIME / (2.0 * self.centre.memory()),
+            wave_time: memory * CONTACT_TIME / (2.0 * self.centre.disc.memory),
         }
     }
 
@@ -99,7 +99,7 @@ impl Plane {
         FixedDisc {
             response: &self.centre,
             coupling,
-            wave_time: memory * CONTACT_TIME / self.centre.memory(),
+            wave_time: memory * CONTACT_TIME / self.centre.disc.memory,
             share: StaticShare::Full,
         }
     }
@@ -116,7 +116,7 @@ impl Plane {
         Groups {
             family: self.family,
             coupling: deflection,
-            lag: deflection * wave_time * self.centre.relaxation_time(),
+            lag: deflection * wave_time * self.centre.disc.relaxation_time,
             memory,
         }
     }
@@ -154,7 +154,7 @@ impl Plane {
         // a growing contact has all of its compliance from the half-space at most
         let deflection = deflection.min(if is_disc { f64::INFINITY } else { 1.0 });
         let groups = self.groups(deflection, memory);
-        let lag_is_allowed = groups.first_order_loss() <= LOSS * LARGEST_LAG;
+        let lag_is_allowed = groups.first_order_loss() <= MOST_LOSS;
         if is_disc {
             let disc = self.disc(deflection, memory);
             let accuracy = Accuracy::of_contact(ACCURACY, None);
@@ -239,7 +239,7 @@ pub(super) fn place_of(target: &str, velocity_m_s: f64) -> Result<(f64, f64), An
     let collision = ball(target, velocity_m_s)?.collision();
     let medium = Medium::new(collision.target_poisson_ratio)?;
     let centre = SurfaceResponse::new(&medium, Deflection::Centre);
-    let memory = 2.0 * centre.memory() * collision.contact_wave_time();
+    let memory = 2.0 * centre.disc.memory * collision.contact_wave_time();
     Ok((collision.target_share(), memory / CONTACT_TIME))
 }
 
@@ -315,8 +315,8 @@ fn disc_figures(effort: Effort) -> Result<Vec<Picture>, AnyError> {
         let loss = 2.0 * tolerance;
         let theory = map.line(60, |coupling| {
             let lag = loss / quasi_static(coupling).1;
-            let wave_time = lag / (coupling * response.relaxation_time());
-            wave_time * response.memory() / CONTACT_TIME
+            let wave_time = lag / (coupling * response.disc.relaxation_time);
+            wave_time * response.disc.memory / CONTACT_TIME
         });
         let label = format!("theory: first-order loss of {loss:.0e}");
         figure.line(&label, Style::Dotted, theory);

@@ -123,7 +123,7 @@ fn on_disc(scene: &mut Scene<'_, Summary>, disc: &FixedDisc<'_>) -> Result<(), A
     let method = "wave explicit (the paper's)";
     stepped(scene, method, duration, steps, explicit)?;
     closed(scene, "hertz", "closed form", || radiation(black_box(0.0)))?;
-    let lag = disc.coupling * disc.wave_time * disc.response.relaxation_time();
+    let lag = disc.coupling * disc.wave_time * disc.response.disc.relaxation_time;
     for (method, lag) in [
         ("two springs, no waves", 0.0),
         ("two springs, first-order loss", lag),

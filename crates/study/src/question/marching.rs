@@ -36,7 +36,7 @@ pub(crate) fn errors(found: &Summary, exact: &Summary) -> [f64; 4] {
 pub(crate) fn march(impact: &FixedDisc<'_>, step: f64, order: Order) -> (Summary, Option<u64>) {
     const MOST_STEPS: usize = 1_000_000;
     let cell = step / impact.wave_time;
-    let cells = (impact.response.memory() / cell).ceil() as usize + 1;
+    let cells = (impact.response.disc.memory / cell).ceil() as usize + 1;
     let response = impact.response;
     let followed = |from: f64, to: f64| match order {
         Order::First => response.step(to),
