@@ -1,11 +1,10 @@
 //! A contact read at any time: between samples, within the pieces of a growing contact, after the striker has left.
 
 use crate::disc::history::History;
-use crate::growing::solved::SolvedContact;
 use crate::numeric::quadrature::{Local, find_root, hermite, quintic};
 use crate::summary::Instant;
 use crate::units::INVERSE_MASS;
-use std::sync::Arc;
+use std::sync::OnceLock;
 
 /// A history at any time: the pieces of a growing contact, or samples joined by polynomials of the fifth degree.
 ///
@@ -13,13 +12,12 @@ use std::sync::Arc;
 /// 3/2 there; force, rate and second rate are those of one function.
 #[derive(Debug, Clone, Default)]
 pub struct Resampler {
-    /// The contact itself; samples where it was not solved by pieces.
-    pub pieces: Option<Arc<SolvedContact>>,
-    step: f64,
+    /// What is read.
+    pub history: History,
     /// Indentation with its slope and curvature over a step, at each sample.
     indentation: Vec<[f64; 3]>,
-    displacement: Vec<f64>,
-    velocity: Vec<f64>,
+    /// At each sample, once the striker's motion is asked for.
+    velocity: OnceLock<Vec<f64>>,
     /// Where each contact begins and ends, in collision units, ascending.
     pub breaks: Vec<f64>,
 }
@@ -32,15 +30,14 @@ impl Resampler {
     #[must_use]
     pub fn new(history: History) -> Self {
         let mut made = Self {
-            step: history.step,
-            pieces: history.pieces.clone(),
+            history,
             ..Self::default()
         };
-        if let Some(solved) = &made.pieces {
+        if let Some(solved) = &made.history.pieces {
             made.breaks = vec![0.0, solved.summary.contact_time];
             return made;
         }
-        let (d, w) = (&history.displacement, &history.deflection);
+        let (d, w) = (&made.history.displacement, &made.history.deflection);
         let values: Vec<f64> = d.iter().zip(w).map(|(d, w)| d - w).collect();
         let most = values.len().saturating_sub(POINTS);
         let jet = |i: usize| {
@@ -50,8 +47,6 @@ impl Resampler {
         };
         let enough = values.len() >= POINTS;
         made.indentation = (0..values.len()).filter(|_| enough).map(jet).collect();
-        made.velocity = history.velocities();
-        made.displacement = history.displacement;
         made.breaks = made.crossings();
         made
     }
@@ -59,17 +54,20 @@ impl Resampler {
     /// The first sample after all contacts, in collision units.
     #[must_use]
     pub fn end(&self) -> f64 {
-        if let Some(solved) = &self.pieces {
+        if let Some(solved) = &self.history.pieces {
             return solved.summary.contact_time;
         }
         let last = self.indentation.iter().rposition(|u| u[0] > 0.0);
-        (last.unwrap_or(0) + 1) as f64 * self.step
+        (last.unwrap_or(0) + 1) as f64 * self.history.step
     }
 
     /// Where the rate of the force jumps within a contact, in collision units, ascending.
     #[must_use]
     pub fn kinks(&self) -> &[f64] {
-        self.pieces.as_ref().map_or(&[], |solved| &solved.kinks)
+        self.history
+            .pieces
+            .as_ref()
+            .map_or(&[], |solved| &solved.kinks)
     }
 
     /// Force, rate and second rate at a time in collision units; zero outside the contacts.
@@ -78,7 +76,7 @@ impl Resampler {
     #[must_use]
     #[inline(always)]
     pub fn force(&self, time: f64) -> [f64; 3] {
-        if let Some(solved) = &self.pieces {
+        if let Some(solved) = &self.history.pieces {
             return solved.force(time);
         }
         let place = self.place(time);
@@ -88,10 +86,11 @@ impl Resampler {
     /// The state at a time in collision units, from the touch on.
     #[must_use]
     pub fn at(&self, time: f64) -> Instant {
-        if let Some(solved) = &self.pieces {
+        if let Some(solved) = &self.history.pieces {
             return solved.state(time);
         }
-        let (d, v, h) = (&self.displacement, &self.velocity, self.step);
+        let (d, h) = (&self.history.displacement, self.history.step);
+        let v = self.velocity.get_or_init(|| self.history.velocities());
         let Some((cell, x)) = self.place(time) else {
             let last = d.len() - 1;
             return Instant {
@@ -116,7 +115,7 @@ impl Resampler {
 
     /// The cell that holds a time, and the place in it; nothing after the last sample.
     fn place(&self, time: f64) -> Option<(usize, f64)> {
-        let place = (time / self.step).max(0.0);
+        let place = (time / self.history.step).max(0.0);
         let cell = place as usize;
         (cell + 1 < self.indentation.len()).then_some((cell, place - cell as f64))
     }
@@ -125,7 +124,7 @@ impl Resampler {
     #[inline(always)]
     fn indentation(&self, cell: usize, x: f64) -> [f64; 3] {
         let [u, slope, bend] = quintic(self.indentation[cell], self.indentation[cell + 1], x);
-        let per = 1.0 / self.step;
+        let per = 1.0 / self.history.step;
         [u, per * slope, per * per * bend]
     }
 
@@ -137,14 +136,14 @@ impl Resampler {
             if cell > 0 && (before > 0.0) != (after > 0.0) {
                 let value = |x: f64| {
                     let [u, slope, _] = self.indentation(cell, x);
-                    [u, slope * self.step]
+                    [u, slope * self.history.step]
                 };
-                found.push((cell as f64 + find_root(value, 0.0, 1.0)) * self.step);
+                found.push((cell as f64 + find_root(value, 0.0, 1.0)) * self.history.step);
             }
         }
         // the last sample is the end itself
         if found.len() % 2 == 1 {
-            found.push(self.indentation.len().saturating_sub(1) as f64 * self.step);
+            found.push(self.indentation.len().saturating_sub(1) as f64 * self.history.step);
         }
         found
     }

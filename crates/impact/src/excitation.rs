@@ -232,7 +232,7 @@ impl Excitation {
 
     /// The contact in collision units where it has yielded.
     pub(crate) fn yielded(&self) -> Option<&SolvedContact> {
-        let pieces = self.contact()?.samples.pieces.as_deref();
+        let pieces = self.contact()?.samples.history.pieces.as_deref();
         pieces.filter(|one| one.flow.is_some())
     }
 
