@@ -242,7 +242,7 @@ impl Excitation {
         match &self.force {
             Force::Contact(contact) => {
                 let units = &contact.units;
-                contact.samples.force(time_s / units.time_s)[0] * units.force_n
+                contact.samples.force_alone(time_s / units.time_s) * units.force_n
             }
             Force::Record(record) => record.at(time_s),
         }
