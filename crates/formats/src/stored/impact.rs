@@ -61,9 +61,12 @@ impl StoredImpact {
             energy: energy_of(&stored, time_s.len())?,
             time_s,
         };
+        let (model, static_share) = (stored.text("model")?, stored.text("static_share")?);
+        // every results file has it
+        stored.text("warnings")?;
         Ok(Self {
-            model: stored.text("model")?,
-            static_share: stored.text("static_share")?,
+            model,
+            static_share,
             target,
             strike,
             scene,
