@@ -1,7 +1,7 @@
 //! Names and versions on disk.
 
 pub use crate::quantities::FIELDS;
-use crate::quantities::{Labels, labels, labels_of};
+use crate::quantities::{Described, Labels, labels, labels_of};
 use impact::{EnergySeries, Outcome, ProbeFields, Series};
 
 /// Value of the attribute `file_type`.
@@ -55,17 +55,6 @@ pub const PLACES: [(&str, &str, &str); 2] = labels! {
 pub const ERROR_SUFFIX: &str = "_error";
 /// Appended to the name of a quantity: its largest value over time, and when it is reached.
 pub const PEAK_SUFFIXES: [&str; 2] = ["_peak", "_peak_time"];
-/// Appended to the name of a quantity, the unit where it is not its own, and what has that name: its error, its largest value
-/// over time, and when it is reached.
-pub(crate) const BESIDE: [(&str, Option<&str>, &str); 3] = [
-    (ERROR_SUFFIX, None, "estimated absolute error"),
-    (PEAK_SUFFIXES[0], None, "largest in magnitude over time"),
-    (
-        PEAK_SUFFIXES[1],
-        Some("s"),
-        "when it is largest in magnitude",
-    ),
-];
 /// Arrivals of the first P, S and Rayleigh wave.
 pub const ARRIVALS: (&str, &str, &str) = (
     "arrival",
@@ -98,6 +87,21 @@ pub const VTK: &str = "VTKHDF";
 pub const VTK_POINTS: &str = "PointData";
 /// Where in a field of it each step begins.
 pub const VTK_OFFSETS: &str = "PointDataOffsets";
+
+/// What a file has under a name beside a quantity: the estimate of its error, its largest value over time, and when that is
+/// reached; `at` says where, if anywhere.
+pub(crate) fn beside(name: &str, (_, unit, meaning): Labels<'_>, at: &str) -> [Described; 3] {
+    [
+        (ERROR_SUFFIX, unit, "estimated absolute error"),
+        (PEAK_SUFFIXES[0], unit, "largest in magnitude over time"),
+        (PEAK_SUFFIXES[1], "s", "when it is largest in magnitude"),
+    ]
+    .map(|(suffix, unit, what)| Described {
+        name: format!("{name}{suffix}"),
+        unit: unit.to_owned(),
+        meaning: format!("{what}{at}: {meaning}"),
+    })
+}
 
 /// The text attributes of the root that say what the file is and how its scene was computed: its
 /// [`choices`](crate::choices), its kernel, and what is known of the kernel.

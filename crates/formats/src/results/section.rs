@@ -6,7 +6,7 @@ use super::schema;
 use crate::hdf::{
     array, attach_scales, describe, numbers, scalar, scale, set_scale, text, texts, vector,
 };
-use crate::quantities::{Described, labels_of};
+use crate::quantities::{Described, Labels, labels_of};
 use hdf5::types::FixedAscii;
 use hdf5::{Dataset, File, Group};
 use impact::{Peaks, SectionFields};
@@ -52,19 +52,15 @@ pub(super) fn write_section(file: &File, map: &SectionFields) -> Result<(), hdf5
 /// What stands beside a quantity, one number a place: the estimate of its error and, where they are known, its largest
 /// value over time and when it is reached.
 pub(super) fn beside<'v>(
-    (name, unit, meaning): (&str, &str, &str),
+    row: Labels<'_>,
     errors: &'v [f64],
     peaks: Option<&'v Peaks>,
 ) -> Vec<(Described, &'v [f64])> {
     let peaks = peaks.map(|peaks| [&peaks.values, &peaks.time_s]);
     let columns = [errors].into_iter();
     let columns = columns.chain(peaks.into_iter().flatten().map(Vec::as_slice));
-    let described = schema::BESIDE.map(|(suffix, own, what)| Described {
-        name: format!("{name}{suffix}"),
-        unit: own.unwrap_or(unit).to_owned(),
-        meaning: format!("{what}: {meaning}"),
-    });
-    described.into_iter().zip(columns).collect()
+    let described = schema::beside(row.0, row, "").into_iter();
+    described.zip(columns).collect()
 }
 
 /// The scale of arrivals.
