@@ -55,8 +55,7 @@ fn described_datasets(file: &hdf5::File) -> BTreeSet<String> {
             let expected = DOCUMENT
                 .lines()
                 .find(|line| line.contains(&format!("| `{path}` |")));
-            let unit: hdf5::types::VarLenUnicode =
-                dataset.attr("units").unwrap().read_scalar().unwrap();
+            let unit: VarLenUnicode = dataset.attr("units").unwrap().read_scalar().unwrap();
             assert!(
                 expected.is_some_and(|line| line.contains(&format!("| {unit} |"))),
                 "{path}"
