@@ -62,7 +62,7 @@ pub fn text(place: &Location, name: &str, value: &str) -> Result<(), hdf5::Error
 ///
 /// # Errors
 /// What the library says.
-pub fn scalar<T: H5Type>(place: &Location, name: &str, value: T) -> Result<(), hdf5::Error> {
+pub fn scalar<T: H5Type + Copy>(place: &Location, name: &str, value: T) -> Result<(), hdf5::Error> {
     place.new_attr::<T>().create(name)?.write_scalar(&value)
 }
 
