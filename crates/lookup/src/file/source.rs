@@ -165,12 +165,14 @@ impl Source {
     }
 
     /// An item that cannot be read, or is not as it should be.
+    #[allow(clippy::needless_pass_by_value, reason = "errors are handed on")]
     pub(super) fn item(&self, item: &str, detail: impl ToString) -> TableError {
         let (item, detail) = (item.to_owned(), detail.to_string());
         BadTable::Item { item, detail }.of(&self.path)
     }
 
     /// Numbers of the file that are no table.
+    #[allow(clippy::needless_pass_by_value, reason = "errors are handed on")]
     pub(super) fn wrong(&self, what: impl ToString) -> TableError {
         BadTable::Wrong(what.to_string()).of(&self.path)
     }
