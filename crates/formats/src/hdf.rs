@@ -2,10 +2,9 @@
 
 use hdf5::dataset::{AllocTime, FillTime};
 use hdf5::types::TypeDescriptor;
-use hdf5::{Dataset, Group, H5Type, Location};
+use hdf5::{Dataset, Group, H5Type};
 use lookup::labels::unicode;
-pub(crate) use lookup::labels::{attach_scale, new_file, reason, set_scale, text};
-use std::borrow::Borrow;
+pub(crate) use lookup::labels::{array, attach_scales, new_file, reason, scalar, set_scale, text};
 
 /// A dataset of one dimension.
 pub(crate) fn vector<T: H5Type>(
@@ -86,15 +85,6 @@ pub(crate) fn reserve(
     Ok((dataset, place))
 }
 
-/// One value as an attribute.
-pub(crate) fn scalar<T: H5Type + Copy>(
-    place: &Location,
-    name: &str,
-    value: T,
-) -> Result<(), hdf5::Error> {
-    place.new_attr::<T>().create(name)?.write_scalar(&value)
-}
-
 /// A list of texts.
 pub(crate) fn texts(
     group: &Group,
@@ -115,18 +105,6 @@ pub(crate) fn scale<T: H5Type>(
     let dataset = vector(group, described, values)?;
     set_scale(&dataset, described.0)?;
     Ok(dataset)
-}
-
-/// Attaches scales to the dimensions from `first` on.
-pub(crate) fn attach_all(
-    data: &Dataset,
-    scales: &[impl Borrow<Dataset>],
-    first: usize,
-) -> Result<(), hdf5::Error> {
-    for (index, scale) in (first..).zip(scales) {
-        attach_scale(data, scale.borrow(), index)?;
-    }
-    Ok(())
 }
 
 pub(crate) fn describe(

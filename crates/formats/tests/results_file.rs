@@ -3,7 +3,9 @@
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 
 use formats::results::schema;
+use formats::stored::StoredImpact;
 use formats::{Existing, OutputError, QUANTITIES, parse_scene, resolved, write_results};
+use hdf5::types::VarLenUnicode;
 use impact::{KernelChoice, Outcome, Scene, simulate};
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -53,8 +55,7 @@ fn described_datasets(file: &hdf5::File) -> BTreeSet<String> {
             let expected = DOCUMENT
                 .lines()
                 .find(|line| line.contains(&format!("| `{path}` |")));
-            let unit: hdf5::types::VarLenUnicode =
-                dataset.attr("units").unwrap().read_scalar().unwrap();
+            let unit: VarLenUnicode = dataset.attr("units").unwrap().read_scalar().unwrap();
             assert!(
                 expected.is_some_and(|line| line.contains(&format!("| {unit} |"))),
                 "{path}"
@@ -100,10 +101,7 @@ fn every_dataset_is_described_and_every_description_is_written() {
                 .all(|&path| has.contains(path) && !has_not.contains(path))
         );
     }
-    assert_eq!(
-        formats::stored::StoredImpact::open(&other).unwrap().series,
-        outcome.series
-    );
+    assert_eq!(StoredImpact::open(&other).unwrap().series, outcome.series);
     let scene = parse_scene(include_str!("../../../scenes/plastic-drop.toml"), &scenes).unwrap();
     let outcome = simulate(&scene, &KernelChoice::Direct).unwrap();
     write_results(&other, &scene, &outcome, Existing::Replace).unwrap();
@@ -182,6 +180,30 @@ fn a_file_in_the_way_is_kept() {
     assert!(write_results(&nowhere, &scene, &outcome, Existing::Keep).is_err());
     // nothing but the one file is left
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+}
+
+#[test]
+fn a_file_without_warnings_is_none_of_the_program() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("out.h5");
+    let (scene, outcome) = outcome();
+    write_results(&path, &scene, &outcome, Existing::Keep).unwrap();
+    let change = |change: &dyn Fn(&hdf5::File)| {
+        let file = hdf5::File::open_rw(&path).unwrap();
+        change(&file);
+        file.close().unwrap();
+        StoredImpact::open(&path).map(drop)
+    };
+    // of a version before files had a seal
+    let version: VarLenUnicode = "1.7".parse().unwrap();
+    let older = |file: &hdf5::File| {
+        let attribute = file.attr("format_version").unwrap();
+        attribute.write_scalar(&version).unwrap();
+    };
+    change(&older).unwrap();
+    let told = change(&|file| file.delete_attr(schema::WARNINGS).unwrap()).unwrap_err();
+    let sentence = "the text attribute warnings is missing";
+    assert_eq!(told.to_string(), format!("{}: {sentence}", path.display()));
 }
 
 #[test]

@@ -4,7 +4,7 @@ use crate::error::{Fault, OutputError};
 use crate::place::{behind, folder};
 use crate::temporary::{Lock, Temporary, sweep};
 use std::fs::File;
-use std::io::{self, BufReader, ErrorKind, Read};
+use std::io::{self, ErrorKind, Read};
 use std::path::{Path, PathBuf};
 
 /// What to do with an existing file.
@@ -174,18 +174,19 @@ fn flush(folder: &Path) -> io::Result<()> {
 /// Whether two files hold the same bytes.
 fn same(one: &Path, other: &Path) -> io::Result<bool> {
     let (one, other) = (File::open(one)?, File::open(other)?);
-    if one.metadata()?.len() != other.metadata()?.len() {
-        return Ok(false);
-    }
-    for (left, right) in BufReader::new(one)
-        .bytes()
-        .zip(BufReader::new(other).bytes())
-    {
-        if left? != right? {
-            return Ok(false);
+    loop {
+        let (left, right) = (piece(&one)?, piece(&other)?);
+        if left != right || left.is_empty() {
+            return Ok(left == right);
         }
     }
-    Ok(true)
+}
+
+/// The next MiB of a file, or what it has left.
+fn piece(file: &File) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    file.take(1 << 20).read_to_end(&mut bytes)?;
+    Ok(bytes)
 }
 
 /// Writes a file through a closure that is given a name beside the final one.

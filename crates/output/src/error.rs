@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 /// A file that could not be written, or is not to be.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum OutputError {
-    /// The name is that of another format, of an input or of another output.
+    /// The name is that of another format, of an input, of another output or of a file that is none of the program's.
     #[error("{} {}", .0.display(), .1)]
     Refused(PathBuf, String),
     /// The file exists and may not be replaced.
@@ -25,6 +25,15 @@ pub enum OutputError {
     /// Another run writes the same file.
     #[error("another run is writing {}; nothing was changed", .0.display())]
     Busy(PathBuf),
+    /// Another run began something there.
+    #[error(
+        "{} holds the beginning of another {}, or of this one before its settings, its files or the program changed",
+        .0.display(), .1
+    )]
+    Begun(PathBuf, &'static str),
+    /// What was begun there cannot be read, for the system's reason.
+    #[error("cannot read {}: {}", .0.display(), .1)]
+    Unreadable(PathBuf, String),
     /// The format is one that the program was built without.
     #[error("{} is to be {}, which this program was built without", .0.display(), .1)]
     Unbuilt(PathBuf, &'static str),
@@ -58,9 +67,11 @@ impl fault::Fault for OutputError {
             Self::Exists(path) => (Class::Exists, Remedy::Change, path),
             Self::Failed(path, _) => (Class::Output, Remedy::Unknown, path),
             Self::Full(path, _) | Self::Busy(path) => (Class::Output, Remedy::Wait, path),
-            Self::Unwritable(path, _) | Self::Refused(path, _) | Self::Unbuilt(path, _) => {
-                (Class::Output, Remedy::Change, path)
-            }
+            Self::Unwritable(path, _)
+            | Self::Refused(path, _)
+            | Self::Begun(path, _)
+            | Self::Unreadable(path, _)
+            | Self::Unbuilt(path, _) => (Class::Output, Remedy::Change, path),
         };
         Culprit {
             remedy,

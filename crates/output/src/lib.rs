@@ -9,6 +9,8 @@
 //! - A replaced file keeps its permissions.
 //! - What a killed run leaves beside a name, the next run on that name removes.
 //!
+//! What takes long keeps what is done of it in a [`Journal`], record by record, which survives an interruption at any moment.
+//!
 //! ```
 //! # let folder = std::env::temp_dir().join(format!("hertzlamb-output-{}", std::process::id()));
 //! # std::fs::create_dir_all(&folder).unwrap();
@@ -22,6 +24,7 @@
 mod claim;
 mod error;
 mod folder;
+mod journal;
 mod place;
 mod room;
 mod temporary;
@@ -29,6 +32,7 @@ mod temporary;
 pub use claim::{Existing, Output, Staged, write_whole};
 pub use error::{Fault, OutputError};
 pub use folder::Folder;
+pub use journal::{Journal, Record, Records, Title};
 pub use place::{
     CSV, Ending, HDF5, PARQUET, ROWS, Role, SHARD, TABLE, apart, behind, folder, is_standard,
 };

@@ -90,6 +90,21 @@ fn what_was_written_before_a_kill_is_accepted_if_it_is_the_same() {
         drop(output);
         assert_eq!(names(folder.path()), ["a.csv"]);
     }
+    // longer than what is compared together
+    let long: Vec<u8> = (0..5_u32 << 19).map(|i| (i / 7) as u8).collect();
+    let mut other = long.clone();
+    other[3 << 18] ^= 1;
+    for (old, accepted) in [
+        (&long[..], true),
+        (&other, false),
+        (&long[..4 << 18], false),
+    ] {
+        std::fs::write(&path, old).unwrap();
+        let output = Output::claim(&path, Existing::KeepUnlessSame).unwrap();
+        let written = output.write(|part| std::fs::write(part, &long));
+        assert_eq!(written.is_ok(), accepted, "{} bytes", old.len());
+        assert!(std::fs::read(&path).unwrap() == old);
+    }
 }
 
 #[cfg(unix)]

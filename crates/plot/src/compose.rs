@@ -21,7 +21,6 @@ pub fn compose(paths: &[PathBuf], request: &Request) -> Result<(Figure, Vec<Stri
         FileKind::Sweep => (of_sweep(only(paths, Kind::Sweep)?, request)?, Vec::new()),
         FileKind::Table => (of_table(only(paths, Kind::Errors)?, request)?, Vec::new()),
         FileKind::SweepPart => return unsuitable(Kind::Sweep),
-        FileKind::Chart => return unsuitable(Kind::Impact),
     };
     scale(&mut figure, request)?;
     Ok((figure, notes))

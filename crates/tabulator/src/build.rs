@@ -8,7 +8,7 @@ use crate::journal::{self, journal_of, title};
 use crate::known::Known;
 use crate::progress::Progress;
 use crate::rows::{rows, usable};
-use ledger::Title;
+use output::Title;
 use output::{Existing, Output, OutputError};
 use std::path::Path;
 use std::sync::{Mutex, PoisonError};

@@ -2,7 +2,6 @@
 
 use fault::{Class, Culprit, Fault};
 use halfspace::DomainError;
-use ledger::JournalError;
 use lookup::{ContentError, TableError};
 use output::OutputError;
 use std::path::{Path, PathBuf};
@@ -50,12 +49,9 @@ pub enum BuildError {
         /// The value of the table.
         present: f64,
     },
-    /// The output cannot be written, or is not to be.
+    /// The output cannot be written, or is not to be; something else that is unfinished is in the way, or cannot be read.
     #[error(transparent)]
     Output(#[from] OutputError),
-    /// Something else that is unfinished is in the way, or its file cannot be read.
-    #[error(transparent)]
-    Journal(JournalError),
     /// A grid file cannot be read.
     #[error("cannot read {}: {source}", path.display())]
     File {
@@ -76,15 +72,6 @@ pub enum BuildError {
     /// A probe cannot be looked up.
     #[error("verification: {0}")]
     Lookup(#[from] lookup::LookupError),
-}
-
-impl From<JournalError> for BuildError {
-    fn from(error: JournalError) -> Self {
-        match error {
-            JournalError::Unwritable(path, source) => OutputError::writing(&path, source).into(),
-            other => Self::Journal(other),
-        }
-    }
 }
 
 impl BuildError {
@@ -121,7 +108,6 @@ impl Fault for BuildError {
                 let file = found.file.or(Some(path.into()));
                 Culprit { file, ..found }
             }
-            Self::Journal(error) => error.culprit(),
             Self::File { path, .. } => grid.file(path),
             Self::Unwritable(_) | Self::NotFinite(_) | Self::Content(_) => work,
         }

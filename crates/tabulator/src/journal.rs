@@ -7,8 +7,8 @@ use crate::block::{Block, Kind, Row};
 use crate::error::BuildError;
 use crate::grid::Grid;
 use crate::numbers::NUMBERS_REVISION;
-use ledger::{Identity, Journal, Records, Title};
-use output::Output;
+use ledger::Identity;
+use output::{Journal, Output, Records, Title};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
@@ -139,7 +139,7 @@ fn parsed(kept: &[u8]) -> Option<(Block, Row)> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use ledger::JournalError;
+    use output::OutputError;
 
     fn small() -> String {
         let grid = Grid {
@@ -185,7 +185,7 @@ mod tests {
             journal.append(&kept(block, &row)).unwrap();
             open(&path, wanted, |settings| settings == goes).map(|(_, rows)| rows.len())
         };
-        let kept = |found| matches!(found, Err(BuildError::Journal(JournalError::Other { .. })));
+        let kept = |found| matches!(found, Err(BuildError::Output(OutputError::Begun(..))));
         let (build, extension) = (title(&grid, None), title(&grid, Some("1")));
         assert_eq!(of(&build, &build, "").unwrap(), 1);
         assert!(kept(of(&build, &title(&other, None), "")));

@@ -43,7 +43,7 @@ pub use build::{build, build_over};
 pub use error::BuildError;
 pub use extend::{Extension, extend};
 pub use grid::{Axis, Grid, PRESETS, PULSE_LENGTHS};
-pub use ledger::{JournalError, Shard};
+pub use ledger::Shard;
 pub use lookup::quantile;
 pub use measure::check::{CheckReport, check_table};
 pub use measure::difference::differences;

@@ -7,7 +7,7 @@ use crate::journal::kept;
 use crate::known::Known;
 use crate::point::PointPlan;
 use crate::progress::Progress;
-use ledger::Journal;
+use output::Journal;
 use rayon::prelude::*;
 use std::collections::HashMap;
 use std::sync::{Mutex, PoisonError};

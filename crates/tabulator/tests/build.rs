@@ -4,7 +4,7 @@
 
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
-use tabulator::{Axis, BuildError, Existing, Extension, Grid, JournalError, OutputError, Progress};
+use tabulator::{Axis, BuildError, Existing, Extension, Grid, OutputError, Progress};
 use tabulator::{
     Shard, Silent, build, build_over, build_shard, check_table, differences, extend, merge,
 };
@@ -100,7 +100,7 @@ fn a_build_takes_nothing_that_an_interrupted_extension_left() {
     std::fs::copy(journal(&path), journal(&fresh)).unwrap();
     assert!(matches!(
         build(&grid, &fresh, &Silent),
-        Err(BuildError::Journal(JournalError::Other { .. }))
+        Err(BuildError::Output(OutputError::Begun(..)))
     ));
     // Nor does the extension of another table with these settings.
     let mut other = lookup::read(&path).unwrap();
@@ -109,7 +109,7 @@ fn a_build_takes_nothing_that_an_interrupted_extension_left() {
     lookup::write(&path, &other).unwrap();
     assert!(matches!(
         extend(&path, &higher, &Silent),
-        Err(BuildError::Journal(JournalError::Other { .. }))
+        Err(BuildError::Output(OutputError::Begun(..)))
     ));
     std::fs::write(&path, kept).unwrap();
     let resumed = extend(&path, &higher, &Silent).unwrap();
@@ -193,7 +193,7 @@ fn files_in_the_way_are_kept_unless_replaced() {
     .unwrap();
     assert!(matches!(
         build(&small(), &other, &Silent),
-        Err(BuildError::Journal(JournalError::Other { .. }))
+        Err(BuildError::Output(OutputError::Begun(..)))
     ));
     build_over(&small(), &other, Existing::Replace, &Silent).unwrap();
     assert!(!journal(&other).exists());

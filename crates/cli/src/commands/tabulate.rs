@@ -6,10 +6,10 @@ use crate::progress::Bar;
 use clap::Args;
 use formats::accuracy_report;
 use lookup::{Accuracy, Quantiles, schema};
-use output::{Existing, Output, SHARD, TABLE, apart};
+use output::{Existing, Output, OutputError, SHARD, TABLE, apart};
 use serde_json::json;
 use std::path::{Path, PathBuf};
-use tabulator::{BuildError, Extension, Grid, JournalError, NUMBERS_REVISION, Shard, Summary};
+use tabulator::{BuildError, Extension, Grid, NUMBERS_REVISION, Shard, Summary};
 use tabulator::{build_over, build_shard, extend, refine};
 
 const EXAMPLES: &str = "Examples:
@@ -209,6 +209,6 @@ fn is_file(name: &str) -> bool {
 
 /// A table that was not built.
 pub(crate) fn failure(error: BuildError) -> Failure {
-    let other = matches!(error, BuildError::Journal(JournalError::Other(..)));
+    let other = matches!(error, BuildError::Output(OutputError::Begun(..)));
     Failure::from(error).hint_if(other, "; a new table with --force replaces it")
 }

@@ -1,8 +1,8 @@
 //! Names and versions on disk.
 
 pub use crate::quantities::FIELDS;
-use crate::quantities::{Labels, labels, labels_of};
-use impact::{EnergySeries, ProbeFields, Series};
+use crate::quantities::{Described, Labels, labels, labels_of};
+use impact::{EnergySeries, Outcome, ProbeFields, Series};
 
 /// Value of the attribute `file_type`.
 pub const FILE_TYPE: &str = "hertzlamb results";
@@ -55,17 +55,6 @@ pub const PLACES: [(&str, &str, &str); 2] = labels! {
 pub const ERROR_SUFFIX: &str = "_error";
 /// Appended to the name of a quantity: its largest value over time, and when it is reached.
 pub const PEAK_SUFFIXES: [&str; 2] = ["_peak", "_peak_time"];
-/// Appended to the name of a quantity, the unit where it is not its own, and what has that name: its error, its largest value
-/// over time, and when it is reached.
-pub(crate) const BESIDE: [(&str, Option<&str>, &str); 3] = [
-    (ERROR_SUFFIX, None, "estimated absolute error"),
-    (PEAK_SUFFIXES[0], None, "largest in magnitude over time"),
-    (
-        PEAK_SUFFIXES[1],
-        Some("s"),
-        "when it is largest in magnitude",
-    ),
-];
 /// Arrivals of the first P, S and Rayleigh wave.
 pub const ARRIVALS: (&str, &str, &str) = (
     "arrival",
@@ -78,25 +67,10 @@ pub const VALID_UNTIL: (&str, &str, &str) = (
     "s",
     "time at which the first echo from the faces of the block arrives; infinite where no face is known",
 );
-/// Text attributes of the root.
-pub const TEXTS: [&str; 16] = [
-    "file_type",
-    "format_version",
-    "software_version",
-    "model",
-    "scheme",
-    "static_share",
-    "deflection_of",
-    "reason",
-    "kernel",
-    "kernel_reason",
-    "convolution",
-    "table_id",
-    "table_format_version",
-    "warnings",
-    "scene",
-    SCENE_SHA256,
-];
+/// Text attribute of the root: what is to be known of the results, one a line.
+pub const WARNINGS: &str = "warnings";
+/// The one that has the resolved scene.
+pub const SCENE: &str = "scene";
 /// The text attribute that says which scene it is, whatever the kernels.
 pub const SCENE_SHA256: &str = "scene_sha256";
 /// Group of the section.
@@ -113,6 +87,51 @@ pub const VTK: &str = "VTKHDF";
 pub const VTK_POINTS: &str = "PointData";
 /// Where in a field of it each step begins.
 pub const VTK_OFFSETS: &str = "PointDataOffsets";
+
+/// What a file has under a name beside a quantity: the estimate of its error, its largest value over time, and when that is
+/// reached; `at` says where, if anywhere.
+pub(crate) fn beside(name: &str, (_, unit, meaning): Labels<'_>, at: &str) -> [Described; 3] {
+    [
+        (ERROR_SUFFIX, unit, "estimated absolute error"),
+        (PEAK_SUFFIXES[0], unit, "largest in magnitude over time"),
+        (PEAK_SUFFIXES[1], "s", "when it is largest in magnitude"),
+    ]
+    .map(|(suffix, unit, what)| Described {
+        name: format!("{name}{suffix}"),
+        unit: unit.to_owned(),
+        meaning: format!("{what}{at}: {meaning}"),
+    })
+}
+
+/// The text attributes of the root that say what the file is and how its scene was computed: its
+/// [`choices`](crate::choices), its kernel, and what is known of the kernel.
+pub fn texts<'a>(
+    [model, scheme, static_share, deflection, reason]: [&'a str; 5],
+    kernel: &'a str,
+    outcome: &'a Outcome,
+) -> [(&'static str, &'a str); 13] {
+    let used = outcome.used.as_ref();
+    let table = used.and_then(|used| used.table.as_ref());
+    let [id, version] = table.map_or(["", ""], |table| table.each_ref().map(String::as_str));
+    [
+        ("file_type", FILE_TYPE),
+        ("format_version", FORMAT_VERSION),
+        ("software_version", env!("CARGO_PKG_VERSION")),
+        ("model", model),
+        ("scheme", scheme),
+        ("static_share", static_share),
+        ("deflection_of", deflection),
+        ("reason", reason),
+        ("kernel", kernel),
+        ("kernel_reason", used.map_or("", |used| &used.reason)),
+        (
+            "convolution",
+            used.map_or("", |used| used.convolution.name()),
+        ),
+        ("table_id", id),
+        ("table_format_version", version),
+    ]
+}
 
 /// The samples of [`SERIES`], without those of a striker where there is none.
 pub fn samples(series: &Series) -> impl Iterator<Item = (&'static Labels<'static>, &[f64])> {

@@ -3,8 +3,10 @@
 //! Both are the same data: the fields in `/map` are hard links to those in `/VTKHDF`.
 
 use super::schema;
-use crate::hdf::{attach_all, describe, numbers, scalar, scale, set_scale, text, texts, vector};
-use crate::quantities::{Described, labels_of};
+use crate::hdf::{
+    array, attach_scales, describe, numbers, scalar, scale, set_scale, text, texts, vector,
+};
+use crate::quantities::{Described, Labels, labels_of};
 use hdf5::types::FixedAscii;
 use hdf5::{Dataset, File, Group};
 use impact::{Peaks, SectionFields};
@@ -19,7 +21,7 @@ pub(super) fn write_section(file: &File, map: &SectionFields) -> Result<(), hdf5
     let wave = waves(&group)?;
     let arrivals: Vec<f64> = map.arrival_s.iter().flatten().copied().collect();
     let dataset = numbers(&group, &schema::ARRIVALS, &[3, nz, nr], &arrivals)?;
-    attach_all(&dataset, &[&wave, &z, &r], 0)?;
+    attach_scales(&dataset, &[&wave, &z, &r])?;
     let points = vtk_image(file, map)?;
     // netCDF looks for the scales of a dataset in its group and in those above it
     for (name, ..) in schema::MAP_SCALES {
@@ -35,13 +37,13 @@ pub(super) fn write_section(file: &File, map: &SectionFields) -> Result<(), hdf5
             .create(row.0)?;
         dataset.write_raw(values)?;
         describe(&dataset, &row)?;
-        attach_all(&dataset, &[&time, &z, &r], 0)?;
+        attach_scales(&dataset, &[&time, &z, &r])?;
         let path = [schema::VTK, schema::VTK_POINTS, row.0];
         link(file, &path, &[schema::MAP, row.0])?;
         let peaks = map.peaks.as_ref().map(|peaks| &peaks[i]);
         for (row, found) in beside(row, errors, peaks) {
             let dataset = numbers(&group, &row.labels(), &[nz, nr], found)?;
-            attach_all(&dataset, &[&z, &r], 0)?;
+            attach_scales(&dataset, &[&z, &r])?;
         }
     }
     Ok(())
@@ -50,19 +52,15 @@ pub(super) fn write_section(file: &File, map: &SectionFields) -> Result<(), hdf5
 /// What stands beside a quantity, one number a place: the estimate of its error and, where they are known, its largest
 /// value over time and when it is reached.
 pub(super) fn beside<'v>(
-    (name, unit, meaning): (&str, &str, &str),
+    row: Labels<'_>,
     errors: &'v [f64],
     peaks: Option<&'v Peaks>,
 ) -> Vec<(Described, &'v [f64])> {
     let peaks = peaks.map(|peaks| [&peaks.values, &peaks.time_s]);
     let columns = [errors].into_iter();
     let columns = columns.chain(peaks.into_iter().flatten().map(Vec::as_slice));
-    let described = schema::BESIDE.map(|(suffix, own, what)| Described {
-        name: format!("{name}{suffix}"),
-        unit: own.unwrap_or(unit).to_owned(),
-        meaning: format!("{what}: {meaning}"),
-    });
-    described.into_iter().zip(columns).collect()
+    let described = schema::beside(row.0, row, "").into_iter();
+    described.zip(columns).collect()
 }
 
 /// The scale of arrivals.
@@ -86,13 +84,13 @@ fn vtk_image(file: &File, map: &SectionFields) -> Result<Group, hdf5::Error> {
     let vtk = file.create_group(schema::VTK)?;
     let (nr, nz) = (map.r_m.len(), map.z_m.len());
     let spacing = |x: &[f64]| (x[x.len() - 1] - x[0]).abs() / (x.len() - 1) as f64;
-    attribute(&vtk, "Version", &[2, 1])?;
+    array(&vtk, "Version", &[2], &[2, 1])?;
     let kind = FixedAscii::<9>::from_ascii("ImageData")
         .map_err(|_| hdf5::Error::from("the type is not ASCII"))?;
     scalar(&vtk, "Type", kind)?;
     let extent = [0, nr as i64 - 1, 0, nz as i64 - 1, 0, 0];
-    attribute(&vtk, "WholeExtent", &extent)?;
-    let reals = |name: &str, values: &[f64]| attribute(&vtk, name, values);
+    array(&vtk, "WholeExtent", &[6], &extent)?;
+    let reals = |name: &str, values: &[f64]| array(&vtk, name, &[values.len()], values);
     let (dr, dz) = (spacing(&map.r_m), spacing(&map.z_m));
     reals("Origin", &[map.r_m[0], -map.z_m[0], 0.0])?;
     reals("Spacing", &[dr, dz, dr.max(dz)])?;
@@ -109,9 +107,4 @@ fn vtk_image(file: &File, map: &SectionFields) -> Result<Group, hdf5::Error> {
         vector(&offsets, &(name, "1", meaning), &numbered)?;
     }
     vtk.create_group(schema::VTK_POINTS)
-}
-
-fn attribute<T: hdf5::H5Type>(group: &Group, name: &str, values: &[T]) -> Result<(), hdf5::Error> {
-    let attribute = group.new_attr::<T>().shape([values.len()]).create(name)?;
-    attribute.write_raw(values)
 }

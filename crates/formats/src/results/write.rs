@@ -4,7 +4,7 @@ use super::identity::scene_sha256;
 use super::schema;
 use super::section::{beside, waves, write_section};
 use crate::hdf::{
-    attach_all, attach_scale, new_file, numbers, reason, scalar, scale, set_scale, text, vector,
+    attach_scales, new_file, numbers, reason, scalar, scale, set_scale, text, vector,
 };
 use crate::quantities::QUANTITIES;
 use crate::report::{choices, kernel_name, treatment};
@@ -56,7 +56,7 @@ fn write_file(path: &Path, scene: &Scene, outcome: &Outcome) -> Result<(), hdf5:
                 set_scale(&dataset, described.0)?;
                 time = Some(dataset);
             }
-            Some(time) => attach_scale(&dataset, time, 0)?,
+            Some(time) => attach_scales(&dataset, &[time])?,
         }
     }
     if let Some(energy) = &series.energy {
@@ -76,7 +76,7 @@ fn write_energy(file: &File, energy: &EnergySeries, time_s: &[f64]) -> Result<()
     let group = file.create_group(schema::ENERGY)?;
     let time = scale(&group, &schema::SERIES[0], time_s)?;
     for (described, samples) in schema::energies(energy) {
-        attach_scale(&vector(&group, described, samples)?, &time, 0)?;
+        attach_scales(&vector(&group, described, samples)?, &[&time])?;
     }
     Ok(())
 }
@@ -96,10 +96,10 @@ fn write_probes(
     let wave = waves(&group)?;
     let [r, z] = &schema::PLACES;
     for (described, places) in [(r, &fields.r_m), (z, &fields.z_m)] {
-        attach_scale(&vector(&group, described, places)?, &probe, 0)?;
+        attach_scales(&vector(&group, described, places)?, &[&probe])?;
     }
     let placed = |dataset: &Dataset, scales: &[&Dataset]| {
-        attach_all(dataset, scales, 0)?;
+        attach_scales(dataset, scales)?;
         text(dataset, schema::COORDINATES, &format!("{} {}", r.0, z.0))
     };
     let arrivals: Vec<f64> = fields.arrival_s.iter().flatten().copied().collect();
@@ -125,32 +125,13 @@ fn write_probes(
 }
 
 fn write_attributes(file: &File, scene: &Scene, outcome: &Outcome) -> Result<(), hdf5::Error> {
-    let [model, scheme, static_share, deflection, reason] = choices(scene, outcome);
-    let used = outcome.used.as_ref();
-    let table = used.and_then(|used| used.table.as_ref());
-    let [id, version] = table.map_or(["", ""], |table| table.each_ref().map(String::as_str));
-    let warnings = outcome.warnings.join("\n");
-    let texts = [
-        schema::FILE_TYPE,
-        schema::FORMAT_VERSION,
-        env!("CARGO_PKG_VERSION"),
-        model,
-        scheme,
-        static_share,
-        deflection,
-        reason,
-        kernel_name(outcome),
-        used.map_or("", |used| &used.reason),
-        used.map_or("", |used| used.convolution.name()),
-        id,
-        version,
-        &warnings,
-        &resolved(scene),
-        &scene_sha256(scene),
-    ];
-    for (name, value) in schema::TEXTS.into_iter().zip(texts) {
+    let (choices, kernel) = (choices(scene, outcome), kernel_name(outcome));
+    for (name, value) in schema::texts(choices, kernel, outcome) {
         text(file, name, value)?;
     }
+    text(file, schema::WARNINGS, &outcome.warnings.join("\n"))?;
+    text(file, schema::SCENE, &resolved(scene))?;
+    text(file, schema::SCENE_SHA256, &scene_sha256(scene))?;
     for quantity in &QUANTITIES {
         if let Some(value) = quantity.of(outcome) {
             scalar(file, quantity.name, value)?;

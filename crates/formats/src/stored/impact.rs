@@ -5,7 +5,7 @@ use crate::error::SceneError;
 use crate::quantities::Described;
 use crate::results::schema::{
     ARRIVALS, ENERGIES, ENERGY, ERROR_SUFFIX, MAP, MAP_SCALES, PEAK_SUFFIXES, PLACES, PROBES,
-    SERIES,
+    SCENE, SERIES, WARNINGS,
 };
 use crate::scene::bodies_of;
 use crate::scene::section::{as_number, parse};
@@ -40,7 +40,7 @@ impl StoredImpact {
     pub fn open(path: &Path) -> Result<Self, SceneError> {
         let stored = Stored::open(path, FileKind::Impact)?;
         let unread = |error| stored.damaged(format!("its scene cannot be read: {error}"));
-        let scene = parse(&stored.text("scene")?).map_err(unread)?;
+        let scene = parse(&stored.text(SCENE)?).map_err(unread)?;
         let (target, strike) = bodies_of(&scene).map_err(unread)?;
         let time_s = stored.vector(SERIES[0].0)?;
         if time_s.len() < 2 {
@@ -61,9 +61,12 @@ impl StoredImpact {
             energy: energy_of(&stored, time_s.len())?,
             time_s,
         };
+        let (model, static_share) = (stored.text("model")?, stored.text("static_share")?);
+        // every results file has it
+        stored.text(WARNINGS)?;
         Ok(Self {
-            model: stored.text("model")?,
-            static_share: stored.text("static_share")?,
+            model,
+            static_share,
             target,
             strike,
             scene,

@@ -29,8 +29,6 @@ pub enum FileKind {
     SweepPart,
     /// A kernel table.
     Table,
-    /// A chart.
-    Chart,
 }
 
 impl FileKind {
@@ -41,7 +39,6 @@ impl FileKind {
             schema::FILE_TYPE => Self::Sweep,
             part::FILE_TYPE => Self::SweepPart,
             lookup::schema::FILE_TYPE_VALUE => Self::Table,
-            "hertzlamb chart" => Self::Chart,
             _ => return None,
         })
     }
@@ -53,7 +50,6 @@ impl FileKind {
             Self::Sweep => ("a sweep", 6),
             Self::SweepPart => ("a part of a sweep", 2),
             Self::Table => ("a kernel table", lookup::schema::SEALED_FROM),
-            Self::Chart => ("a chart", u32::MAX),
         }
     }
 }

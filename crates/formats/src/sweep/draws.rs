@@ -186,10 +186,7 @@ fn mix(state: u64) -> u64 {
 }
 
 /// Open on both sides: keys that follow each other wholly are one key.
-const COEFFICIENT: Range = Range {
-    name: "(-1, 1)",
-    holds: |x| x > -1.0 && x < 1.0,
-};
+const COEFFICIENT: Range = Range::new("(-1, 1)", |x| x > -1.0 && x < 1.0);
 
 /// The factor of `[[random.correlation]]`, sections of `keys`, a pair, and `coefficient`.
 fn correlations(random: &Section<'_>, keys: &[String]) -> Result<Vec<Vec<f64>>, SceneError> {

@@ -2,7 +2,6 @@
 
 use crate::error::SceneError;
 use fault::{Class, Culprit, Fault};
-use ledger::JournalError;
 use lookup::TableError;
 use output::OutputError;
 use std::ops::Range;
@@ -17,10 +16,7 @@ pub enum SweepError {
     /// The table of its fields cannot be used.
     #[error(transparent)]
     Table(#[from] TableError),
-    /// The journal cannot be used.
-    #[error(transparent)]
-    Journal(JournalError),
-    /// It cannot be written or read back.
+    /// It or its journal cannot be written or read back.
     #[error(transparent)]
     Output(#[from] OutputError),
     /// Rows that no part has, the first of them, and how many ranges beside these.
@@ -28,21 +24,11 @@ pub enum SweepError {
     Missing(Range<usize>, usize),
 }
 
-impl From<JournalError> for SweepError {
-    fn from(error: JournalError) -> Self {
-        match error {
-            JournalError::Unwritable(path, source) => OutputError::writing(&path, source).into(),
-            other => Self::Journal(other),
-        }
-    }
-}
-
 impl Fault for SweepError {
     fn culprit(&self) -> Culprit<'_> {
         match self {
             Self::Scene(error) => error.culprit(),
             Self::Table(error) => Culprit::of(Class::Table).file(&error.path),
-            Self::Journal(error) => error.culprit(),
             Self::Output(error) => error.culprit(),
             Self::Missing(..) => Culprit::of(Class::Scene),
         }

@@ -3,7 +3,7 @@
 use super::schema::FIELDS as SECTION;
 use crate::error::SceneError;
 use crate::quantities::{Described, Labels, QUANTITIES, labels_of};
-use crate::results::schema::BESIDE;
+use crate::results::schema::beside;
 use crate::scene::section::Section;
 use impact::{ProbePeaks, Quantity};
 use std::sync::Arc;
@@ -128,13 +128,13 @@ pub(crate) fn stored_columns(sweep: &Table) -> Result<Vec<Described>, SceneError
 }
 
 /// Peak, instant and error of a field.
-fn of_field(probe: usize, (name, unit, meaning): Labels<'static>) -> [Described; 3] {
-    let [error, peak, time] = BESIDE;
-    [peak, time, error].map(|(suffix, own, what)| Described {
-        name: format!("probe_{probe}_{name}{suffix}"),
-        unit: own.unwrap_or(unit).to_owned(),
-        meaning: format!("{what} at probe {probe}: {meaning}"),
-    })
+fn of_field(probe: usize, field: Labels<'_>) -> [Described; 3] {
+    let (name, at) = (
+        format!("probe_{probe}_{}", field.0),
+        format!(" at probe {probe}"),
+    );
+    let [error, peak, time] = beside(&name, field, &at);
+    [peak, time, error]
 }
 
 /// The numbers of a row, in the order of the columns.

@@ -11,8 +11,8 @@ use super::schema::COUNTED;
 use super::shard::BLOCK;
 use super::spec::Spec;
 use crate::quantities::QUANTITIES;
-use ledger::{Identity, Journal, JournalError, Record, Records, Title};
-use output::Fault;
+use ledger::Identity;
+use output::{Fault, Journal, OutputError, Record, Records, Title};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
@@ -46,7 +46,7 @@ pub struct Kept {
 
 impl Kept {
     /// Opens or begins a journal; that of other rows is replaced where it `drops`.
-    pub(super) fn open(path: &Path, spec: &Spec, drops: bool) -> Result<Self, JournalError> {
+    pub(super) fn open(path: &Path, spec: &Spec, drops: bool) -> Result<Self, OutputError> {
         let (rows, results, mut spans) = (spec.selected(), results(&spec.fields), Vec::new());
         let take = |record, kept: &[u8]| take(&mut spans, &rows, results, record, kept);
         let journal = Journal::open(path, &title(spec), |_| drops, take)?;
@@ -59,7 +59,7 @@ impl Kept {
     }
 
     /// Adds a block.
-    pub(super) fn add(&mut self, block: &Block) -> Result<(), JournalError> {
+    pub(super) fn add(&mut self, block: &Block) -> Result<(), OutputError> {
         let record = self.journal.append(&kept(block, self.results))?;
         self.spans.push((block.range(), record));
         Ok(())

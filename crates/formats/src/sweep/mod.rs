@@ -28,7 +28,7 @@ pub use error::SweepError;
 pub(crate) use fields::stored_columns;
 pub use fields::{Fields, Precision};
 pub use journal::{Kept, Unfinished, is_computed};
-pub use ledger::{JournalError, Shard};
+pub use ledger::Shard;
 pub use rows::{
     Block, Blocks, NO_MODEL, PARQUET_VERSION, check_rows, column_names, key_unit, print_csv,
     row_bytes, stage_csv, stage_rows,

@@ -26,13 +26,11 @@ pub fn damaged_patches(path: &Path) -> Result<Vec<String>, TableError> {
             schema::TAIL,
         ] {
             // One that is not there has no patches; reading the table says that it is not.
-            let Ok(data) = source.dataset(&slice.place, dataset, 4) else {
+            let Ok((data, shape)) = source.dataset(&slice.place, dataset) else {
                 continue;
             };
-            for (across, down) in patches(&data, r.len(), z.len()) {
-                let &[.., fields, last] = data.shape() else {
-                    continue;
-                };
+            let [_, _, fields, last] = shape;
+            for (across, down) in patches(&data, shape, [r.len(), z.len()]) {
                 let patch = [across.clone(), down.clone(), 0..fields, 0..last];
                 if data.block::<f32>(&patch, u64::MAX).is_err() {
                     found.push(format!(
@@ -51,12 +49,16 @@ pub fn damaged_patches(path: &Path) -> Result<Vec<String>, TableError> {
 }
 
 /// Rows and columns of each chunk; none where the shape is not that of the axes.
-fn patches(data: &Dataset, rows: usize, columns: usize) -> Vec<(Range<usize>, Range<usize>)> {
+fn patches(
+    data: &Dataset,
+    [r, z, fields, _]: [usize; 4],
+    [rows, columns]: [usize; 2],
+) -> Vec<(Range<usize>, Range<usize>)> {
     let chunk = data.chunk().unwrap_or_default();
-    let (&[r, z, FIELDS, _], &[high, wide, ..]) = (data.shape(), chunk.as_slice()) else {
+    let &[high, wide, ..] = chunk.as_slice() else {
         return Vec::new();
     };
-    if r != rows || z != columns || high.min(wide) == 0 {
+    if [r, z, fields] != [rows, columns, FIELDS] || high.min(wide) == 0 {
         return Vec::new();
     }
     let mut patches = Vec::new();

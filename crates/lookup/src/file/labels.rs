@@ -1,10 +1,11 @@
-//! What writing HDF5 needs in every file of the workspace: its format, text attributes, dimension scales, reasons of errors.
+//! What writing HDF5 needs in every file of the workspace: its format, attributes, dimension scales, reasons of errors.
 //!
 //! Dimension scales are the one piece of the HDF5 interface that no Rust crate offers.
 
 use hdf5::types::VarLenUnicode;
-use hdf5::{Dataset, FileBuilder, Location};
+use hdf5::{Dataset, FileBuilder, H5Type, Location};
 use hdf5_sys::h5i::hid_t;
+use std::borrow::Borrow;
 use std::ffi::{CString, c_char, c_int, c_uint};
 
 /// A file to be written, in the format that every version of the library reads, whatever the linked one prefers.
@@ -57,6 +58,28 @@ pub fn text(place: &Location, name: &str, value: &str) -> Result<(), hdf5::Error
     attribute.write_scalar(&unicode(value)?)
 }
 
+/// Gives an object one value as an attribute.
+///
+/// # Errors
+/// What the library says.
+pub fn scalar<T: H5Type + Copy>(place: &Location, name: &str, value: T) -> Result<(), hdf5::Error> {
+    place.new_attr::<T>().create(name)?.write_scalar(&value)
+}
+
+/// Gives an object numbers of a shape as an attribute.
+///
+/// # Errors
+/// What the library says.
+pub fn array<T: H5Type>(
+    place: &Location,
+    name: &str,
+    shape: &[usize],
+    values: &[T],
+) -> Result<(), hdf5::Error> {
+    let attribute = place.new_attr::<T>().shape(shape).create(name)?;
+    attribute.write_raw(values)
+}
+
 /// Makes `scale` a dimension scale called `name`.
 ///
 /// # Errors
@@ -69,16 +92,17 @@ pub fn set_scale(scale: &Dataset, name: &str) -> Result<(), hdf5::Error> {
     Ok(())
 }
 
-/// Attaches `scale` to dimension `index` of `data`.
+/// Attaches scales to the first dimensions of `data`, in their order.
 ///
 /// # Errors
 /// What the library says.
-pub fn attach_scale(data: &Dataset, scale: &Dataset, index: usize) -> Result<(), hdf5::Error> {
-    // SAFETY: both datasets are open and the lock of the library is held.
-    #[allow(unsafe_code)]
-    hdf5::sync::sync(|| {
-        hdf5::h5check(unsafe { H5DSattach_scale(data.id(), scale.id(), index as c_uint) })
-    })?;
+pub fn attach_scales(data: &Dataset, scales: &[impl Borrow<Dataset>]) -> Result<(), hdf5::Error> {
+    for (index, scale) in (0..).zip(scales) {
+        let scale = scale.borrow().id();
+        // SAFETY: both datasets are open and the lock of the library is held.
+        #[allow(unsafe_code)]
+        hdf5::sync::sync(|| hdf5::h5check(unsafe { H5DSattach_scale(data.id(), scale, index) }))?;
+    }
     Ok(())
 }
 

@@ -31,7 +31,7 @@ pub(super) fn open(path: &Path) -> Result<Source, TableError> {
     let found = source.text(&root, schema::FORMAT_VERSION)?;
     match version(&found) {
         Some((schema::MAJOR_READ, minor))
-            if (minor >= schema::SEALED_FROM) == source.is_sealed() =>
+            if (minor >= schema::SEALED_FROM) == source.file.is_sealed() =>
         {
             Ok(source)
         }

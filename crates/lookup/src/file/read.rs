@@ -23,7 +23,7 @@ impl Table {
     pub fn open(path: &Path) -> Result<Self, TableError> {
         let source = open(path)?;
         let content = source.everything()?;
-        if !source.is_sealed() {
+        if !source.file.is_sealed() {
             source.same_hash(&content)?;
         }
         Self::new(content).map_err(|error| source.wrong(error))
@@ -86,7 +86,7 @@ pub fn holds(path: &Path, content: &Content) -> Result<bool, TableError> {
 /// As [`read`], and [`BadTable::Wrong`](crate::BadTable::Wrong).
 pub fn check_whole(path: &Path) -> Result<Origin, TableError> {
     let source = open(path)?;
-    if source.is_sealed() {
+    if source.file.is_sealed() {
         source.check_seal()?;
         return Ok(source.head()?.0.origin);
     }
@@ -256,8 +256,8 @@ impl Source {
     ) -> Result<Slice, TableError> {
         let first = slices[0].0;
         let size = |listed: &Listed| -> Result<[usize; 2], TableError> {
-            let [.., cells] = self.dimensions(&listed.place, schema::REMAINDER)?;
-            let [.., terms] = self.dimensions(&listed.place, schema::TAIL)?;
+            let (_, [_, _, _, cells]) = self.dataset(&listed.place, schema::REMAINDER)?;
+            let (_, [_, _, _, terms]) = self.dataset(&listed.place, schema::TAIL)?;
             Ok([cells, terms])
         };
         let [cells, terms] = size(first)?;

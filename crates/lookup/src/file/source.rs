@@ -14,7 +14,7 @@ const GROWTH: u64 = 32;
 #[derive(Debug)]
 pub(super) struct Source {
     pub(super) path: PathBuf,
-    file: HdfFile,
+    pub(super) file: HdfFile,
     /// Bytes of numbers loaded so far.
     loaded: Cell<u64>,
     /// Bytes of the chunks that hold the nodes read so far.
@@ -43,10 +43,6 @@ impl Source {
             loaded: Cell::new(0),
             decoded: Cell::new(0),
         }
-    }
-
-    pub(super) fn is_sealed(&self) -> bool {
-        self.file.is_sealed()
     }
 
     /// Compares all bytes, where the file has a seal.
@@ -81,37 +77,29 @@ impl Source {
         })
     }
 
-    /// The dataset `name` of a group, of `rank` dimensions.
-    pub(super) fn dataset(
+    /// The dataset `name` of a group, with its `RANK` dimensions.
+    pub(super) fn dataset<const RANK: usize>(
         &self,
         place: &Place,
         name: &str,
-        rank: usize,
-    ) -> Result<Dataset, TableError> {
+    ) -> Result<(Dataset, [usize; RANK]), TableError> {
         let item = place.item(name);
         let data = place.group.dataset(name);
         let data = data.map_err(|error| self.item(&item, error))?;
-        let found = data.shape().len();
-        if found != rank {
-            let detail = format!("it has {found} dimensions, needed {rank}");
+        let Ok(shape) = data.shape().try_into() else {
+            let found = data.shape().len();
+            let detail = format!("it has {found} dimensions, needed {RANK}");
             return Err(self.item(&item, detail));
-        }
-        Ok(data)
+        };
+        Ok((data, shape))
     }
 
     /// A list of numbers.
     pub(super) fn list<T: H5Type>(&self, place: &Place, name: &str) -> Result<Vec<T>, TableError> {
-        let data = self.dataset(place, name, 1)?;
-        self.admit(&place.item(name), data.count(), size_of::<T>())?;
+        let (data, [count]) = self.dataset(place, name)?;
+        self.admit(&place.item(name), count, size_of::<T>())?;
         data.numbers(u64::MAX)
             .map_err(|error| self.item(&place.item(name), error))
-    }
-
-    /// Dimensions of a dataset over (r, z, .., ..).
-    pub(super) fn dimensions(&self, place: &Place, name: &str) -> Result<[usize; 4], TableError> {
-        let data = self.dataset(place, name, 4)?;
-        <[usize; 4]>::try_from(data.shape())
-            .map_err(|_| self.item(&place.item(name), "no dimensions"))
     }
 
     /// The entries `wanted` along the first two dimensions of a dataset, which has the dimensions `needed`.
@@ -123,9 +111,8 @@ impl Source {
         wanted: &[Range<usize>; 2],
     ) -> Result<Vec<f32>, TableError> {
         let item = place.item(name);
-        let data = self.dataset(place, name, 4)?;
-        if data.shape() != needed {
-            let found = data.shape();
+        let (data, found) = self.dataset(place, name)?;
+        if found != needed {
             let wrong = format!("{item} has the dimensions {found:?}, needed {needed:?}");
             return Err(self.wrong(wrong));
         }
@@ -178,12 +165,14 @@ impl Source {
     }
 
     /// An item that cannot be read, or is not as it should be.
+    #[allow(clippy::needless_pass_by_value, reason = "errors are handed on")]
     pub(super) fn item(&self, item: &str, detail: impl ToString) -> TableError {
         let (item, detail) = (item.to_owned(), detail.to_string());
         BadTable::Item { item, detail }.of(&self.path)
     }
 
     /// Numbers of the file that are no table.
+    #[allow(clippy::needless_pass_by_value, reason = "errors are handed on")]
     pub(super) fn wrong(&self, what: impl ToString) -> TableError {
         BadTable::Wrong(what.to_string()).of(&self.path)
     }

@@ -36,7 +36,7 @@ impl TableFile {
     pub fn open(path: &Path) -> Result<Self, TableError> {
         let source = open(path)?;
         let (content, _) = source.head()?;
-        if !source.is_sealed() {
+        if !source.file.is_sealed() {
             source.same_hash(&source.everything()?)?;
         }
         Ok(Self {

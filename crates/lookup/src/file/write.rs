@@ -2,7 +2,7 @@
 
 use super::chunks::write_chunks;
 use super::error::{BadTable, TableError};
-use super::labels::{attach_scale, new_file, reason, set_scale, text};
+use super::labels::{array, attach_scales, new_file, reason, scalar, set_scale, text};
 use crate::accuracy::Quantiles;
 use crate::content::{Content, FIELDS, Slice, Verification};
 use crate::hash::{content_hash, settings_id};
@@ -61,7 +61,7 @@ fn write_file(path: &Path, content: &Content) -> Result<(), hdf5::Error> {
     let between = file.create_group(schema::BETWEEN)?;
     for place in &content.between {
         let group = between.create_group(&schema::slice_name(place.poisson_ratio))?;
-        number(&group, schema::POISSON_RATIO, place.poisson_ratio)?;
+        scalar(&group, schema::POISSON_RATIO, place.poisson_ratio)?;
         let scales = [&between_r, &between_z, &pulse, &field];
         write_verification(&group, &place.verification, &scales)?;
     }
@@ -79,10 +79,10 @@ fn write_slice(
     // The ratio of a slice was accepted by the physics.
     let scale = cell_scale(slice.poisson_ratio).map_err(|error| error.to_string())?;
     let width = content.cell_width * scale;
-    number(group, schema::POISSON_RATIO, slice.poisson_ratio)?;
+    scalar(group, schema::POISSON_RATIO, slice.poisson_ratio)?;
     text(group, schema::ROLE, slice.role.name())?;
-    number(group, schema::CELL_WIDTH, width)?;
-    number(group, schema::TIME_END, slice.cells as f64 * width)?;
+    scalar(group, schema::CELL_WIDTH, width)?;
+    scalar(group, schema::TIME_END, slice.cells as f64 * width)?;
     let starts: Vec<f64> = (0..slice.cells).map(|j| j as f64 * width).collect();
     let time = make_scale(group, schema::TIME, &starts)?;
     let (rows, columns) = (content.r.len(), content.z.len());
@@ -96,10 +96,6 @@ fn write_slice(
         make_data(group, name, &shape, values, &[r, z, field, scale])?;
     }
     write_verification(group, &slice.verification, &at_probes)
-}
-
-fn number(place: &Group, name: &str, value: f64) -> Result<(), hdf5::Error> {
-    place.new_attr::<f64>().create(name)?.write_scalar(&value)
 }
 
 fn write_verification(
@@ -125,7 +121,7 @@ fn write_attributes(file: &File, content: &Content) -> Result<(), hdf5::Error> {
         (schema::CREATED, origin.created_unix_s),
         (schema::STENCIL_POINTS, content.stencil_points as u64),
     ] {
-        file.new_attr::<u64>().create(name)?.write_scalar(&value)?;
+        scalar(file, name, value)?;
     }
     text(file, schema::ID, &settings_id(&origin.grid))?;
     text(file, schema::GRID, &origin.grid)?;
@@ -136,13 +132,10 @@ fn write_attributes(file: &File, content: &Content) -> Result<(), hdf5::Error> {
         (schema::Z_MAX, content.z_max),
         (schema::ACCURACY_ASKED, origin.accuracy_asked),
     ] {
-        number(file, name, value)?;
+        scalar(file, name, value)?;
     }
     let reached = &origin.accuracy_reached;
-    file.new_attr::<f64>()
-        .shape([reached.len()])
-        .create(schema::ACCURACY_REACHED)?
-        .write(reached)?;
+    array(file, schema::ACCURACY_REACHED, &[reached.len()], reached)?;
     let accuracy = content.accuracy();
     let on: Vec<_> = accuracy.iter().map(|a| a.on_slices).collect();
     write_errors(file, schema::ERROR_ON_SLICES, &on)?;
@@ -160,10 +153,7 @@ fn write_errors(file: &File, name: &str, errors: &[[Quantiles; 6]]) -> Result<()
         .flatten()
         .flat_map(|of_field| [of_field.p50, of_field.p99, of_field.max])
         .collect();
-    file.new_attr::<f64>()
-        .shape([errors.len(), FIELDS, 3])
-        .create(name)?
-        .write_raw(&numbers)
+    array(file, name, &[errors.len(), FIELDS, 3], &numbers)
 }
 
 fn make_scale<T: H5Type>(group: &Group, name: &str, values: &[T]) -> Result<Dataset, hdf5::Error> {
@@ -198,9 +188,7 @@ fn make_data(
         .create(name)?;
     let view = ndarray::ArrayView4::from_shape(*shape, values)?;
     write_chunks(&dataset, &view, patch, DEFLATE)?;
-    for (index, scale) in scales.iter().enumerate() {
-        attach_scale(&dataset, scale, index)?;
-    }
+    attach_scales(&dataset, scales)?;
     describe(&dataset, name)
 }
 

@@ -13,8 +13,8 @@ use fault::Fault as _;
 use formats::parts::check_complete;
 use formats::sweep::schema::COUNTED;
 use formats::sweep::{
-    Axis, Blocks, JournalError, Kept, Precision, Shard, Spec, SweepError, is_computed, print_csv,
-    row_bytes, run_rows, stage_csv, stage_rows,
+    Axis, Blocks, Kept, Precision, Shard, Spec, SweepError, is_computed, print_csv, row_bytes,
+    run_rows, stage_csv, stage_rows,
 };
 use formats::{Existing, Output, OutputError, QUANTITIES};
 use output::{CSV, Fault, Staged, apart, behind, free_disk, is_standard};
@@ -258,7 +258,7 @@ fn rows(overwrite: Overwrite, spec: &Spec, outputs: &Outputs) -> Result<Option<K
 
 /// A sweep that could not be run or joined, with what to do.
 fn failure(error: SweepError) -> Failure {
-    let other = matches!(error, SweepError::Journal(JournalError::Other(..)));
+    let other = matches!(error, SweepError::Output(OutputError::Begun(..)));
     let missing = matches!(error, SweepError::Missing(..));
     let drop = "; give --force to drop it, or another output to keep it";
     Failure::from(error)

@@ -6,8 +6,8 @@
 use super::block::{Blocks, NO_MODEL};
 use super::columns::{Cells, Column, What, columns, described, each_of};
 use crate::hdf::{
-    attach_all, attach_scale, describe, new_file, numbers, reason, reserve, scalar, set_scale,
-    some_at_a_time, text, texts,
+    attach_scales, describe, new_file, numbers, reason, reserve, scalar, set_scale, some_at_a_time,
+    text, texts,
 };
 use crate::quantities::{Labels, QUANTITIES};
 use crate::results::schema::COORDINATES;
@@ -143,7 +143,7 @@ fn begin<'a>(
             let names: Vec<&str> = Model::ALL.iter().map(|m| m.name()).collect();
             text(&dataset, schema::NAMES, &names.join(" "))?;
         }
-        attach_all(&dataset, &scales, 0)?;
+        attach_scales(&dataset, &scales)?;
         if is_key {
             beside.push(name);
         } else if !beside.is_empty() {
@@ -267,7 +267,7 @@ fn write_scales(group: &Group, axes: &[Axis]) -> Result<(Vec<Dataset>, Vec<Strin
         };
         set_scale(&along, &axis.name)?;
         for key in axis.columns.iter().filter(|_| own.is_none()) {
-            attach_scale(&write_key(group, key)?, &along, 0)?;
+            attach_scales(&write_key(group, key)?, &[&along])?;
             beside.push(key.name());
         }
         scales.push(along);

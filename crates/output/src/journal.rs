@@ -4,7 +4,7 @@
 //! appended: the length of what is kept, that itself, and a sum of both. A record that was cut short or damaged ends
 //! the journal; what comes after is done anew.
 
-use fault::{Class, Culprit, Fault};
+use crate::error::OutputError;
 use std::fs::{File, OpenOptions};
 use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
@@ -26,7 +26,7 @@ const FLUSH: Duration = Duration::from_secs(5);
 pub struct Title {
     /// What is done, such as `sweep`.
     pub kind: &'static str,
-    /// [`Identity`](crate::Identity) of what is done.
+    /// What is the same where the same is done.
     pub identity: String,
     /// More about it.
     pub about: String,
@@ -51,36 +51,6 @@ pub struct Journal {
 /// Where in a journal a record begins.
 pub type Record = u64;
 
-/// Why a journal cannot be used.
-#[derive(Debug, thiserror::Error)]
-pub enum JournalError {
-    /// It was begun by another run.
-    #[error(
-        "{} holds the beginning of another {}, or of this one before its settings, its files or the program changed",
-        .0.display(), .1
-    )]
-    Other(PathBuf, &'static str),
-    /// It is a file of somebody else, or of another version.
-    #[error("{} is no beginning that this program goes on with, and is kept: give the output another name", .0.display())]
-    Strange(PathBuf),
-    /// It cannot be read.
-    #[error("cannot read {}: {}", .0.display(), .1)]
-    Unreadable(PathBuf, #[source] io::Error),
-    /// It cannot be written.
-    #[error("cannot write {}: {}", .0.display(), .1)]
-    Unwritable(PathBuf, #[source] io::Error),
-}
-
-impl Fault for JournalError {
-    fn culprit(&self) -> Culprit<'_> {
-        let (Self::Other(path, _)
-        | Self::Strange(path)
-        | Self::Unreadable(path, _)
-        | Self::Unwritable(path, _)) = self;
-        Culprit::of(Class::Output).file(path)
-    }
-}
-
 impl Journal {
     /// Opens or begins the journal at `path`, whose output was claimed, and shows what it keeps to `take`, which says
     /// whether it is whole.
@@ -88,25 +58,26 @@ impl Journal {
     /// Another one of the same kind is replaced where `drops` says so of it.
     ///
     /// # Errors
-    /// [`JournalError`].
+    /// [`OutputError`].
     pub fn open(
         path: &Path,
         title: &Title,
         drops: impl Fn(&Title) -> bool,
         mut take: impl FnMut(Record, &[u8]) -> bool,
-    ) -> Result<Self, JournalError> {
+    ) -> Result<Self, OutputError> {
         let (path, kind) = (path.to_owned(), title.kind);
         let there = std::fs::symlink_metadata(&path);
         if there.as_ref().is_ok_and(|there| !there.is_file()) {
-            return Err(JournalError::Strange(path));
+            return Err(strange(&path));
         }
         let mut file = OpenOptions::new()
             .read(true)
             .write(true)
             .create_new(there.is_err())
             .open(&path)
-            .map_err(|source| JournalError::Unwritable(path.clone(), source))?;
-        let unreadable = |source| JournalError::Unreadable(path.clone(), source);
+            .map_err(|error| OutputError::writing(&path, error))?;
+        let unreadable =
+            |error: io::Error| OutputError::Unreadable(path.clone(), error.to_string());
         let opened = file.try_clone();
         let found = opened.and_then(|file| Records::read(file, kind));
         let mut end = 0;
@@ -126,11 +97,11 @@ impl Journal {
                     kind,
                     ..Title::default()
                 }),
-                None => return Err(JournalError::Strange(path)),
+                None => return Err(strange(&path)),
             },
         };
         if other.is_some_and(|other| !drops(&other)) {
-            return Err(JournalError::Other(path, kind));
+            return Err(OutputError::Begun(path, kind));
         }
         let cut = file.set_len(end);
         cut.and_then(|()| file.seek(SeekFrom::Start(end)))
@@ -150,8 +121,8 @@ impl Journal {
     /// Appends something finished.
     ///
     /// # Errors
-    /// [`JournalError::Unwritable`].
-    pub fn append(&mut self, kept: &[u8]) -> Result<Record, JournalError> {
+    /// [`OutputError`].
+    pub fn append(&mut self, kept: &[u8]) -> Result<Record, OutputError> {
         let record = self.end;
         self.write(&(kept.len() as u64).to_le_bytes())?;
         self.write(kept)?;
@@ -159,7 +130,7 @@ impl Journal {
         if self.flushed.elapsed() > FLUSH {
             self.flushed = Instant::now();
             let flushed = self.file.sync_data();
-            flushed.map_err(|source| self.unwritable(source))?;
+            flushed.map_err(|error| OutputError::writing(&self.path, error))?;
         }
         Ok(record)
     }
@@ -184,16 +155,19 @@ impl Journal {
         let _ = std::fs::remove_file(&self.path);
     }
 
-    fn write(&mut self, bytes: &[u8]) -> Result<(), JournalError> {
+    fn write(&mut self, bytes: &[u8]) -> Result<(), OutputError> {
         let written = self.file.write_all(bytes);
-        written.map_err(|source| self.unwritable(source))?;
+        written.map_err(|error| OutputError::writing(&self.path, error))?;
         self.end += bytes.len() as u64;
         Ok(())
     }
+}
 
-    fn unwritable(&self, source: io::Error) -> JournalError {
-        JournalError::Unwritable(self.path.clone(), source)
-    }
+/// A file of somebody else, or of another version.
+fn strange(path: &Path) -> OutputError {
+    let what =
+        "is no beginning that this program goes on with, and is kept: give the output another name";
+    OutputError::Refused(path.to_owned(), what.to_owned())
 }
 
 /// What a journal keeps, one record after the other.
@@ -211,8 +185,8 @@ impl Records {
     /// Opens a journal of a kind without changing it; nothing where the file is none.
     ///
     /// # Errors
-    /// [`JournalError::Unreadable`].
-    pub fn open(path: &Path, kind: &'static str) -> Result<Option<Self>, JournalError> {
+    /// [`OutputError::Unreadable`].
+    pub fn open(path: &Path, kind: &'static str) -> Result<Option<Self>, OutputError> {
         let open = || {
             // looked at before it is opened: a pipe would wait for its other end
             if !std::fs::metadata(path)?.is_file() {
@@ -220,7 +194,7 @@ impl Records {
             }
             Self::read(File::open(path)?, kind)
         };
-        open().map_err(|source| JournalError::Unreadable(path.to_owned(), source))
+        open().map_err(|error| OutputError::Unreadable(path.to_owned(), error.to_string()))
     }
 
     fn read(mut file: File, kind: &'static str) -> io::Result<Option<Self>> {
@@ -326,7 +300,7 @@ mod tests {
         }
     }
 
-    fn open(path: &Path, identity: &str) -> Result<(Journal, Vec<Vec<u8>>), JournalError> {
+    fn open(path: &Path, identity: &str) -> Result<(Journal, Vec<Vec<u8>>), OutputError> {
         let mut found = Vec::new();
         let journal = Journal::open(
             path,
@@ -381,10 +355,7 @@ mod tests {
         let path = folder.path().join("journal");
         two(&path);
         let good = std::fs::read(&path).unwrap();
-        assert!(matches!(
-            open(&path, "other"),
-            Err(JournalError::Other { .. })
-        ));
+        assert!(matches!(open(&path, "other"), Err(OutputError::Begun(..))));
         assert_eq!(std::fs::read(&path).unwrap(), good);
         for strange in [
             "mine",
@@ -392,10 +363,7 @@ mod tests {
             "hertzlamb\n",
         ] {
             std::fs::write(&path, strange).unwrap();
-            assert!(matches!(
-                open(&path, "mine"),
-                Err(JournalError::Strange { .. })
-            ));
+            assert!(matches!(open(&path, "mine"), Err(OutputError::Refused(..))));
             assert_eq!(std::fs::read_to_string(&path).unwrap(), strange);
         }
         std::fs::write(&path, &good).unwrap();
