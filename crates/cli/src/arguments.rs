@@ -7,7 +7,7 @@ use formats::sweep::Spec;
 use formats::{Existing, Output, OutputError};
 use impact::KernelChoice;
 use lookup::TableFile;
-use output::{Ending, Role, apart};
+use output::{Role, apart};
 use serde_json::json;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -103,13 +103,7 @@ impl Overwrite {
     }
 
     /// Claims the one output of a command that reads `inputs`, before any work.
-    pub(crate) fn claim(
-        self,
-        path: &Path,
-        ending: Ending,
-        inputs: &[Role],
-    ) -> Result<Output, Failure> {
-        ending.check(path)?;
+    pub(crate) fn claim(self, path: &Path, inputs: &[Role]) -> Result<Output, Failure> {
         apart(&[path], inputs)?;
         Ok(Output::claim(path, self.existing())?)
     }

@@ -3,6 +3,8 @@
 use crate::error::PlotError;
 use contact::WaveSpeeds;
 use formats::stored::StoredImpact;
+use impact::Series;
+use std::ops::Range;
 
 /// Points of a curve that is drawn: with more, parts of it are drawn by their extremes.
 const MOST_POINTS: usize = 4000;
@@ -29,22 +31,23 @@ pub(crate) fn curve(time_s: &[f64], samples: &[f64], end_s: f64) -> Vec<(f64, f6
     kept
 }
 
-/// When a force begins: the last time before it is not zero any more.
-fn onset_s(time_s: &[f64], force_n: &[f64]) -> f64 {
-    let first = force_n.iter().position(|&force| force != 0.0);
-    first.map_or(0.0, |i| time_s[i.saturating_sub(1)])
+/// The samples from the last before a force that is not zero to the first from which on it is zero, where there are such.
+pub(crate) fn loaded(force_n: &[f64]) -> Range<usize> {
+    let is_loaded = |force: &f64| *force != 0.0;
+    let first = force_n.iter().position(is_loaded).unwrap_or(0);
+    let last = force_n.iter().rposition(is_loaded).unwrap_or(0);
+    first.saturating_sub(1)..(last + 2).min(force_n.len())
 }
 
-/// When a force ends: the first time from which on it is zero; the last time where it is not.
-pub(crate) fn end_s(time_s: &[f64], force_n: &[f64]) -> f64 {
-    let last = force_n.iter().rposition(|&force| force != 0.0).unwrap_or(0);
-    time_s[(last + 1).min(time_s.len() - 1)]
+/// When a force ends.
+pub(crate) fn end_s(series: &Series) -> f64 {
+    series.time_s[loaded(&series.force_n).end - 1]
 }
 
 /// Speeds of the waves in the half-space of an impact, and when its force begins in s.
 pub(crate) fn waves_of(impact: &StoredImpact) -> Result<(WaveSpeeds, f64), PlotError> {
     let series = &impact.series;
-    let start_s = onset_s(&series.time_s, &series.force_n);
+    let start_s = series.time_s[loaded(&series.force_n).start];
     Ok((WaveSpeeds::of(&impact.target)?, start_s))
 }
 
@@ -66,10 +69,8 @@ mod tests {
 
     #[test]
     fn a_force_begins_where_it_leaves_zero() {
-        let time = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0];
         let force = [0.0, 0.0, 3.0, 1.0, 0.0, 0.0];
-        assert_eq!((onset_s(&time, &force), end_s(&time, &force)), (1.0, 4.0));
-        assert_eq!(onset_s(&time, &[2.0; 6]), 0.0);
-        assert_eq!(end_s(&time, &[2.0; 6]), 5.0);
+        assert_eq!(loaded(&force), 1..5);
+        assert_eq!(loaded(&[2.0; 6]), 0..6);
     }
 }

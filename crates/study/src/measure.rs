@@ -50,7 +50,7 @@ fn time<T>(effort: Effort, values: f64, run: impl Fn() -> T) -> (T, [f64; 2]) {
         samples.push(start.elapsed().as_secs_f64() * 1e9 / repeats / values);
     }
     samples.sort_by(f64::total_cmp);
-    let at = |share: f64| samples[((samples.len() - 1) as f64 * share).round() as usize];
+    let at = |share: f64| lookup::quantile(&samples, share);
     (first, [at(0.5), 0.5 * (at(0.75) - at(0.25))])
 }
 

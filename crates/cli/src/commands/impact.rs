@@ -7,7 +7,7 @@ use crate::report::{text_report, understood};
 use clap::Args;
 use formats::{check_results, json_report, read_with_inputs, stage_results, stage_results_csv};
 use impact::{Allowance, Forecast, ImpactError, Scene, simulate_within};
-use output::{CSV, Existing, HDF5, Output, Role, Staged};
+use output::{CSV, Ending, Existing, HDF5, Output, Role, Staged};
 use serde_json::json;
 use std::cell::Cell;
 use std::iter;
@@ -129,9 +129,10 @@ fn complete<'a>(arguments: &'a Arguments, scene: &Scene) -> Result<Option<&'a Pa
 /// The results file and the table as text, where they are asked for.
 fn outputs(arguments: &Arguments, mut read: Vec<Role>) -> Result<[Option<Output>; 2], Failure> {
     read.extend(arguments.kernels.input());
-    let mut claim = |path: &Option<PathBuf>, ending| {
+    let mut claim = |path: &Option<PathBuf>, ending: Ending| {
         let claimed = path.as_ref().map(|path| {
-            let claimed = arguments.overwrite.claim(path, ending, &read);
+            let checked = ending.check(path).map_err(Failure::from);
+            let claimed = checked.and_then(|()| arguments.overwrite.claim(path, &read));
             read.push(("another output", path.clone()));
             claimed
         });

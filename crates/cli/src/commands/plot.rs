@@ -6,7 +6,7 @@ use clap::Args;
 use clap::builder::PossibleValuesParser;
 use contact::Choice;
 use figure::{Figure, to_gif, to_pdf, to_png, to_svg};
-use output::{Output, Role, apart};
+use output::Role;
 use plot::{Kind, Request, animate, compose};
 use std::path::{Path, PathBuf};
 
@@ -102,8 +102,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let ending = ending(&arguments.output)?;
     let files = arguments.files.iter().cloned();
     let inputs: Vec<Role> = files.map(|path| ("a file", path)).collect();
-    apart(&[&arguments.output], &inputs)?;
-    let output = Output::claim(&arguments.output, arguments.overwrite.existing())?;
+    let output = arguments.overwrite.claim(&arguments.output, &inputs)?;
     let request = Request {
         kind: arguments.kind.as_deref().and_then(Kind::named),
         quantities: arguments.quantity.clone(),

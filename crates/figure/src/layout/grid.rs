@@ -3,7 +3,7 @@
 use super::axes::{Axes, Needs};
 use super::bar::Bar;
 use super::labels::{self, Label};
-use super::legend::{Legend, Place};
+use super::legend::Legend;
 use super::plan::{PanelPlan, plan};
 use crate::colour::WHITE;
 use crate::error::FigureError;
@@ -183,17 +183,7 @@ impl<'a> Fitted<'a> {
         if let Some(bar) = &bar {
             needs.right = needs.right.max(bar.width);
         }
-        let legend = Legend::new(plan, &frame, faces, &needs, legend_width);
-        if let Some(legend) = &legend {
-            match legend.place {
-                Place::Right(from) => {
-                    needs.right = from + legend.width;
-                    needs.bottom = needs.bottom.max(legend.height - height);
-                }
-                Place::Below(from) => needs.bottom = from + legend.height,
-                Place::Inside(_) => {}
-            }
-        }
+        let legend = Legend::new(plan, &frame, faces, &mut needs, legend_width);
         Self {
             plan,
             frame,

@@ -26,7 +26,7 @@ struct Entry {
 
 /// Where a legend is.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Place {
+enum Place {
     /// In the plot, which starts at 0, 0.
     Inside(Rect),
     /// At its right, so far from the side of the plot.
@@ -39,18 +39,18 @@ pub(super) enum Place {
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Legend {
     entries: Vec<Entry>,
-    pub(super) width: f64,
-    pub(super) height: f64,
-    pub(super) place: Place,
+    width: f64,
+    height: f64,
+    place: Place,
 }
 
 impl Legend {
-    /// The legend around a plot at 0, 0 that has the given needs without it, at its right no wider than `most_right`.
+    /// The legend around a plot at 0, 0, at its right no wider than `most_right`; it is added to the needs of the plot.
     pub(super) fn new(
         plan: &PanelPlan<'_>,
         frame: &Frame,
         faces: &Typeface,
-        needs: &Needs,
+        needs: &mut Needs,
         most_right: f64,
     ) -> Option<Self> {
         let named = named(plan);
@@ -72,11 +72,16 @@ impl Legend {
         }
         let mut legend = Self::block(&named, most_right, 1, faces.legend);
         if most_right >= 14.0 * faces.tick && legend.height < 1.6 * height {
-            legend.place = Place::Right(needs.right + 1.3 * faces.tick);
+            let from = needs.right + 1.3 * faces.tick;
+            legend.place = Place::Right(from);
+            needs.right = from + legend.width;
+            needs.bottom = needs.bottom.max(legend.height - height);
             return Some(legend);
         }
         legend = Self::block(&named, width, 6, faces.legend);
-        legend.place = Place::Below(needs.bottom + faces.gap());
+        let from = needs.bottom + faces.gap();
+        legend.place = Place::Below(from);
+        needs.bottom = from + legend.height;
         Some(legend)
     }
 

@@ -24,8 +24,7 @@ pub(super) fn contact_panels(
     impacts: &[StoredImpact],
     labels: &[String],
 ) -> Result<Vec<Panel>, PlotError> {
-    let series = impacts.iter().map(|impact| &impact.series);
-    let ends = series.map(|series| end_s(&series.time_s, &series.force_n));
+    let ends = impacts.iter().map(|impact| end_s(&impact.series));
     let end_s = 1.1 * ends.fold(0.0, f64::max);
     let single = match impacts {
         [only] => Some(only),

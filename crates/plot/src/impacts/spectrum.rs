@@ -1,6 +1,7 @@
 //! The amplitude spectrum of a force.
 
 use crate::error::PlotError;
+use crate::series::loaded;
 use crate::words::with_unit;
 use figure::{Axis, Layer, Panel, Style};
 use formats::stored::StoredImpact;
@@ -50,10 +51,7 @@ struct Pulse {
 
 impl Pulse {
     fn new(time_s: &[f64], force_n: &[f64]) -> Self {
-        let loaded = |force: &f64| *force != 0.0;
-        let first = force_n.iter().position(loaded).unwrap_or(0);
-        let last = force_n.iter().rposition(loaded).unwrap_or(0);
-        let range = first.saturating_sub(1)..(last + 2).min(time_s.len());
+        let range = loaded(force_n);
         let step = range.len().div_ceil(MOST_SAMPLES).max(1);
         let thin = |x: &[f64]| x[range.clone()].iter().step_by(step).copied().collect();
         Self {

@@ -39,7 +39,7 @@ impl<'a> Section<'a> {
             speeds,
             disc_radius_m: impact.number("disc_radius_m").unwrap_or(0.0),
             start_s,
-            pulse_s: end_s(&impact.series.time_s, &impact.series.force_n) - start_s,
+            pulse_s: end_s(&impact.series) - start_s,
             stored,
         })
     }

@@ -106,12 +106,8 @@ pub(crate) fn axis_profile(impact: &StoredImpact, request: &Request) -> Result<P
     let size = axis(&words, &quantity.unit, Scale::Logarithmic);
     let mut panel = Panel::new(depth, size).height(380.0);
     let (mut smallest, mut largest) = (f64::INFINITY, 0.0_f64);
-    let mut drawn = Vec::new();
-    for frame in frames {
-        if drawn.contains(&frame) {
-            continue;
-        }
-        drawn.push(frame);
+    let is_first = |(i, frame): &(usize, &usize)| !frames[..*i].contains(frame);
+    for (_, &frame) in frames.iter().enumerate().filter(is_first) {
         let name = with_unit(section.stored.time_s[frame], "s");
         let values = section.values(&quantity, frame)?;
         let column = values.iter().step_by(section.stored.r_m.len());

@@ -41,10 +41,20 @@ const VELOCITY: &str = "striker.velocity_m_s";
 /// The result that restitution is drawn over, where a sweep has it.
 const AT_YIELD: &str = "yield_velocity_m_s";
 
-/// A result of all rows, with its axis.
-struct Shown {
+/// A result of all rows of a sweep, with its axis.
+struct Shown<'a> {
+    view: &'a View<'a>,
     axis: Axis,
     values: Vec<f64>,
+}
+
+impl Shown<'_> {
+    /// Quantiles of the draws of a slice at a place along the axes that are shown; those of a single value without
+    /// draws.
+    fn quantiles(&self, slice: &Slice, at: &[(usize, usize)]) -> Option<[f64; 3]> {
+        let rows = self.view.rows(slice, at).into_iter();
+        quantiles(rows.map(|row| self.values[row]))
+    }
 }
 
 /// The figure of a sweep.
@@ -73,16 +83,17 @@ pub(crate) fn of_sweep(path: &Path, request: &Request) -> Result<Figure, PlotErr
         let quantity = &known[number];
         let values = sweep.values(&quantity.name)?;
         let axis = axis(&result_words(quantity), &quantity.unit, scale_of(&values));
-        let shown = Shown { axis, values };
+        let view = &view;
+        let shown = Shown { view, axis, values };
         let mut panel = match kind {
-            Kind::Histogram => histogram(&view, &shown)?,
-            Kind::Loss => loss(&view, &shown)?,
-            Kind::Restitution => restitution(&view, &shown)?,
+            Kind::Histogram => histogram(&shown)?,
+            Kind::Loss => loss(&shown)?,
+            Kind::Restitution => restitution(&shown)?,
             _ => {
                 let hint = "a sweep over words alone has no axis to draw along; sweep --csv writes its rows";
                 let what = "key of numbers that varies";
                 let along = along.ok_or_else(|| PlotError::absent(path, what, hint))?;
-                over_keys(&view, along, request, &shown)?
+                over_keys(&shown, along, request.along.as_deref())?
             }
         };
         if !panels.is_empty() {
@@ -164,12 +175,8 @@ fn rising(nodes: &[f64]) -> Vec<(usize, f64)> {
 }
 
 /// Lines over a key, or a heat map where a second key has many values.
-fn over_keys(
-    view: &View<'_>,
-    along: usize,
-    request: &Request,
-    shown: &Shown,
-) -> Result<Panel, PlotError> {
+fn over_keys(shown: &Shown<'_>, along: usize, asked: Option<&str>) -> Result<Panel, PlotError> {
+    let view = shown.view;
     let others = view.free().into_iter().filter(|&i| i != along);
     let second = others
         .filter(|&i| view.sweep.axes[i].len >= MANY && view.numbers(i, None).is_some())
@@ -177,17 +184,13 @@ fn over_keys(
     if let Some(second) = second
         && let [slice] = view.slices(&[along, second]).as_slice()
     {
-        return heat_map(view, [along, second], slice, shown);
+        return heat_map(shown, [along, second], slice);
     }
-    lines(view, along, request.along.as_deref(), shown)
+    lines(shown, along, asked)
 }
 
-fn lines(
-    view: &View<'_>,
-    along: usize,
-    asked: Option<&str>,
-    shown: &Shown,
-) -> Result<Panel, PlotError> {
+fn lines(shown: &Shown<'_>, along: usize, asked: Option<&str>) -> Result<Panel, PlotError> {
+    let view = shown.view;
     let mut slices = few(view, view.slices(&[along]), MOST_CURVES)?;
     if let ([only], Some(_)) = (slices.as_mut_slice(), view.drawn) {
         // by its name a band knows its curve
@@ -201,12 +204,12 @@ fn lines(
     };
     if view.drawn == Some(along) {
         for slice in &slices {
-            panel = over_draws(panel, slice, &nodes, &view.rows(slice, &[]), &shown.values);
+            panel = over_draws(panel, shown, slice, &nodes);
         }
         return Ok(panel);
     }
     for slice in &slices {
-        let at = |(i, x)| Some((x, view.quantiles(slice, &[(along, i)], &shown.values)?));
+        let at = |(i, x)| Some((x, shown.quantiles(slice, &[(along, i)])?));
         let found: Vec<(f64, [f64; 3])> = rising(&nodes).into_iter().filter_map(at).collect();
         panel = match view.drawn {
             Some(_) => panel.banded(&slice.label, style, &found),
@@ -220,8 +223,12 @@ fn lines(
 }
 
 /// Draws over one of their own keys: a point each, or of many the median and 90 % in bins of as many draws.
-fn over_draws(panel: Panel, slice: &Slice, nodes: &[f64], rows: &[usize], values: &[f64]) -> Panel {
-    let pairs = nodes.iter().zip(rows).map(|(x, row)| (*x, values[*row]));
+fn over_draws(panel: Panel, shown: &Shown<'_>, slice: &Slice, nodes: &[f64]) -> Panel {
+    let rows = shown.view.rows(slice, &[]);
+    let pairs = nodes
+        .iter()
+        .zip(rows)
+        .map(|(x, row)| (*x, shown.values[row]));
     let mut pairs: Vec<(f64, f64)> = pairs.filter(|pair| pair.1.is_finite()).collect();
     if pairs.len() <= MOST_POINTS {
         return panel.line(&slice.label, Style::Points, pairs);
@@ -235,13 +242,10 @@ fn over_draws(panel: Panel, slice: &Slice, nodes: &[f64], rows: &[usize], values
     panel.banded(&slice.label, Style::Marked, &bins.collect::<Vec<_>>())
 }
 
-fn heat_map(
-    view: &View<'_>,
-    [along, second]: [usize; 2],
-    slice: &Slice,
-    shown: &Shown,
-) -> Result<Panel, PlotError> {
-    let ((x_axis, x), (y_axis, y)) = (nodes(view, along, None)?, nodes(view, second, None)?);
+fn heat_map(shown: &Shown<'_>, axes: [usize; 2], slice: &Slice) -> Result<Panel, PlotError> {
+    let [along, second] = axes;
+    let nodes = |axis| nodes(shown.view, axis, None);
+    let ((x_axis, x), (y_axis, y)) = (nodes(along)?, nodes(second)?);
     let [x, y] = [x, y].map(|nodes| {
         let mut distinct = rising(&nodes);
         distinct.dedup_by(|a, b| a.1 == b.1);
@@ -250,7 +254,7 @@ fn heat_map(
     let mut values = Vec::new();
     for &(j, _) in &y {
         for &(i, _) in &x {
-            let found = view.quantiles(slice, &[(along, i), (second, j)], &shown.values);
+            let found = shown.quantiles(slice, &[(along, i), (second, j)]);
             values.push(found.map_or(f64::NAN, |q| q[1]));
         }
     }
@@ -263,9 +267,9 @@ fn heat_map(
 }
 
 /// Results over the velocity of approach, on logarithmic axes.
-fn over_velocity(view: &View<'_>, shown: &Shown) -> Result<Panel, PlotError> {
-    let along = view.along(Some(VELOCITY))?.unwrap_or(0);
-    let mut panel = lines(view, along, Some(VELOCITY), shown)?;
+fn over_velocity(shown: &Shown<'_>) -> Result<Panel, PlotError> {
+    let along = shown.view.along(Some(VELOCITY))?.unwrap_or(0);
+    let mut panel = lines(shown, along, Some(VELOCITY))?;
     panel.y.scale = Scale::Logarithmic;
     panel.x = axis("velocity of approach", "m/s", Scale::Logarithmic);
     Ok(panel.height(380.0))
@@ -281,8 +285,8 @@ fn points_of(panel: &mut Panel) -> impl Iterator<Item = &mut (f64, f64)> {
 }
 
 /// Losses over the velocity of approach, with the slope of Hunter's law beside them.
-fn loss(view: &View<'_>, shown: &Shown) -> Result<Panel, PlotError> {
-    let mut panel = over_velocity(view, shown)?;
+fn loss(shown: &Shown<'_>) -> Result<Panel, PlotError> {
+    let mut panel = over_velocity(shown)?;
     let (mut first, mut last) = (f64::INFINITY, 0.0_f64);
     let (mut lowest, mut highest) = (f64::INFINITY, 0.0_f64);
     for &mut (x, y) in points_of(&mut panel).filter(|p| p.1 > 0.0) {
@@ -302,11 +306,12 @@ fn loss(view: &View<'_>, shown: &Shown) -> Result<Panel, PlotError> {
 
 /// Restitution over the velocity of approach; where a law of flow yields, over the velocity at which the first row does,
 /// with Johnson's slope.
-fn restitution(view: &View<'_>, shown: &Shown) -> Result<Panel, PlotError> {
-    let mut panel = over_velocity(view, shown)?;
-    let known = view.sweep.quantities();
+fn restitution(shown: &Shown<'_>) -> Result<Panel, PlotError> {
+    let mut panel = over_velocity(shown)?;
+    let sweep = shown.view.sweep;
+    let known = sweep.quantities();
     let at_yield = match known.iter().any(|quantity| quantity.name == AT_YIELD) {
-        true => view.sweep.values(AT_YIELD)?,
+        true => sweep.values(AT_YIELD)?,
         false => Vec::new(),
     };
     let Some(yields) = at_yield.into_iter().find(|v| v.is_finite()) else {
@@ -328,7 +333,8 @@ fn restitution(view: &View<'_>, shown: &Shown) -> Result<Panel, PlotError> {
 }
 
 /// How often values occur, with their quantiles.
-fn histogram(view: &View<'_>, shown: &Shown) -> Result<Panel, PlotError> {
+fn histogram(shown: &Shown<'_>) -> Result<Panel, PlotError> {
+    let view = shown.view;
     let slices = match view.drawn {
         Some(_) => few(view, view.slices(&[]), MOST_HISTOGRAMS)?,
         None => Vec::new(),

@@ -126,18 +126,6 @@ impl<'a> View<'a> {
         parts.collect::<Vec<_>>().join(", ")
     }
 
-    /// Quantiles of the draws of a slice at a place along the axes that are shown; those of a single value without
-    /// draws.
-    pub(super) fn quantiles(
-        &self,
-        slice: &Slice,
-        at: &[(usize, usize)],
-        values: &[f64],
-    ) -> Option<[f64; 3]> {
-        let rows = self.rows(slice, at).into_iter();
-        quantiles(rows.map(|row| values[row]))
-    }
-
     /// The rows of a slice at a place along the axes that are shown, over all draws.
     pub(super) fn rows(&self, slice: &Slice, at: &[(usize, usize)]) -> Vec<usize> {
         let axes = &self.sweep.axes;

@@ -54,17 +54,22 @@ const METHODS: [(&str, [&[usize]; 3]); 5] = [
 impl Inversion {
     /// A method at a setting.
     fn new(name: &'static str, n: usize) -> Self {
-        let terms = format!("{n} terms");
-        match name {
-            "fixed Talbot" => Self::anew(name, terms, 0.7 * n as f64, talbot(n)),
-            "Gaver-Stehfest" => Self::anew(name, terms, 15.0, stehfest(n)),
-            "Euler" => Self::anew(name, format!("order {n}"), n as f64, euler(n)),
-            "Durbin" => Self::in_windows(name, durbin, n, 1e-6, f64::INFINITY),
+        let (setting, digits, invert) = match name {
+            "fixed Talbot" => (format!("{n} terms"), 0.7 * n as f64, anew(talbot(n))),
+            "Gaver-Stehfest" => (format!("{n} terms"), 15.0, anew(stehfest(n))),
+            "Euler" => (format!("order {n}"), n as f64, anew(euler(n))),
+            "Durbin" => in_windows(durbin, n, 1e-6, f64::INFINITY),
             _ => {
                 // the aliasing error that the accelerated series reaches
                 let aliasing = 10.0_f64.powf(-3.0 - n as f64 / 20.0).max(1e-11);
-                Self::in_windows(name, de_hoog, n, aliasing, SPAN)
+                in_windows(de_hoog, n, aliasing, SPAN)
             }
+        };
+        Self {
+            name,
+            setting,
+            digits: digits.clamp(4.0, 15.0),
+            invert,
         }
     }
 
@@ -84,49 +89,6 @@ impl Inversion {
         pictured.collect()
     }
 
-    /// A method that takes the transform anew for every time.
-    fn anew(name: &'static str, setting: String, digits: f64, rule: Vec<[Complex64; 2]>) -> Self {
-        let run = move |hankel: &Hankel, times: &[f64]| {
-            let at = |&t: &f64| invert(&rule, t, |s| hankel.values(s));
-            times.iter().map(at).collect()
-        };
-        Self {
-            name,
-            setting,
-            digits: digits.clamp(4.0, 15.0),
-            invert: Box::new(run),
-        }
-    }
-
-    /// A method whose samples are shared by the times up to `span` times the first of them.
-    fn in_windows(
-        name: &'static str,
-        series: Series,
-        samples: usize,
-        aliasing: f64,
-        span: f64,
-    ) -> Self {
-        let run = move |hankel: &Hankel, times: &[f64]| {
-            let mut values = Vec::with_capacity(times.len());
-            let mut rest = times;
-            while let Some(first) = rest.first() {
-                let (now, later) = rest.split_at(rest.partition_point(|t| *t <= span * first));
-                let longest = now.last().copied().unwrap_or(*first);
-                let of_window = [longest, aliasing];
-                let transform = |s: &[Complex64]| hankel.values(s);
-                values.extend(in_window(series, samples, of_window, now, transform));
-                rest = later;
-            }
-            values
-        };
-        Self {
-            name,
-            setting: format!("{samples} samples"),
-            digits: (2.0 - aliasing.log10()).clamp(4.0, 15.0),
-            invert: Box::new(run),
-        }
-    }
-
     /// Step responses at ascending times, and the integrand evaluations they took; at the centre of the surface only
     /// w over its static value.
     pub(crate) fn run(&self, medium: &Medium, place: [f64; 2], times: &[f64]) -> Run<Vec<Six>> {
@@ -134,6 +96,31 @@ impl Inversion {
         let values = (self.invert)(&hankel, times);
         Ok((values, Some(hankel.evaluations.get())))
     }
+}
+
+/// A method that takes the transform anew for every time.
+fn anew(rule: Vec<[Complex64; 2]>) -> Box<Invert> {
+    Box::new(move |hankel, times| {
+        let at = |&t: &f64| invert(&rule, t, |s| hankel.values(s));
+        times.iter().map(at).collect()
+    })
+}
+
+/// A method whose `n` samples are shared by the times up to `span` times the first of them, with its setting and digits.
+fn in_windows(series: Series, n: usize, aliasing: f64, span: f64) -> (String, f64, Box<Invert>) {
+    let run = move |hankel: &Hankel, mut rest: &[f64]| {
+        let mut values = Vec::with_capacity(rest.len());
+        while let Some(first) = rest.first() {
+            let (now, later) = rest.split_at(rest.partition_point(|t| *t <= span * first));
+            let of_window = [now.last().copied().unwrap_or(*first), aliasing];
+            let transform = |s: &[Complex64]| hankel.values(s);
+            values.extend(in_window(series, n, of_window, now, transform));
+            rest = later;
+        }
+        values
+    };
+    let digits = 2.0 - aliasing.log10();
+    (format!("{n} samples"), digits, Box::new(run))
 }
 
 #[cfg(test)]

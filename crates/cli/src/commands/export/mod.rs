@@ -8,8 +8,8 @@ use crate::arguments::Overwrite;
 use crate::failure::{Failure, lines, say, show};
 use case::Case;
 use clap::{Args, ValueEnum};
-use formats::{Output, read_with_inputs};
-use output::{CSV, apart};
+use formats::read_with_inputs;
+use output::CSV;
 use serde_json::json;
 use std::path::PathBuf;
 
@@ -70,8 +70,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     if is_table {
         CSV.check(output)?;
     }
-    apart(&[output], &inputs)?;
-    let claimed = Output::claim(output, arguments.overwrite.existing())?;
+    let claimed = arguments.overwrite.claim(output, &inputs)?;
     let case = Case::new(&scene, arguments.target_diameter)?;
     let text = match format {
         Format::Lammps => codes::lammps(&case),

@@ -5,7 +5,6 @@ use crate::arguments::{Overwrite, check_rows};
 use crate::failure::{Failure, lines, say, show};
 use clap::Args;
 use formats::parts::Parts;
-use output::ROWS;
 use serde_json::json;
 use std::path::{Path, PathBuf};
 
@@ -29,7 +28,7 @@ pub(crate) struct Arguments {
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let output = &arguments.output;
     check_rows(output)?;
-    let claimed = arguments.overwrite.claim(output, ROWS, &[])?;
+    let claimed = arguments.overwrite.claim(output, &[])?;
     let mut parts = Parts::in_folder(&arguments.folder, None).map_err(failure)?;
     // with --force the output itself may be a merged sweep of before
     let there = claimed.real.canonicalize().ok();
