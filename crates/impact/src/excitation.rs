@@ -106,9 +106,9 @@ enum Force {
 
 /// A force history that a striker has made.
 #[derive(Debug, Clone)]
-struct Contact {
-    samples: Resampler,
-    units: CollisionUnits,
+pub(crate) struct Contact {
+    pub(crate) samples: Resampler,
+    pub(crate) units: CollisionUnits,
     /// Duration of the first contact in s.
     duration_s: f64,
     /// When each contact begins and ends, in s.
@@ -214,7 +214,7 @@ impl Excitation {
     }
 
     /// The contact that has made it; none of a record.
-    fn contact(&self) -> Option<&Contact> {
+    pub(crate) fn contact(&self) -> Option<&Contact> {
         match &self.force {
             Force::Contact(contact) => Some(contact),
             Force::Record(_) => None,
@@ -413,12 +413,6 @@ impl Excitation {
             Force::Contact(contact) => contact.duration_s,
             Force::Record(record) => record.span_s()[1],
         }
-    }
-
-    /// When the last contact has ended in s, and the units of the collision; none for a record.
-    pub(crate) fn contacts(&self) -> Option<(f64, &CollisionUnits)> {
-        let Contact { samples, units, .. } = self.contact()?;
-        Some((samples.end() * units.time_s, units))
     }
 
     /// Length in s of a pulse that is as steep as the force: its duration for a contact.

@@ -106,7 +106,6 @@ pub use pulse::PulseSum;
 pub use ratio::{cell_scale, ratio_coordinate};
 pub use series::smooth::{BEYOND, absorb, absorbed};
 pub use series::stencil::{Stencil, locate};
-pub use series::tail::chebyshev;
 pub use series::{Moments, Numbers, Series, Smoothness};
 pub use table::Table;
 pub use trace::TraceInfo;

@@ -24,8 +24,8 @@
 use crate::disc::history::History;
 use crate::growing::waves::PunchWaves;
 use crate::law::pulse::pulse;
-use crate::numeric::quadrature::chebyshev;
 use crate::summary::{Estimates, SMALL_LOSS, Summary};
+use halfspace::chebyshev;
 
 /// The terms of the expansion in the memory, in collision units.
 #[derive(Debug, Clone, Copy, PartialEq)]

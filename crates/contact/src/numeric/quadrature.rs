@@ -65,15 +65,6 @@ pub(crate) fn in_panels(from: f64, to: f64, f: impl Fn(f64) -> f64) -> f64 {
         .sum()
 }
 
-/// A Chebyshev series at x in [-1, 1].
-pub(crate) fn chebyshev(series: &[f64], x: f64) -> f64 {
-    let (mut last, mut before) = (0.0, 0.0);
-    for &coefficient in series[1..].iter().rev() {
-        (last, before) = (2.0 * x * last - before + coefficient, last);
-    }
-    x * last - before + series[0]
-}
-
 /// A polynomial through N values at x = 0, 1, .., N - 1 in Newton's form.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Local<const N: usize> {

@@ -1,6 +1,7 @@
 //! Functions of time as Chebyshev series on the panels of a zone.
 
 use super::zone::{Zone, panel_ends, panel_of};
+use crate::numeric::polynomial::chebyshev;
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::OnceLock;
 
@@ -23,7 +24,7 @@ impl Curve {
         }
     }
 
-    /// Clenshaw's sum of one of the functions f(panel, angles), the angles descending.
+    /// One of the functions f(panel, angles), the angles descending.
     pub(super) fn value(
         &self,
         which: usize,
@@ -35,12 +36,7 @@ impl Curve {
         let u = (2.0 * angle / FRAC_PI_2 - from - to) / (to - from);
         let ends = [from, to].map(|fraction| fraction * FRAC_PI_2);
         let series = self.series[panel].get_or_init(|| fit(ends, |angles| f(panel, angles)));
-        let coefficients = &series[which];
-        let (mut b1, mut b2) = (0.0, 0.0);
-        for &c in coefficients[1..].iter().rev() {
-            (b1, b2) = (2.0 * u * b1 - b2 + c, b1);
-        }
-        u * b1 - b2 + coefficients[0]
+        chebyshev(&series[which], u)
     }
 }
 

@@ -75,17 +75,6 @@ impl Tail {
     }
 }
 
-/// Sum of c_k T_k(2u - 1) by Clenshaw's recurrence.
-#[must_use]
-pub fn chebyshev(coefficients: &[f64], u: f64) -> f64 {
-    let x = 2.0 * u - 1.0;
-    let (mut b1, mut b2) = (0.0, 0.0);
-    for &c in coefficients.iter().skip(1).rev() {
-        (b1, b2) = (2.0 * x * b1 - b2 + c, b1);
-    }
-    x * b1 - b2 + coefficients.first().copied().unwrap_or(0.0)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
