@@ -29,6 +29,8 @@ pub struct Run {
 #[derive(Debug, Clone)]
 pub struct Excitation {
     medium: Medium,
+    /// Young's modulus in Pa and Poisson's ratio.
+    pub(crate) elastic: [f64; 2],
     units: KernelUnits,
     force: Force,
     radius: PressureRadius,
@@ -173,12 +175,14 @@ impl Excitation {
         force: Force,
         relative_error: f64,
     ) -> Result<Self, DomainError> {
+        let material = half_space.material();
         Ok(Self {
-            medium: Medium::new(half_space.material().poisson_ratio)?,
+            medium: Medium::new(material.poisson_ratio)?,
+            elastic: [material.youngs_modulus_pa, material.poisson_ratio],
             units: KernelUnits {
                 disc_radius_m: radius.largest_m(),
                 longitudinal_speed_m_s: half_space.longitudinal_speed_m_s(),
-                shear_modulus_pa: half_space.material().shear_modulus_pa(),
+                shear_modulus_pa: material.shear_modulus_pa(),
             },
             force,
             radius,

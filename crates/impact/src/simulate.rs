@@ -7,7 +7,7 @@ use crate::evaluator::convolve::{Method, rises};
 use crate::evaluator::projection::Projection;
 use crate::evaluator::{Asked, Evaluator};
 use crate::excitation::{Excitation, Run};
-use crate::fields::probes::{ProbeFields, SectionFields, at_probes, frames, on_section};
+use crate::fields::probes::{at_probes, frames, on_section};
 use crate::grid::{Grid, Wanted};
 use crate::impact::Impact;
 use crate::kernels::KernelSource;
@@ -200,7 +200,6 @@ fn add_fields(
     (source, reason): (KernelSource, String),
     outcome: &mut Outcome,
 ) -> Result<(), ImpactError> {
-    let material = scene.target.material();
     let evaluator = |wanted| {
         Evaluator::new(Asked {
             excitation,
@@ -208,7 +207,6 @@ fn add_fields(
             grid,
             wanted,
             quantities: &scene.quantities,
-            elastic: [material.youngs_modulus_pa, material.poisson_ratio],
             tolerance: scene.settings.tolerance,
             watch: allowance.watch,
         })
