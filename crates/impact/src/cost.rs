@@ -62,31 +62,26 @@ pub(crate) fn fields_s(scene: &Scene, excitation: &Excitation, samples: f64) -> 
     let discs = Discs::looked_up(radius)[0].radii.len() as f64;
     let looked_up_s =
         sum(&|wanted| discs * (samples * LOOKED_UP_S + (1.0 + rates) * convolved_s(wanted)));
-    let following = matches!(radius, PressureRadius::Following { .. });
     let discs = Discs::computed(radius, tolerance)[0].radii.len() as f64;
     let kernels = KERNELS + KERNELS_A_DIGIT * digits;
     let more = if rates > 0.0 { WITH_RATES } else { 1.0 };
-    let [small, of_rates] = match following {
-        true => [SMALL_DISC, FOLLOWING_RATES],
-        false => [1.0; 2],
+    let [small, of_rates, open, beside] = match radius {
+        PressureRadius::Following { largest_m, .. } => {
+            let beside = points_beside(scene, largest_m);
+            [SMALL_DISC, FOLLOWING_RATES, OPEN, beside]
+        }
+        PressureRadius::Fixed(_) => [1.0, 1.0, 0.0, 0.0],
     };
     let trace_s = kernels * more * small * KERNEL_S + samples * CELL_S;
     let points_s = sum(&|wanted| {
-        let open = OPEN * digits.powi(2) * wanted / samples;
-        let past_s = match following {
-            true => open * KERNELS_OF_OPEN * SMALL_DISC * KERNEL_S,
-            false => 0.0,
-        };
+        let open = open * digits.powi(2) * wanted / samples;
+        let past_s = open * KERNELS_OF_OPEN * SMALL_DISC * KERNEL_S;
         let each = discs * convolved_s(wanted) + past_s;
         discs * trace_s + each * (1.0 + of_rates * rates)
     });
     let step_s = Wanted::of(scene).duration_and_step_s(excitation).1;
     let whole = most_whole(excitation, step_s, tolerance) as f64;
-    let points = match radius {
-        PressureRadius::Following { largest_m, .. } => points_beside(scene, largest_m),
-        PressureRadius::Fixed(_) => 0.0,
-    };
-    let beside_s = points * whole * KERNELS_OF_WHOLE * digits.powi(2) * SMALL_DISC * KERNEL_S;
+    let beside_s = beside * whole * KERNELS_OF_WHOLE * digits.powi(2) * SMALL_DISC * KERNEL_S;
     [OUTPUT_S + points_s + beside_s, looked_up_s]
 }
 

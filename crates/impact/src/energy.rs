@@ -16,7 +16,7 @@
 use crate::excitation::Excitation;
 use crate::grid::Grid;
 use contact::{Family, Plan, Rung, StaticShare, work_until_j};
-use halfspace::{Deflection, SurfaceResponse};
+use halfspace::{Deflection, SurfaceResponse, lagrange};
 
 /// Energies in J at the times of the output.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -41,7 +41,8 @@ impl EnergySeries {
     ///
     /// The work is within 1e-4 of itself beside the error of the force.
     pub(crate) fn of_striker(excitation: &Excitation, plan: &Plan, time_s: &[f64]) -> Option<Self> {
-        let (end_s, units) = excitation.contacts()?;
+        let contact = excitation.contact()?;
+        let (end_s, units) = (contact.samples.end() * contact.units.time_s, &contact.units);
         let initial_j = 0.4 * units.force_n * units.length_m;
         let kinetic = |&t: &f64| {
             let v = excitation.motion(t).map_or(0.0, |m| m.velocity_m_s);
@@ -147,13 +148,6 @@ fn between(samples: &[f64], place: f64) -> f64 {
     }
     let from = (place.max(0.0) as usize).saturating_sub(1).min(count - 4);
     let x = place - from as f64;
-    (0..4)
-        .map(|i| {
-            let others = (0..4).filter(|&j| j != i);
-            let basis: f64 = others
-                .map(|j| (x - f64::from(j)) / (f64::from(i) - f64::from(j)))
-                .product();
-            samples[from + i as usize] * basis
-        })
-        .sum()
+    let part = |i: usize| samples[from + i] * lagrange(|j| j as f64, 4, i, x);
+    (0..4).map(part).sum()
 }

@@ -29,6 +29,8 @@ pub struct Run {
 #[derive(Debug, Clone)]
 pub struct Excitation {
     medium: Medium,
+    /// Young's modulus in Pa and Poisson's ratio.
+    pub(crate) elastic: [f64; 2],
     units: KernelUnits,
     force: Force,
     radius: PressureRadius,
@@ -106,9 +108,9 @@ enum Force {
 
 /// A force history that a striker has made.
 #[derive(Debug, Clone)]
-struct Contact {
-    samples: Resampler,
-    units: CollisionUnits,
+pub(crate) struct Contact {
+    pub(crate) samples: Resampler,
+    pub(crate) units: CollisionUnits,
     /// Duration of the first contact in s.
     duration_s: f64,
     /// When each contact begins and ends, in s.
@@ -173,12 +175,14 @@ impl Excitation {
         force: Force,
         relative_error: f64,
     ) -> Result<Self, DomainError> {
+        let material = half_space.material();
         Ok(Self {
-            medium: Medium::new(half_space.material().poisson_ratio)?,
+            medium: Medium::new(material.poisson_ratio)?,
+            elastic: [material.youngs_modulus_pa, material.poisson_ratio],
             units: KernelUnits {
                 disc_radius_m: radius.largest_m(),
                 longitudinal_speed_m_s: half_space.longitudinal_speed_m_s(),
-                shear_modulus_pa: half_space.material().shear_modulus_pa(),
+                shear_modulus_pa: material.shear_modulus_pa(),
             },
             force,
             radius,
@@ -214,7 +218,7 @@ impl Excitation {
     }
 
     /// The contact that has made it; none of a record.
-    fn contact(&self) -> Option<&Contact> {
+    pub(crate) fn contact(&self) -> Option<&Contact> {
         match &self.force {
             Force::Contact(contact) => Some(contact),
             Force::Record(_) => None,
@@ -413,12 +417,6 @@ impl Excitation {
             Force::Contact(contact) => contact.duration_s,
             Force::Record(record) => record.span_s()[1],
         }
-    }
-
-    /// When the last contact has ended in s, and the units of the collision; none for a record.
-    pub(crate) fn contacts(&self) -> Option<(f64, &CollisionUnits)> {
-        let Contact { samples, units, .. } = self.contact()?;
-        Some((samples.end() * units.time_s, units))
     }
 
     /// Length in s of a pulse that is as steep as the force: its duration for a contact.

@@ -28,7 +28,7 @@ pub enum Cause {
 }
 
 /// Scalar results of a force that was given, in SI units.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct RecordResults {
     /// Largest force in N.
     pub peak_force_n: f64,

@@ -7,7 +7,7 @@ use crate::evaluator::convolve::{Method, rises};
 use crate::evaluator::projection::Projection;
 use crate::evaluator::{Asked, Evaluator};
 use crate::excitation::{Excitation, Run};
-use crate::fields::probes::{ProbeFields, SectionFields, at_probes, frames, on_section};
+use crate::fields::probes::{at_probes, frames, on_section};
 use crate::grid::{Grid, Wanted};
 use crate::impact::Impact;
 use crate::kernels::KernelSource;
@@ -65,9 +65,16 @@ fn of_strike(
             },
         )?;
     let excitation = run.excitation();
-    let mut computed = Computed::new(scene, kernels, allowance, excitation)?;
     let (plan, scheme) = (&run.solved.plan, run.solved.scheme);
-    let series = &mut computed.series;
+    let cause = Cause::Contact {
+        model: plan.model,
+        scheme,
+        reason: plan.reason(&scene.settings),
+        results: run.results,
+    };
+    let warnings = run.warnings.clone();
+    let (grid, mut outcome) = begin(scene, kernels, allowance, excitation, (cause, warnings))?;
+    let series = &mut outcome.series;
     let mut striker = StrikerSeries::default();
     for motion in series.time_s.iter().filter_map(|&t| excitation.motion(t)) {
         striker.displacement_m.push(motion.displacement_m);
@@ -79,20 +86,13 @@ fn of_strike(
     if (plan.model, scheme) == (Model::Wave, Some(Scheme::Implicit)) {
         // anew on the output's step: the march's own step may be coarser than the disc's memory
         let (disc, share) = (scene.settings.deflection, scene.settings.static_share);
-        computed.deflect_disc(excitation, disc, share);
+        deflect_disc(excitation, &grid, series, disc, share);
     }
-    let mut warnings = run.warnings.clone();
-    warnings.append(&mut computed.warnings);
     if run.solved.flow.is_some() {
-        warnings.extend(scene.beside(CLOSE * run.results.contact_radius_m));
+        let beside = scene.beside(CLOSE * run.results.contact_radius_m);
+        outcome.warnings.extend(beside);
     }
-    let cause = Cause::Contact {
-        model: plan.model,
-        scheme,
-        reason: plan.reason(&scene.settings),
-        results: run.results,
-    };
-    Ok(computed.outcome(cause, warnings))
+    Ok(outcome)
 }
 
 /// What longitudinal waves have to cross of a disc while a record lasts, over its radius: less of it is lost in rounding,
@@ -115,13 +115,15 @@ fn of_record(
             largest_m,
         });
     }
-    let mut computed = Computed::new(scene, kernels, allowance, &excitation)?;
-    computed.deflect_disc(&excitation, scene.settings.deflection, StaticShare::Full);
-    let (grid, series) = (&computed.grid, &computed.series);
-    let energy = EnergySeries::of_record(&excitation, grid, &series.force_n);
-    let mut warnings = std::mem::take(&mut computed.warnings);
+    // what it comes to follows from the series
+    let cause = Cause::Record(RecordResults::default());
+    let (grid, mut outcome) = begin(scene, kernels, allowance, &excitation, (cause, Vec::new()))?;
+    let (series, warnings) = (&mut outcome.series, &mut outcome.warnings);
+    let (disc, share) = (scene.settings.deflection, StaticShare::Full);
+    deflect_disc(&excitation, &grid, series, disc, share);
+    let energy = EnergySeries::of_record(&excitation, &grid, &series.force_n);
     warnings.extend(record.doubts());
-    let left_n = left_n(&excitation, grid, &series.force_n);
+    let left_n = left_n(&excitation, &grid, &series.force_n);
     let relative_error = left_n / record.largest_n().max(f64::MIN_POSITIVE);
     if relative_error > scene.settings.tolerance {
         warnings.push(format!(
@@ -134,7 +136,7 @@ fn of_record(
         warnings.push("the force is negative in places: it pulls there".to_owned());
     }
     let (peak_force_time_s, peak_force_n) = record.peak();
-    let cause = Cause::Record(RecordResults {
+    outcome.cause = Cause::Record(RecordResults {
         peak_force_n,
         peak_force_time_s,
         duration_s: end_s - start_s,
@@ -144,138 +146,118 @@ fn of_record(
         peak_deflection_m: series.deflection_m.iter().copied().fold(0.0, f64::max),
         radiated_energy_j: energy.radiated_at_last_j(),
     });
-    computed.series.energy = Some(energy);
-    Ok(computed.outcome(cause, warnings))
+    series.energy = Some(energy);
+    Ok(outcome)
 }
 
-/// What follows from an excitation, whatever has caused it.
-struct Computed {
-    grid: Grid,
-    /// Times and force; the rest is for what has caused it to fill in.
-    series: Series,
-    used: Option<FieldsUsed>,
-    probes: Option<ProbeFields>,
-    section: Option<SectionFields>,
-    /// What the user should know of the times of the output.
-    warnings: Vec<String>,
-}
-
-impl Computed {
-    fn new(
-        scene: &Scene,
-        kernels: &KernelChoice,
-        allowance: &Allowance<'_>,
-        excitation: &Excitation,
-    ) -> Result<Self, ImpactError> {
-        let chosen = choose_source(scene, kernels, excitation)?;
-        let source = chosen.as_ref().map(|(source, _)| source);
-        let grid = Grid::new(&Wanted::of(scene), excitation, source)?;
-        let forecast = Forecast::new(scene, excitation, &grid, source, busy(scene.points()))?;
-        forecast.check(scene, allowance.memory_bytes)?;
-        if !(allowance.go_on)(&forecast) {
-            let seconds = forecast.seconds;
-            return Err(ImpactError::GivenUp { seconds });
-        }
-        let time_s: Vec<f64> = grid.times_s().collect();
-        let mut warnings = Vec::new();
-        if grid.step_s > grid.wanted_s {
-            warnings.push(format!(
+/// What follows from an excitation, whatever has caused it: the times of the output, and times, force and fields there.
+fn begin(
+    scene: &Scene,
+    kernels: &KernelChoice,
+    allowance: &Allowance<'_>,
+    excitation: &Excitation,
+    (cause, mut warnings): (Cause, Vec<String>),
+) -> Result<(Grid, Outcome), ImpactError> {
+    let chosen = choose_source(scene, kernels, excitation)?;
+    let source = chosen.as_ref().map(|(source, _)| source);
+    let grid = Grid::new(&Wanted::of(scene), excitation, source)?;
+    let forecast = Forecast::new(scene, excitation, &grid, source, busy(scene.points()))?;
+    forecast.check(scene, allowance.memory_bytes)?;
+    if !(allowance.go_on)(&forecast) {
+        let seconds = forecast.seconds;
+        return Err(ImpactError::GivenUp { seconds });
+    }
+    let time_s: Vec<f64> = grid.times_s().collect();
+    if grid.step_s > grid.wanted_s {
+        warnings.push(format!(
                 "the output's step is {:.3e} s, that of the table's cells, where {:.3e} s or less was wanted",
                 grid.step_s, grid.wanted_s
             ));
-        }
-        let mut computed = Self {
+    }
+    let mut outcome = Outcome {
+        cause,
+        used: None,
+        series: Series {
+            force_n: time_s.iter().map(|&t| excitation.force_n(t)).collect(),
+            time_s,
+            ..Series::default()
+        },
+        probes: None,
+        section: None,
+        warnings,
+    };
+    if let Some(chosen) = chosen {
+        add_fields(scene, allowance, excitation, &grid, chosen, &mut outcome)?;
+    }
+    Ok((grid, outcome))
+}
+
+fn add_fields(
+    scene: &Scene,
+    allowance: &Allowance<'_>,
+    excitation: &Excitation,
+    grid: &Grid,
+    (source, reason): (KernelSource, String),
+    outcome: &mut Outcome,
+) -> Result<(), ImpactError> {
+    let evaluator = |wanted| {
+        Evaluator::new(Asked {
+            excitation,
+            source: &source,
             grid,
-            series: Series {
-                force_n: time_s.iter().map(|&t| excitation.force_n(t)).collect(),
-                time_s,
-                ..Series::default()
-            },
-            used: None,
-            probes: None,
-            section: None,
-            warnings,
-        };
-        if let Some(chosen) = chosen {
-            computed.add_fields(scene, allowance, excitation, chosen)?;
-        }
-        Ok(computed)
+            wanted,
+            quantities: &scene.quantities,
+            tolerance: scene.settings.tolerance,
+            watch: allowance.watch,
+        })
+    };
+    let mut convolution = Method::Direct;
+    let all: Vec<usize> = (0..outcome.series.time_s.len()).collect();
+    if !scene.probes.is_empty() {
+        let evaluator = evaluator(&all)?;
+        let found = at_probes(&evaluator, &scene.target, &scene.probes)?;
+        let end_s = outcome.series.time_s.last().copied().unwrap_or(0.0);
+        outcome.warnings.extend(found.echoes(end_s));
+        outcome.probes = Some(found);
+        convolution = evaluator.method();
     }
+    if let Some(section) = &scene.section {
+        let at = frames(section, all.len());
+        let (wanted, shown) = match scene.peaks {
+            true => (&all, at.clone()),
+            false => (&at, (0..at.len()).collect()),
+        };
+        let evaluator = evaluator(wanted)?;
+        outcome.section = Some(on_section(&evaluator, (section, &shown), scene.peaks)?);
+        convolution = evaluator.method();
+    }
+    let table = match source {
+        KernelSource::Direct(_) => None,
+        KernelSource::Table(table) => {
+            Some([table.id(), &table.content().origin.format_version].map(str::to_owned))
+        }
+    };
+    outcome.used = Some(FieldsUsed {
+        table,
+        reason,
+        convolution,
+    });
+    Ok(())
+}
 
-    fn add_fields(
-        &mut self,
-        scene: &Scene,
-        allowance: &Allowance<'_>,
-        excitation: &Excitation,
-        (source, reason): (KernelSource, String),
-    ) -> Result<(), ImpactError> {
-        let material = scene.target.material();
-        let evaluator = |wanted| {
-            Evaluator::new(Asked {
-                excitation,
-                source: &source,
-                grid: &self.grid,
-                wanted,
-                quantities: &scene.quantities,
-                elastic: [material.youngs_modulus_pa, material.poisson_ratio],
-                tolerance: scene.settings.tolerance,
-                watch: allowance.watch,
-            })
-        };
-        let mut convolution = Method::Direct;
-        let all: Vec<usize> = (0..self.series.time_s.len()).collect();
-        if !scene.probes.is_empty() {
-            let evaluator = evaluator(&all)?;
-            let found = at_probes(&evaluator, &scene.target, &scene.probes)?;
-            let end_s = self.series.time_s.last().copied().unwrap_or(0.0);
-            self.warnings.extend(found.echoes(end_s));
-            self.probes = Some(found);
-            convolution = evaluator.method();
-        }
-        if let Some(section) = &scene.section {
-            let at = frames(section, all.len());
-            let (wanted, shown) = match scene.peaks {
-                true => (&all, at.clone()),
-                false => (&at, (0..at.len()).collect()),
-            };
-            let evaluator = evaluator(wanted)?;
-            self.section = Some(on_section(&evaluator, (section, &shown), scene.peaks)?);
-            convolution = evaluator.method();
-        }
-        let table = match source {
-            KernelSource::Direct(_) => None,
-            KernelSource::Table(table) => {
-                Some([table.id(), &table.content().origin.format_version].map(str::to_owned))
-            }
-        };
-        self.used = Some(FieldsUsed {
-            table,
-            reason,
-            convolution,
-        });
-        Ok(())
-    }
-
-    /// Takes the deflection of the disc of a fixed radius for that of the series.
-    fn deflect_disc(&mut self, excitation: &Excitation, disc: Deflection, share: StaticShare) {
-        let (grid, series) = (&self.grid, &mut self.series);
-        let of = |(run, force_n): (Run, &[f64])| {
-            excitation.deflection_m(disc, share, grid.step_s, run.base_n, force_n)
-        };
-        let runs = grid.split(&series.force_n).into_iter();
-        series.deflection_m = runs.flat_map(of).collect();
-    }
-
-    fn outcome(self, cause: Cause, warnings: Vec<String>) -> Outcome {
-        Outcome {
-            cause,
-            used: self.used,
-            series: self.series,
-            probes: self.probes,
-            section: self.section,
-            warnings,
-        }
-    }
+/// Takes the deflection of the disc of a fixed radius for that of the series.
+fn deflect_disc(
+    excitation: &Excitation,
+    grid: &Grid,
+    series: &mut Series,
+    disc: Deflection,
+    share: StaticShare,
+) {
+    let of = |(run, force_n): (Run, &[f64])| {
+        excitation.deflection_m(disc, share, grid.step_s, run.base_n, force_n)
+    };
+    let runs = grid.split(&series.force_n).into_iter();
+    series.deflection_m = runs.flat_map(of).collect();
 }
 
 /// The most in N that the cells leave of the force.

@@ -205,7 +205,8 @@ impl Plan<'_> {
                     sums: &mut sums,
                 });
             }
-            sums
+            let cell = |k| std::array::from_fn(|field| sums[field * used + k]);
+            (0..used).map(cell).collect()
         };
         let in_cells = match self.smoothness {
             Smoothness::Linear => 0,

@@ -3,7 +3,7 @@
 //! `cargo run --release -p hertzlamb-tabulator --example ratios`
 
 use halfspace::{Medium, Six};
-use lookup::{Numbers, PulseSum, Series, Smoothness, Stencil};
+use lookup::{PulseSum, Series, Smoothness, Stencil};
 use rayon::prelude::*;
 use tabulator::{PointPlan, quantile};
 
@@ -73,18 +73,7 @@ fn series(nu: f64, width: f64, r: f64, z: f64, count: usize) -> Result<(Vec<Six>
     let cells = (end / width).ceil() as usize;
     let plan = PointPlan::new(nu, 1e-8, width, cells, 12)?;
     let point = plan.compute(r, z)?;
-    let flat = |values: &[Six]| {
-        (0..6)
-            .flat_map(|f| values.iter().map(move |six| six[f]))
-            .collect::<Vec<f64>>()
-    };
-    let numbers = Numbers {
-        averages: flat(&point.averages),
-        moments: flat(&point.moments),
-        curvatures: flat(&point.curvatures),
-        tail: flat(&point.tail),
-    };
-    let series = Series::new(width, cells, numbers);
+    let series = Series::new(width, cells, point);
     let mut out = vec![[0.0; 6]; count];
     series.fill(Smoothness::Smooth, 0, &mut out);
     Ok((out, plan.kernel().static_field(r, z)?))

@@ -4,8 +4,7 @@ use crate::block::{Block, Kind, Row, positions};
 use crate::error::BuildError;
 use crate::grid::Grid;
 use crate::numbers::NUMBERS_REVISION;
-use crate::point::PointKernels;
-use lookup::{Content, Slice, Verification};
+use lookup::{Content, Numbers, Slice, Verification};
 
 /// The content of the older table, which is valid.
 pub(crate) struct Known {
@@ -54,7 +53,7 @@ impl Known {
     }
 
     /// Puts the cells of a node that are there in place of those computed.
-    pub(crate) fn keep(&self, poisson_ratio: f64, [r, z]: [f64; 2], point: &mut PointKernels) {
+    pub(crate) fn keep(&self, poisson_ratio: f64, [r, z]: [f64; 2], point: &mut Numbers) {
         let content = &self.content;
         let place = |nodes: &[f64], x: f64| nodes.iter().position(|&node| node == x);
         let places = [place(&content.r, r), place(&content.z, z)];
@@ -62,11 +61,8 @@ impl Known {
             return;
         };
         let (node, cells) = (i * content.z.len() + k, slice.cells);
-        for (values, stored) in [
-            (&mut point.averages, &slice.remainder),
-            (&mut point.moments, &slice.moment),
-            (&mut point.curvatures, &slice.curvature),
-        ] {
+        // their tails are computed anew
+        for (values, (_, stored)) in point.lists_mut().into_iter().zip(slice.lists()).take(3) {
             let stored = &stored[node * 6 * cells..][..6 * cells];
             for (f, list) in stored.chunks(cells).enumerate() {
                 for (six, &x) in values.iter_mut().zip(list) {

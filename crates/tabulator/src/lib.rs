@@ -50,6 +50,6 @@ pub use measure::difference::differences;
 pub use measure::refine::refine;
 pub use numbers::NUMBERS_REVISION;
 pub use output::{Existing, OutputError};
-pub use point::{PointKernels, PointPlan};
+pub use point::PointPlan;
 pub use progress::{Progress, Silent};
 pub use shard::{build_shard, merge};

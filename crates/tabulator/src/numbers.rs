@@ -29,13 +29,7 @@ mod tests {
             // On the axis, near the surface, beside the disc's edge, far away.
             for (r, z) in [(0.0, 0.7), (0.4, 0.02), (1.05, 0.1), (2.5, 1.5)] {
                 let point = plan.compute(r, z).unwrap();
-                let lists = [
-                    &point.averages,
-                    &point.moments,
-                    &point.curvatures,
-                    &point.tail,
-                ];
-                found.extend(lists.map(|list| sum(list)));
+                found.extend(point.lists().map(sum));
             }
         }
         assert_eq!(found.len(), SUMS.len(), "{found:?}");

@@ -3,6 +3,7 @@
 use crate::error::BuildError;
 use crate::grid::Grid;
 use halfspace::{Kernel, Medium, Profile, Six};
+use lookup::Numbers;
 use std::f64::consts::PI;
 
 /// What is asked of every point of a slice; lengths in r0, times in r0/c1.
@@ -12,19 +13,6 @@ pub struct PointPlan {
     width: f64,
     cells: usize,
     tail_terms: usize,
-}
-
-/// The numbers of one point in double precision, field by field.
-#[derive(Debug, Clone)]
-pub struct PointKernels {
-    /// Cell averages of R.
-    pub averages: Vec<Six>,
-    /// First moments of R in each cell.
-    pub moments: Vec<Six>,
-    /// Second moments of R in each cell.
-    pub curvatures: Vec<Six>,
-    /// Tail coefficients.
-    pub tail: Vec<Six>,
 }
 
 /// Accuracy of moments relative to the field there: they enter with the second difference of the force, far below one.
@@ -92,13 +80,13 @@ impl PointPlan {
     ///
     /// # Errors
     /// [`BuildError`] when the exact kernels refuse the point or a value is not finite.
-    pub fn compute(&self, r: f64, z: f64) -> Result<PointKernels, BuildError> {
+    pub fn compute(&self, r: f64, z: f64) -> Result<Numbers, BuildError> {
         let end = self.cells as f64 * self.width;
         // what lasts less than a cell is seen as its part of the cell
         let part = |length: f64| (length / self.width).min(1.0);
         let tolerance = TRACE * self.kernel.tolerance();
         let trace = self.kernel.trace_under(r, z, end, (tolerance, &part))?;
-        let mut point = PointKernels {
+        let mut point = Numbers {
             averages: Vec::with_capacity(self.cells),
             moments: Vec::with_capacity(self.cells),
             curvatures: Vec::with_capacity(self.cells),
@@ -137,9 +125,9 @@ impl PointPlan {
     }
 
     /// A point that is not computed: no number can be taken for one.
-    pub(crate) fn blank(&self) -> PointKernels {
+    pub(crate) fn blank(&self) -> Numbers {
         let blanks = vec![[f64::NAN; 6]; self.cells];
-        PointKernels {
+        Numbers {
             averages: blanks.clone(),
             moments: blanks.clone(),
             curvatures: blanks,
@@ -147,13 +135,9 @@ impl PointPlan {
         }
     }
 
-    fn check(&self, r: f64, z: f64, point: &PointKernels) -> Result<(), BuildError> {
-        for (quantity, values) in [
-            ("cell average", &point.averages),
-            ("moment", &point.moments),
-            ("curvature", &point.curvatures),
-            ("tail", &point.tail),
-        ] {
+    fn check(&self, r: f64, z: f64, point: &Numbers) -> Result<(), BuildError> {
+        let quantities = ["cell average", "moment", "curvature", "tail"];
+        for (quantity, values) in quantities.into_iter().zip(point.lists()) {
             for value in values {
                 if let Some(f) = value.iter().position(|x| !x.is_finite()) {
                     let nu = self.kernel.medium().poisson_ratio();
@@ -184,44 +168,9 @@ fn quantum(averages: &[Six], rest: &Six) -> Six {
     })
 }
 
-impl PointKernels {
-    /// Rounds the numbers of a point to what a table holds.
-    pub fn round(&mut self) {
-        for field in 0..6 {
-            let quantum = resolution(&self.averages, field);
-            for six in &mut self.averages {
-                six[field] = (six[field] / quantum).round() * quantum;
-            }
-        }
-        for values in [
-            &mut self.averages,
-            &mut self.moments,
-            &mut self.curvatures,
-            &mut self.tail,
-        ] {
-            for value in values.iter_mut().flatten() {
-                *value = f64::from(*value as f32);
-            }
-        }
-    }
-}
-
-/// Step to which averages are stored: that of single precision at the largest of the field in time.
-///
-/// All averages share the absolute resolution of the largest and so compress better.
-fn resolution(averages: &[Six], field: usize) -> f64 {
-    /// Bits after the leading one.
-    const BITS: i32 = 24;
-    let most = averages
-        .iter()
-        .fold(0.0_f64, |most, six| most.max(six[field].abs()));
-    most.max(f64::from(f32::MIN_POSITIVE)).log2().floor().exp2() * 0.5_f64.powi(BITS)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use halfspace::gauss;
     use lookup::quantile;
 
     /// Average, first and second moment from the remainder itself, by the midpoint rule on 4000 parts of a cell.
@@ -287,7 +236,7 @@ mod tests {
                     let u = end / t;
                     for f in 0..6 {
                         let column: Vec<f64> = tail.iter().map(|six| six[f]).collect();
-                        let found = u * u * gauss::chebyshev(&column, 2.0 * u - 1.0);
+                        let found = u * u * halfspace::chebyshev(&column, 2.0 * u - 1.0);
                         let error = (found - exact[f]).abs() / size;
                         assert!(
                             error < 5e-8,

@@ -83,13 +83,7 @@ fn row(
             known.keep(nu, [r, z], &mut point);
         }
         for field in 0..6 {
-            let lists = [
-                &point.averages,
-                &point.moments,
-                &point.curvatures,
-                &point.tail,
-            ];
-            for (list, values) in row.iter_mut().zip(lists) {
+            for (list, values) in row.iter_mut().zip(point.lists()) {
                 list.extend(values.iter().map(|six| six[field] as f32));
             }
         }

@@ -2,7 +2,7 @@
 //! small linear systems.
 
 use crate::numeric::gauss::radau;
-use halfspace::gauss;
+use halfspace::{gauss, lagrange};
 use std::sync::OnceLock;
 
 /// A polynomial in s on [0, 1], in powers of 2 s - 1.
@@ -137,13 +137,13 @@ impl Nodes {
         let integral = |i: usize, j: usize| {
             let parts = rule.on(0.0, places[i]);
             parts
-                .map(|(x, weight)| weight * lagrange(&places[1..], j, x))
+                .map(|(x, weight)| weight * lagrange(|k| places[k + 1], n, j, x))
                 .sum()
         };
         let mode = |k: usize, j: usize| {
             let part = |(s, weight): (f64, f64)| {
                 let (value, _) = gauss::legendre(k, 2.0 * s - 1.0);
-                (2 * k + 1) as f64 * weight * value * lagrange(&places, j, s)
+                (2 * k + 1) as f64 * weight * value * lagrange(|k| places[k], n + 1, j, s)
             };
             rule.on(0.0, 1.0).map(part).sum()
         };
@@ -277,14 +277,6 @@ impl Factors {
             right[k] = (right[k] - dot(&row[k + 1..n], &right[k + 1..n])) / row[k];
         }
     }
-}
-
-/// The polynomial that is one at the j-th of some places and zero at the others.
-fn lagrange(places: &[f64], j: usize, x: f64) -> f64 {
-    let others = (0..places.len()).filter(|&k| k != j);
-    others
-        .map(|k| (x - places[k]) / (places[j] - places[k]))
-        .product()
 }
 
 #[cfg(test)]

@@ -25,7 +25,7 @@ use crate::disc::history::History;
 use crate::growing::waves::PunchWaves;
 use crate::law::pulse::pulse;
 use crate::summary::{Estimates, SMALL_LOSS, Summary};
-use halfspace::gauss::chebyshev;
+use halfspace::chebyshev;
 
 /// The terms of the expansion in the memory, in collision units.
 #[derive(Debug, Clone, Copy, PartialEq)]

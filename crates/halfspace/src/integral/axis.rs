@@ -7,6 +7,7 @@
 use crate::arrivals::Arrivals;
 use crate::field::{Estimate, FIELDS, Six};
 use crate::medium::Medium;
+use crate::numeric::polynomial::lagrange;
 use crate::point::Point;
 use crate::potentials::order::IMPULSE;
 use crate::profile::Profile;
@@ -75,22 +76,23 @@ fn step(medium: &Medium, profile: Profile, at: Point) -> (f64, bool) {
     (step.clamp(least, WIDEST * distance), step >= least)
 }
 
-/// Lagrange interpolation of the fields, divided by r where odd, in r^2.
+/// What the fields at the i-th of some radii weigh in those at r: by Lagrange's polynomials in r^2, of the fields divided by
+/// r where odd.
+#[must_use]
+pub fn weights_off_axis(r: f64, radii: &[f64], i: usize) -> Six {
+    let weight = lagrange(|j| radii[j] * radii[j], radii.len(), i, r * r);
+    FIELDS.map(|field| match field.is_odd_in_r() {
+        true => weight * (r / radii[i]),
+        false => weight,
+    })
+}
+
 fn combine(r: f64, radii: &[f64], values: &[Estimate]) -> (Six, Six) {
     let (mut sum, mut error) = (Six::default(), Six::default());
     for (i, estimate) in values.iter().enumerate() {
-        let others = radii.iter().enumerate().filter(|&(j, _)| j != i);
-        let weight: f64 = others
-            .map(|(_, other)| (r * r - other * other) / (radii[i] * radii[i] - other * other))
-            .product();
-        for (f, field) in FIELDS.into_iter().enumerate() {
-            let parity = if field.is_odd_in_r() {
-                r / radii[i]
-            } else {
-                1.0
-            };
-            sum[f] += weight * parity * estimate.value[f];
-            error[f] += (weight * parity).abs() * estimate.error[f];
+        for (f, weight) in weights_off_axis(r, radii, i).into_iter().enumerate() {
+            sum[f] += weight * estimate.value[f];
+            error[f] += weight.abs() * estimate.error[f];
         }
     }
     (sum, error)

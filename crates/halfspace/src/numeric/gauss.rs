@@ -148,17 +148,6 @@ pub fn legendre(n: usize, x: f64) -> (f64, f64) {
     (current, slope)
 }
 
-/// A series in Chebyshev's polynomials at x in [-1, 1], by Clenshaw's recurrence.
-#[must_use]
-#[inline]
-pub fn chebyshev(series: &[f64], x: f64) -> f64 {
-    let (mut last, mut before) = (0.0, 0.0);
-    for &coefficient in series[1..].iter().rev() {
-        (last, before) = (2.0 * x * last - before + coefficient, last);
-    }
-    x * last - before + series[0]
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -1,7 +1,7 @@
 //! Functions of time as Chebyshev series on the panels of a zone.
 
 use super::zone::{Zone, panel_ends, panel_of};
-use crate::numeric::gauss;
+use crate::numeric::polynomial::chebyshev;
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::OnceLock;
 
@@ -36,7 +36,7 @@ impl Curve {
         let u = (2.0 * angle / FRAC_PI_2 - from - to) / (to - from);
         let ends = [from, to].map(|fraction| fraction * FRAC_PI_2);
         let series = self.series[panel].get_or_init(|| fit(ends, |angles| f(panel, angles)));
-        gauss::chebyshev(&series[which], u)
+        chebyshev(&series[which], u)
     }
 }
 

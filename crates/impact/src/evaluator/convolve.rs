@@ -45,7 +45,7 @@ impl Convolver {
     /// Fields are wanted at all samples.
     #[must_use]
     pub fn new(force: &[f64]) -> Self {
-        Self::at(force, (0..force.len()).collect())
+        Self::from_base(0.0, force, (0..force.len()).collect())
     }
 
     /// As [`Convolver::new`], with the summation method given.
@@ -58,12 +58,7 @@ impl Convolver {
         convolver
     }
 
-    /// Fields are wanted at some samples, ascending.
-    pub(crate) fn at(force: &[f64], wanted: Vec<usize>) -> Self {
-        Self::from_base(0.0, force, wanted)
-    }
-
-    /// The same of a force that was `base` for long before.
+    /// Fields are wanted at some samples, ascending, of a force that was `base` for long before.
     pub(crate) fn from_base(base: f64, force: &[f64], wanted: Vec<usize>) -> Self {
         let rise = rises(base, force);
         let live = rise.iter().rposition(|&d| d != 0.0).map_or(0, |i| i + 1);
@@ -185,7 +180,7 @@ mod tests {
             .map(|i| (f64::from(i) * 0.02).sin().max(0.0))
             .collect();
         for wanted in [(0..300).collect::<Vec<_>>(), vec![0, 7, 150, 299]] {
-            let mut convolver = Convolver::at(&force, wanted);
+            let mut convolver = Convolver::from_base(0.0, &force, wanted);
             convolver.transform = Some(Transform::new(&convolver.rise, 1024));
             let b = convolver.fields(&[1.0; 6], &averages);
             convolver.transform = None;

@@ -16,6 +16,7 @@
 //! Theory: `docs/theory.md` (T60).
 
 use crate::excitation::PressureRadius;
+use halfspace::lagrange;
 use std::f64::consts::PI;
 
 /// Radii over the largest, with the polynomials that share the load out.
@@ -140,11 +141,8 @@ impl Discs {
             return [1.0, 0.0];
         }
         if self.omitted.is_some() {
-            let squares = self.radii.iter().map(|b| b * b).enumerate();
-            let own = self.radii[k] * self.radii[k];
-            let others = squares.filter(|&(j, _)| j != k);
-            let share = others.map(|(_, other)| (square - other) / (own - other));
-            return [share.product(), 0.0];
+            let own = |j: usize| self.radii[j] * self.radii[j];
+            return [lagrange(own, count, k, square), 0.0];
         }
         let x = (2.0 * square - 1.0 - self.least) / (1.0 - self.least);
         let node = (PI * (2 * k + 1) as f64 / (2 * count) as f64).cos();

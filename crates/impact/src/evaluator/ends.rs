@@ -12,7 +12,7 @@
 //! Theory: `docs/theory.md` (T24).
 
 use super::projection::Projection;
-use halfspace::{Six, Trace, gauss};
+use halfspace::{Six, Trace, chebyshev, gauss};
 use lookup::Moments;
 use std::f64::consts::PI;
 use std::ops::Range;
@@ -134,7 +134,7 @@ impl Part {
     fn slopes(&self, x: f64) -> [f64; 2] {
         let [low, high] = self.roots;
         let y = (2.0 * x - low - high) / (high - low);
-        self.series.map(|series| gauss::chebyshev(&series, y))
+        self.series.each_ref().map(|series| chebyshev(series, y))
     }
 
     /// Adds the integrals over some of the past at a time; the trace has its times in `unit_s`.

@@ -281,10 +281,13 @@ impl<'a> Forcing<'a> {
                 let left = self.omitted(discs, k, run);
                 Some(Sampled::new(0.0, &left, &nodes, (needed, 1.0)))
             }
-            PressureRadius::Following { .. } if discs.radii.len() == 1 => Some(Sampled {
-                convolver: Convolver::at(&self.left_out(discs.radii[0], run), needed.clone()),
-                projection: Projection::default(),
-            }),
+            PressureRadius::Following { .. } if discs.radii.len() == 1 => {
+                let left = self.left_out(discs.radii[0], run);
+                Some(Sampled {
+                    convolver: Convolver::from_base(0.0, &left, needed.clone()),
+                    projection: Projection::default(),
+                })
+            }
             PressureRadius::Following { .. } => Some(of(1, 1e-3)),
         };
         let mut run_zones = Vec::new();

@@ -51,8 +51,6 @@ pub(crate) struct Asked<'a> {
     pub(crate) wanted: &'a [usize],
     /// Beside the six fields.
     pub(crate) quantities: &'a [Quantity],
-    /// Young's modulus in Pa and Poisson's ratio.
-    pub(crate) elastic: [f64; 2],
     pub(crate) tolerance: f64,
     /// Who is told of each point.
     pub(crate) watch: &'a (dyn Fn() + Sync),
@@ -170,7 +168,7 @@ impl<'a> Evaluator<'a> {
     }
 
     fn of_stresses(&self, quantity: Quantity, fields: &[Trace]) -> Trace {
-        let (stresses, elastic) = ([2, 3, 4, 5], self.asked.elastic);
+        let (stresses, elastic) = ([2, 3, 4, 5], self.asked.excitation.elastic);
         let of = |i: usize| quantity.of(stresses.map(|f| fields[f].samples[i]), elastic);
         Trace {
             samples: (0..fields[2].samples.len()).map(of).collect(),

@@ -17,7 +17,7 @@
 use super::at_rest::{static_si, units_si};
 use crate::error::ImpactError;
 use crate::excitation::{Excitation, PressureRadius};
-use halfspace::{FIELDS, Kernel, Profile, Six, gauss};
+use halfspace::{Kernel, Profile, Six, gauss, weights_off_axis};
 use std::f64::consts::PI;
 use std::ops::Range;
 
@@ -232,18 +232,9 @@ impl<'a> Past<'a> {
         let radii: Vec<f64> = (1..=self.radii).map(|i| step_m * i as f64).collect();
         let mut sum = Six::default();
         for (i, &radius) in radii.iter().enumerate() {
-            let others = radii.iter().enumerate().filter(|&(j, _)| j != i);
-            let weight: f64 = others
-                .map(|(_, x)| (r_m * r_m - x * x) / (radius * radius - x * x))
-                .product();
             let found = self.off_axis(least, [radius, z_m], time_s, span_s)?;
-            for (f, field) in FIELDS.into_iter().enumerate() {
-                let parity = if field.is_odd_in_r() {
-                    r_m / radius
-                } else {
-                    1.0
-                };
-                sum[f] += weight * parity * found[f];
+            for (f, weight) in weights_off_axis(r_m, &radii, i).into_iter().enumerate() {
+                sum[f] += weight * found[f];
             }
         }
         Ok(sum)

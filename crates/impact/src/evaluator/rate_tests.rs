@@ -94,7 +94,6 @@ fn worst(order: Derivative, duration: f64, place: [f64; 2], tolerance: f64) -> [
         grid: &grid,
         wanted: &all,
         quantities: &quantities,
-        elastic: [1.0, 0.3],
         tolerance,
         watch: &|| {},
     });

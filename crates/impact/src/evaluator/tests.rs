@@ -117,7 +117,6 @@ fn at(
         grid,
         wanted,
         quantities: &[],
-        elastic: [1.0, 0.3],
         tolerance,
         watch: &|| {},
     });

@@ -101,7 +101,6 @@ impl Fields<'_> {
             grid: &grid,
             wanted: &all,
             quantities: &[],
-            elastic: [f64::NAN; 2],
             tolerance: self.tolerance,
             watch: &|| {},
         })?;

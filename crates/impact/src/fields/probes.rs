@@ -229,14 +229,12 @@ pub(crate) fn peaks_at_probes(
     Forecast::new(scene, excitation, &grid, Some(source), 1.0)?.check(scene, MOST_BYTES)?;
     let time_s: Vec<f64> = grid.times_s().collect();
     let wanted: Vec<usize> = (0..time_s.len()).collect();
-    let material = scene.target.material();
     let evaluator = Evaluator::new(Asked {
         excitation,
         source,
         grid: &grid,
         wanted: &wanted,
         quantities: &scene.quantities,
-        elastic: [material.youngs_modulus_pa, material.poisson_ratio],
         tolerance: scene.settings.tolerance,
         watch: &|| {},
     })?;

@@ -67,34 +67,72 @@ impl Moments {
     }
 }
 
-/// The numbers of a [`Series`], each of shape (field, time) or (field, term).
+/// The numbers of a [`Series`], cell by cell and term by term.
 ///
 /// Moments and curvatures may be left empty where only [`Smoothness::Linear`] is asked for.
 #[derive(Debug, Clone, Default)]
 pub struct Numbers {
     /// Averages over the cells.
-    pub averages: Vec<f64>,
+    pub averages: Vec<Six>,
     /// First moments of the cells.
-    pub moments: Vec<f64>,
+    pub moments: Vec<Six>,
     /// Second moments of the cells.
-    pub curvatures: Vec<f64>,
+    pub curvatures: Vec<Six>,
     /// Coefficients of the tail.
-    pub tail: Vec<f64>,
+    pub tail: Vec<Six>,
+}
+
+impl Numbers {
+    /// All lists, in the order of [`Slice::lists`](crate::Slice::lists).
+    pub fn lists_mut(&mut self) -> [&mut Vec<Six>; 4] {
+        let Self {
+            averages,
+            moments,
+            curvatures,
+            tail,
+        } = self;
+        [averages, moments, curvatures, tail]
+    }
+
+    /// The same to read.
+    #[must_use]
+    pub fn lists(&self) -> [&[Six]; 4] {
+        [&self.averages, &self.moments, &self.curvatures, &self.tail]
+    }
+
+    /// Rounds them to what a table holds.
+    pub fn round(&mut self) {
+        for field in 0..FIELDS {
+            let quantum = resolution(&self.averages, field);
+            for six in &mut self.averages {
+                six[field] = (six[field] / quantum).round() * quantum;
+            }
+        }
+        for value in self.lists_mut().into_iter().flatten().flatten() {
+            *value = f64::from(*value as f32);
+        }
+    }
+}
+
+/// Step to which averages are stored: that of single precision at the largest of the field in time.
+///
+/// All averages share the absolute resolution of the largest and so compress better.
+fn resolution(averages: &[Six], field: usize) -> f64 {
+    /// Bits after the leading one.
+    const BITS: i32 = 24;
+    let most = averages
+        .iter()
+        .fold(0.0_f64, |most, six| most.max(six[field].abs()));
+    most.max(f64::from(f32::MIN_POSITIVE)).log2().floor().exp2() * 0.5_f64.powi(BITS)
 }
 
 impl Series {
     /// A series from its numbers; `width` is that of a cell, and the tail follows after `cells` of them.
     #[must_use]
     pub fn new(width: f64, cells: usize, numbers: Numbers) -> Self {
-        let lists = [numbers.averages, numbers.moments, numbers.curvatures];
-        let by_cell = |list: Vec<f64>| -> Vec<Six> {
-            let count = list.len() / FIELDS;
-            let cell = |k| std::array::from_fn(|field| list[field * count + k]);
-            (0..count).map(cell).collect()
-        };
         Self {
             width,
-            cells: lists.map(by_cell),
+            cells: [numbers.averages, numbers.moments, numbers.curvatures],
             tail: Tail::new(cells as f64 * width, &numbers.tail),
         }
     }
@@ -275,16 +313,14 @@ mod tests {
     /// R = t^2 in cells of width 1, no tail: moments of wide cells against the integrals.
     #[test]
     fn moments_of_wide_cells_are_those_of_the_function() {
-        let per_field = |f: fn(f64) -> f64| -> Vec<f64> {
-            (0..FIELDS)
-                .flat_map(|_| (0..16).map(move |j| f(f64::from(j) + 0.5)))
-                .collect()
+        let per_field = |f: fn(f64) -> f64| -> Vec<Six> {
+            (0..16).map(|j| [f(f64::from(j) + 0.5); FIELDS]).collect()
         };
         let numbers = Numbers {
             averages: per_field(|t| t * t + 1.0 / 12.0),
             moments: per_field(|t| t / 6.0),
             curvatures: per_field(|_| 1.0 / 180.0),
-            tail: vec![0.0; FIELDS],
+            tail: vec![[0.0; FIELDS]],
         };
         let series = Series::new(1.0, 16, numbers);
         // any width, also where edges cut table cells

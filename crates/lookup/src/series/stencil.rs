@@ -1,5 +1,7 @@
 //! Lagrange interpolation on one axis, with the mirror image across r = 0.
 
+use halfspace::lagrange;
+
 /// Largest number of points of a stencil.
 pub(crate) const MAX_POINTS: usize = 8;
 
@@ -46,7 +48,7 @@ impl Stencil {
             odd: [0.0; MAX_POINTS],
         };
         for k in 0..points {
-            let weight = weight(|j| nodes[first + j], points, k, x);
+            let weight = lagrange(|j| nodes[first + j], points, k, x);
             (stencil.node[k], stencil.even[k], stencil.odd[k]) = (first + k, weight, weight);
         }
         stencil
@@ -78,7 +80,7 @@ impl Stencil {
         };
         for k in 0..points {
             let index = first + k as isize;
-            let weight = weight(position, points, k, x);
+            let weight = lagrange(position, points, k, x);
             let slot = index.unsigned_abs() - base;
             stencil.node[slot] = index.unsigned_abs();
             stencil.even[slot] += weight;
@@ -105,15 +107,6 @@ impl Stencil {
     pub fn odd(&self) -> &[f64] {
         &self.odd[..self.points]
     }
-}
-
-/// Lagrange's basis polynomial of point `k` at `x`.
-fn weight(position: impl Fn(usize) -> f64, points: usize, k: usize, x: f64) -> f64 {
-    let own = position(k);
-    (0..points)
-        .filter(|&j| j != k)
-        .map(|j| (x - position(j)) / (own - position(j)))
-        .product()
 }
 
 #[cfg(test)]

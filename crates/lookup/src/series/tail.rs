@@ -24,13 +24,12 @@ pub(super) struct Tail {
 }
 
 impl Tail {
-    /// The tail after `time_end` with the coefficients c_k, field by field.
-    pub(super) fn new(time_end: f64, coefficients: &[f64]) -> Self {
+    /// The tail after `time_end` with the coefficients c_k.
+    pub(super) fn new(time_end: f64, coefficients: &[Six]) -> Self {
         // int T_k(x) dx with x = 2u - 1, du = dx/2: G = sum_k C_k T_k, the constant is irrelevant.
-        let n = coefficients.len() / FIELDS;
         let term = |k: usize| -> Six {
             std::array::from_fn(|f| {
-                let c = |k: usize| if k < n { coefficients[f * n + k] } else { 0.0 };
+                let c = |k: usize| coefficients.get(k).map_or(0.0, |c| c[f]);
                 match k {
                     0 => 0.0,
                     1 => 0.25 * (2.0 * c(0) - c(2)),
@@ -40,7 +39,7 @@ impl Tail {
         };
         Self {
             time_end,
-            terms: (0..=n).map(term).collect(),
+            terms: (0..=coefficients.len()).map(term).collect(),
         }
     }
 
@@ -90,8 +89,8 @@ mod tests {
     fn a_power_law_is_integrated_exactly() {
         // R = u^2 (1 + 3 u), times the number of the field: g = 2.5 T_0 + 1.5 T_1,
         // int R dt = t_end [u + 1.5 u^2] between the ends.
-        let each = (0..6).flat_map(|f| [2.5 * f64::from(f), 1.5 * f64::from(f)]);
-        let tail = Tail::new(20.0, &each.collect::<Vec<f64>>());
+        let each = [2.5, 1.5].map(|c| std::array::from_fn(|f| c * f as f64));
+        let tail = Tail::new(20.0, &each);
         for (from, to) in [(20.0, 20.1), (25.0, 31.0), (400.0, 400.1), (1e4, 2e4)] {
             let (a, b) = (20.0 / from, 20.0 / to);
             let exact = 20.0 * ((a - b) + 1.5 * (a * a - b * b)) / (to - from);
@@ -103,7 +102,7 @@ mod tests {
 
     #[test]
     fn averages_of_parts_make_the_average_of_the_whole() {
-        let tail = Tail::new(30.0, &[0.3, -0.2, 0.1, 0.05, -0.01].repeat(6));
+        let tail = Tail::new(30.0, &[0.3, -0.2, 0.1, 0.05, -0.01].map(|c| [c; 6]));
         let part = |i: u32| average(&tail, 30.0 + f64::from(i), 31.0 + f64::from(i))[3];
         let parts: f64 = (0..8).map(part).sum();
         assert!((parts / 8.0 - average(&tail, 30.0, 38.0)[3]).abs() < 1e-13);

@@ -292,18 +292,8 @@ fn sine(t: f64, length: f64) -> [f64; 2] {
 }
 
 /// Cells corrected for the force's curvature from the numbers of one point.
-pub(crate) fn series(point: &tabulator::PointKernels, width: f64, count: usize) -> Vec<Six> {
-    let by_field = |values: &[Six]| {
-        let field = |f| values.iter().map(move |v| v[f]);
-        ALL.into_iter().flat_map(field).collect()
-    };
-    let numbers = lookup::Numbers {
-        averages: by_field(&point.averages),
-        moments: by_field(&point.moments),
-        curvatures: by_field(&point.curvatures),
-        tail: by_field(&point.tail),
-    };
-    let whole = lookup::Series::new(width, point.averages.len(), numbers);
+pub(crate) fn series(point: &lookup::Numbers, width: f64, count: usize) -> Vec<Six> {
+    let whole = lookup::Series::new(width, point.averages.len(), point.clone());
     let mut cells = vec![[0.0; 6]; count];
     whole.fill(Smooth, 0, &mut cells);
     cells

@@ -2,9 +2,7 @@
 
 use crate::error::BuildError;
 use crate::grid::Grid;
-use crate::point::PointKernels;
-use halfspace::Six;
-use lookup::{BadTable, Content, ContentError, Slice, Table};
+use lookup::{BadTable, Content, ContentError, Numbers, Slice, Table};
 use lookup::{content_hash, damaged_patches, schema};
 use rayon::prelude::*;
 use std::path::Path;
@@ -137,7 +135,7 @@ fn compare(
     content: &Content,
     slice: &Slice,
     node: usize,
-    exact: &PointKernels,
+    exact: &Numbers,
     limit: f64,
 ) -> (f64, Vec<String>) {
     let of_moments = if content.origin.numbers_revision == 1 {
@@ -145,12 +143,8 @@ fn compare(
     } else {
         ALLOWED_OF_MOMENTS
     };
-    let lists: [(&[Six], f64); 4] = [
-        (&exact.averages, limit),
-        (&exact.moments, of_moments),
-        (&exact.curvatures, of_moments),
-        (&exact.tail, limit),
-    ];
+    let limits = [limit, of_moments, of_moments, limit];
+    let lists = exact.lists().into_iter().zip(limits);
     let (mut largest, mut bad) = (0.0_f64, Vec::new());
     for ((dataset, values), (exact_values, limit)) in slice.lists().into_iter().zip(lists) {
         let each = exact_values.len();

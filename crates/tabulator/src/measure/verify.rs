@@ -64,11 +64,10 @@ fn exact(content: &Content, width: f64, row: &Row, k: usize) -> Series {
         content.slices[0].cells,
         content.slices[0].tail_terms(content.r.len() * content.z.len()),
     );
-    let part = |values: &[f32], length: usize| -> Vec<f64> {
-        values[k * 6 * length..(k + 1) * 6 * length]
-            .iter()
-            .map(|&x| f64::from(x))
-            .collect()
+    let part = |values: &[f32], length: usize| -> Vec<Six> {
+        let values = &values[k * 6 * length..(k + 1) * 6 * length];
+        let six = |i| std::array::from_fn(|f| f64::from(values[f * length + i]));
+        (0..length).map(six).collect()
     };
     let [averages, moments, curvatures, tail] = row;
     let numbers = Numbers {

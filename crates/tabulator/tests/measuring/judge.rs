@@ -157,7 +157,7 @@ impl Values {
     /// Averages and moments of the cells, and the cells that a smooth force needs.
     fn exact_cells(&self) -> Vec<Six> {
         let stored = self.firsts.len() - 1;
-        let mut numbers = [(); 3].map(|()| vec![0.0; 6 * stored]);
+        let mut numbers = [(); 3].map(|()| vec![[0.0; 6]; stored]);
         for j in 0..stored {
             for &(s, weight, value) in &self.nodes[self.firsts[j]..self.firsts[j + 1]] {
                 let place = s / self.width - (j as f64 + 0.5);
@@ -169,7 +169,7 @@ impl Values {
                 ];
                 for (list, factor) in numbers.iter_mut().zip(factors) {
                     for f in 0..6 {
-                        list[f * stored + j] += factor * value[f];
+                        list[j][f] += factor * value[f];
                     }
                 }
             }
@@ -180,7 +180,7 @@ impl Values {
             moments,
             curvatures,
             // the cells do not reach it
-            tail: vec![0.0; 6],
+            tail: vec![[0.0; 6]],
         };
         let mut cells = vec![[0.0; 6]; self.cells];
         Series::new(self.width, stored, numbers).fill(Smoothness::Smooth, 0, &mut cells);

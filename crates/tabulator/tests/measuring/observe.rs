@@ -1,7 +1,7 @@
 //! Whether the error estimate of a table is true: random places and pulses against the exact kernels.
 
 use super::uniform;
-use lookup::{Numbers, PulseSum, Series, Smoothness, Table};
+use lookup::{PulseSum, Series, Smoothness, Table};
 use rayon::prelude::*;
 use tabulator::{BuildError, Grid};
 
@@ -92,18 +92,7 @@ fn at(
 
 fn exact(table: &Table, grid: &Grid, nu: f64, r: f64, z: f64) -> Result<Series, BuildError> {
     let point = grid.point(nu)?.compute(r, z)?;
-    let flat = |values: &[[f64; 6]]| {
-        (0..6)
-            .flat_map(|f| values.iter().map(move |six| six[f]))
-            .collect::<Vec<f64>>()
-    };
-    let numbers = Numbers {
-        averages: flat(&point.averages),
-        moments: flat(&point.moments),
-        curvatures: flat(&point.curvatures),
-        tail: flat(&point.tail),
-    };
-    Ok(Series::new(table.cell_width(nu)?, grid.cells()?, numbers))
+    Ok(Series::new(table.cell_width(nu)?, grid.cells()?, point))
 }
 
 fn compare(

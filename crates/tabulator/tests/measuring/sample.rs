@@ -4,7 +4,7 @@ use super::uniform;
 use halfspace::FIELDS;
 use lookup::{Numbers, PulseSum, Series, Smoothness, Stencil, locate};
 use rayon::prelude::*;
-use tabulator::{BuildError, Grid, PointKernels, PointPlan};
+use tabulator::{BuildError, Grid, PointPlan};
 
 /// Places: half of them anywhere, half near the disc edge or the surface.
 const PLACES: u64 = 28;
@@ -118,26 +118,20 @@ impl Sum {
         let cells = grid.cells()?;
         Ok(Self {
             numbers: Numbers {
-                averages: vec![0.0; 6 * cells],
-                moments: vec![0.0; 6 * cells],
-                curvatures: vec![0.0; 6 * cells],
-                tail: vec![0.0; 6 * grid.tail_terms],
+                averages: vec![[0.0; 6]; cells],
+                moments: vec![[0.0; 6]; cells],
+                curvatures: vec![[0.0; 6]; cells],
+                tail: vec![[0.0; 6]; grid.tail_terms],
             },
         })
     }
 
-    fn added(mut self, point: &PointKernels, [even, odd]: [f64; 2]) -> Self {
-        for (sum, values) in [
-            (&mut self.numbers.averages, &point.averages),
-            (&mut self.numbers.moments, &point.moments),
-            (&mut self.numbers.curvatures, &point.curvatures),
-            (&mut self.numbers.tail, &point.tail),
-        ] {
+    fn added(mut self, point: &Numbers, [even, odd]: [f64; 2]) -> Self {
+        for (sum, values) in self.numbers.lists_mut().into_iter().zip(point.lists()) {
             for (f, field) in FIELDS.iter().enumerate() {
                 let weight = if field.is_odd_in_r() { odd } else { even };
-                let row = &mut sum[f * values.len()..(f + 1) * values.len()];
-                for (s, six) in row.iter_mut().zip(values) {
-                    *s += weight * six[f];
+                for (s, six) in sum.iter_mut().zip(values) {
+                    s[f] += weight * six[f];
                 }
             }
         }
