@@ -62,7 +62,7 @@ fn a_section_shows_its_waves_without_being_told() {
     let path = section(folder.path(), 120, "quantities = [\"velocity_z\"]");
     let (figure, notes) = compose(std::slice::from_ref(&path), &Request::default()).unwrap();
     assert_eq!(figure.panels.len(), 4);
-    assert!(notes.is_empty(), "{:?}", notes);
+    assert!(notes.is_empty(), "{notes:?}");
     let texts = texts(&figure);
     for wanted in ["P", "S", "R"] {
         let count = texts.iter().filter(|text| *text == wanted).count();
@@ -109,7 +109,7 @@ fn velocities_are_those_of_the_file_or_none() {
         "{said}"
     );
     let (figure, notes) = compose(&[without], &Request::default()).unwrap();
-    assert!(notes[0].contains("quantities"), "{:?}", notes);
+    assert!(notes[0].contains("quantities"), "{notes:?}");
     assert_eq!(images(&figure)[0].colours.quantity, "axial displacement");
 }
 

@@ -131,7 +131,11 @@ impl<'a> Sum<'a> {
             PressureRadius::Following { .. } => Six::default(),
         };
         let has_zones = force.runs.iter().any(|run| !run.zones.is_empty());
-        let open = has_zones.then(|| open(&cells.moments)).unwrap_or_default();
+        let open = if has_zones {
+            open(&cells.moments)
+        } else {
+            Vec::new()
+        };
         let mut first = 0;
         for (run, needed) in force.runs.iter().zip(&self.forcing.needed) {
             let own = run.force.fields(&rest, cells, needed);

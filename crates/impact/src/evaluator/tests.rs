@@ -183,11 +183,11 @@ fn discs_agree_with_frequency_and_wavenumber_integrals() {
             let mut wanted = wanted;
             wanted.dedup();
             let point = at((&excitation, &source), &grid, &wanted, tolerance, row.place);
-            for f in 0..6 {
+            for (f, found) in point.iter().enumerate() {
                 if row.peaks[f] > 0.0 {
-                    let error = (point[f].samples.last().unwrap() - row.fields[f]).abs();
+                    let error = (found.samples.last().unwrap() - row.fields[f]).abs();
                     if error > tolerance * row.peaks[f]
-                        || error > point[f].error + row.error * row.peaks[f]
+                        || error > found.error + row.error * row.peaks[f]
                     {
                         println!(
                             "T {} nu {} at {:?}, t {}: field {f} {:.1e}, estimated {:.1e}",
@@ -196,12 +196,12 @@ fn discs_agree_with_frequency_and_wavenumber_integrals() {
                             row.place,
                             row.time,
                             error / row.peaks[f],
-                            point[f].error / row.peaks[f]
+                            found.error / row.peaks[f]
                         );
                     }
-                    missed += usize::from(error > point[f].error + row.error * row.peaks[f]);
+                    missed += usize::from(error > found.error + row.error * row.peaks[f]);
                     errors.push(error / row.peaks[f]);
-                    ratios.push(point[f].error / error.max(1e-300));
+                    ratios.push(found.error / error.max(1e-300));
                 }
             }
         }

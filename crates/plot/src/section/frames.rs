@@ -268,7 +268,7 @@ impl Quantity {
             }
             (None, None, _) => {
                 let known = stored.iter().map(|quantity| quantity.name.as_str());
-                let derived = of_stresses().map(|of| of.name());
+                let derived = of_stresses().map(|of| -> &str { of.name() });
                 let all = known.chain(derived).chain(["displacement"]);
                 return Err(PlotError::unknown(path, name, name, all));
             }
