@@ -221,14 +221,16 @@ mod tests {
             }
         });
         let cells = samples.len() + lookup::BEYOND;
-        let mut moments = Moments::zero(cells);
+        let mut moments = Moments::with_capacity(cells);
         for j in 0..cells {
+            let mut cell = [[0.0; 6]; 3];
             for (t, weight) in gauss::rule(4).on(j as f64, (j + 1) as f64) {
                 let s = t - j as f64 - 0.5;
-                moments.averages[j][0] += weight * rest(t);
-                moments.first[j][0] += weight * s * rest(t);
-                moments.second[j][0] += weight * (s * s - 1.0 / 12.0) * rest(t);
+                cell[0][0] += weight * rest(t);
+                cell[1][0] += weight * s * rest(t);
+                cell[2][0] += weight * (s * s - 1.0 / 12.0) * rest(t);
             }
+            moments.push(cell);
         }
         let projection = Projection::new(&samples, &rises, &nodes, 1e-15);
         let wanted: Vec<usize> = (0..samples.len()).collect();

@@ -111,12 +111,8 @@ impl KernelSource {
                 let end = step * count as f64;
                 let trace = kernel.trace_under(r, z, end, (tolerance, &rise));
                 let trace = trace.map_err(domain)?;
-                let mut moments = Moments::zero(count);
-                let keep = |j, [average, first, second]: [Six; 3]| {
-                    moments.averages[j] = average;
-                    moments.first[j] = first;
-                    moments.second[j] = second;
-                };
+                let mut moments = Moments::with_capacity(count);
+                let keep = |_, cell| moments.push(cell);
                 trace.for_each_cell(step, count, keep).map_err(domain)?;
                 let static_part = kernel.static_field(r, z).map_err(domain)?;
                 // the force rises and falls once

@@ -47,14 +47,22 @@ pub struct Moments {
 }
 
 impl Moments {
-    /// Of a field that is zero.
+    /// None yet, with room for so many cells.
     #[must_use]
-    pub fn zero(count: usize) -> Self {
+    pub fn with_capacity(count: usize) -> Self {
+        let [averages, first, second] = [(); 3].map(|()| Vec::with_capacity(count));
         Self {
-            averages: vec![[0.0; FIELDS]; count],
-            first: vec![[0.0; FIELDS]; count],
-            second: vec![[0.0; FIELDS]; count],
+            averages,
+            first,
+            second,
         }
+    }
+
+    /// Adds the next cell.
+    pub fn push(&mut self, [average, first, second]: [Six; 3]) {
+        self.averages.push(average);
+        self.first.push(first);
+        self.second.push(second);
     }
 
     /// The cells but for the last [`smooth::BEYOND`], with what their moments are worth under a smooth force.
@@ -175,12 +183,8 @@ impl Series {
         } else {
             part
         };
-        let mut found = Moments::zero(count);
-        self.dispatch(part, count, |j, [average, first, second]| {
-            found.averages[j] = average;
-            found.first[j] = first;
-            found.second[j] = second;
-        });
+        let mut found = Moments::with_capacity(count);
+        self.dispatch(part, count, |_, cell| found.push(cell));
         found
     }
 
