@@ -135,6 +135,7 @@ fn finite_part(n: usize) -> Rule {
 
 /// Legendre polynomial of degree n and its derivative at |x| < 1.
 #[must_use]
+#[inline]
 pub fn legendre(n: usize, x: f64) -> (f64, f64) {
     let (mut previous, mut current) = (0.0, 1.0);
     for k in 1..=n {
