@@ -262,8 +262,9 @@ impl Series {
                 let whole = over([&at[0], &at[thirds.len()]], [0.0, 3.0]);
                 own[0] = whole.map(|a| a * duration / nominal);
                 if N > 1 {
-                    let [a, b, c] =
-                        [0, 1, 2].map(|i| over([&at[i], &at[i + 1]], [i as f64, (i + 1) as f64]));
+                    let a = over([&at[0], &at[1]], [0.0, 1.0]);
+                    let b = over([&at[1], &at[2]], [1.0, 2.0]);
+                    let c = over([&at[2], &at[3]], [2.0, 3.0]);
                     own[1] = std::array::from_fn(|f| (c[f] - a[f]) / 8.0);
                     own[2] = std::array::from_fn(|f| (a[f] - 2.0 * b[f] + c[f]) / 40.0);
                 }
