@@ -42,6 +42,15 @@ impl Folder {
     /// # Errors
     /// [`OutputError`] with the file that failed.
     pub fn write(&self, files: Vec<(String, Vec<u8>)>) -> Result<(), OutputError> {
+        self.write_by(files, |part, bytes| std::fs::write(part, bytes))
+    }
+
+    /// The same, with how a file is written.
+    fn write_by(
+        &self,
+        files: Vec<(String, Vec<u8>)>,
+        write: impl Fn(&Path, &[u8]) -> std::io::Result<()>,
+    ) -> Result<(), OutputError> {
         let mut claimed = Vec::new();
         for (name, bytes) in files {
             let output = Output::claim(&self.path.join(name), Existing::Replace)?;
@@ -49,7 +58,7 @@ impl Folder {
         }
         let mut staged: Vec<Staged<'_>> = Vec::new();
         for (output, bytes) in &claimed {
-            staged.push(output.stage(|part| std::fs::write(part, bytes))?);
+            staged.push(output.stage(|part| write(part, bytes))?);
         }
         for file in staged {
             file.commit()?;
@@ -100,6 +109,14 @@ mod tests {
         let file = |name: &str| (name.to_owned(), b"1".to_vec());
         let refused = folder.write(vec![file("a.txt"), file("missing/b.txt")]);
         assert!(matches!(refused, Err(OutputError::Unwritable { .. })));
+        assert!(!inside.join("a.txt").exists());
+        // the second of them cannot be written when the first one is
+        let failing = vec![file("a.txt"), ("b.txt".to_owned(), Vec::new())];
+        let refused = folder.write_by(failing, |part, bytes| match bytes {
+            [] => Err(std::io::Error::other("no")),
+            bytes => std::fs::write(part, bytes),
+        });
+        assert!(matches!(refused, Err(OutputError::Failed { .. })));
         assert!(!inside.join("a.txt").exists());
         folder.write(vec![file("a.txt")]).unwrap();
         assert_eq!(std::fs::read_to_string(inside.join("a.txt")).unwrap(), "1");
