@@ -71,13 +71,9 @@ pub fn absorb(cells: &mut [Six], moments: &[Six], curvatures: &[Six]) {
 #[must_use]
 pub fn absorbed(rises: &[f64], cell: isize, own: usize) -> [f64; 2] {
     let (mut slope, mut bend) = (0.0, 0.0);
-    // the five rises, the newest first, as far as there are any
-    let newest = (cell + own as isize + 1) as usize;
-    let around: [f64; REACH] = match rises.get(newest.wrapping_sub(REACH)..newest) {
-        Some(inside) => std::array::from_fn(|i| inside[REACH - 1 - i]),
-        None => std::array::from_fn(|i| *rises.get(newest.wrapping_sub(i + 1)).unwrap_or(&0.0)),
-    };
-    for (i, rise) in around.into_iter().enumerate() {
+    for i in 0..REACH {
+        let place = usize::try_from(cell + own as isize - i as isize).ok();
+        let rise = place.and_then(|m| rises.get(m)).copied().unwrap_or(0.0);
         slope += SLOPE[own][i] * rise;
         bend += 0.5 * CURVATURE[own][i] * rise;
     }

@@ -51,17 +51,14 @@ impl Tail {
             let time = |i| times.get(i).unwrap_or(&self.time_end);
             let x: [f64; LANES] = std::array::from_fn(|i| 2.0 * (self.time_end / time(i)) - 1.0);
             for f in 0..FIELDS {
-                let ([mut b1, mut b2], mut sum) = ([[0.0; LANES]; 2], [0.0; LANES]);
+                let [mut b1, mut b2] = [[0.0; LANES]; 2];
                 for c in self.terms[1..].iter().rev() {
                     for i in 0..LANES {
                         (b1[i], b2[i]) = (2.0 * x[i] * b1[i] - b2[i] + c[f], b1[i]);
                     }
                 }
-                for i in 0..LANES {
-                    sum[i] = x[i] * b1[i] - b2[i] + self.terms[0][f];
-                }
-                for (found, sum) in found.iter_mut().zip(sum) {
-                    found[f] = sum;
+                for (i, found) in found.iter_mut().enumerate() {
+                    found[f] = x[i] * b1[i] - b2[i] + self.terms[0][f];
                 }
             }
         }
