@@ -14,7 +14,7 @@ use crate::error::DomainError;
 use crate::field::Six;
 use crate::huber;
 use crate::medium::Medium;
-use crate::potentials::closed_form::potentials;
+use crate::potentials::closed_form::of_one;
 use crate::potentials::order::{IMPULSE, STEP};
 use crate::profile::Profile;
 use num_complex::Complex64;
@@ -36,11 +36,11 @@ impl Medium {
 fn by_potentials(medium: &Medium, profile: Profile, r: f64, z: f64) -> Six {
     let nu = medium.poisson_ratio();
     let xi = Complex64::new(z, 0.0);
-    let here = potentials::<STEP>(profile, xi, r);
+    let here = of_one::<STEP>(profile, xi, r);
     let (a3, a2, g3) = (here.a_upper.re, here.a_lower.re, here.g_upper.re);
     // z times the lower orders vanishes on the surface, though they are singular at the edge there
     let (z_a1, z_g2, z_g1) = if z > 0.0 {
-        let below = potentials::<IMPULSE>(profile, xi, r);
+        let below = of_one::<IMPULSE>(profile, xi, r);
         (
             z * below.a_lower.re,
             z * here.g_lower.re,

@@ -6,11 +6,10 @@
 use crate::integral::panels::smallest_ellipse;
 use crate::integral::singularities::Singularities;
 use crate::medium::Medium;
-use crate::numeric::complex::{logarithm, root};
-use crate::numeric::lanes::{Map, Pair};
+use crate::numeric::complex::Complex;
+use crate::numeric::lanes::Map;
 use crate::numeric::scalar::{Real, Scalar};
 use num_complex::Complex64;
-use pulp::Simd;
 
 /// Singularities of the amplitudes, fixed for a medium.
 #[derive(Debug, Clone)]
@@ -53,7 +52,7 @@ impl Stretch {
             .min_by(|a, b| a.norm_sqr().total_cmp(&b.norm_sqr()));
         let centre = nearest.map_or(0.0, |v| v.re.clamp(0.0, 0.5));
         let ellipse = |stretch: &Self| {
-            let images: Vec<Complex64> = points.iter().map(|&q| stretch.variable(q)).collect();
+            let images: Vec<Complex64> = points.iter().map(|&q| stretch.at(q)).collect();
             smallest_ellipse(&images, [0.0, 1.0])
         };
         (-14..=4)
@@ -73,26 +72,18 @@ impl Stretch {
             (e + inverse) * (half * self.rate),
         )
     }
-
-    /// s of a real or complex q.
-    pub(crate) fn variable(&self, q: Complex64) -> Complex64 {
-        let w = (q - self.centre) / self.width;
-        let (right, sign) = if w.re < 0.0 { (-w, -1.0) } else { (w, 1.0) };
-        let sinh = logarithm(right + root(right * right + 1.0));
-        (sign * sinh + self.shift) / self.rate
-    }
 }
 
 impl Map for Stretch {
-    /// As [`Self::variable`].
+    /// s of a real or complex q.
     #[inline(always)]
-    fn at<S: Simd>(&self, q: Pair<S>) -> Pair<S> {
+    fn at<C: Complex>(&self, q: C) -> C {
         let w = (q - self.centre) * (1.0 / self.width);
-        let zero = w.re.constant(0.0);
-        let right = Pair::new(w.re.abs(), w.re.where_below(zero, -w.im, w.im));
-        let sum = right + (right * right + 1.0).root();
-        let sinh = sum.logarithm();
-        let signed = Pair::where_below(w.re, zero, Pair::new(-sinh.re, -sinh.im), sinh);
+        let (re, im) = (w.re(), w.im());
+        let zero = re.constant(0.0);
+        let right = C::new(re.abs(), re.where_below(zero, -im, im));
+        let sinh = (right + (right * right + 1.0).root()).logarithm();
+        let signed = C::where_below(re, zero, sinh * -1.0, sinh);
         (signed + self.shift) * (1.0 / self.rate)
     }
 }
@@ -109,7 +100,7 @@ impl FixedSingularities {
         let mut fast = vec![i, k.sqrt() / (1.0 - i * span.sqrt())];
         let mut slow = vec![i];
         for s in both(i / span.sqrt()) {
-            for c in both(root(1.0 - s * s)) {
+            for c in both((1.0 - s * s).root()) {
                 slow.push(s / (1.0 + c));
             }
         }
@@ -117,16 +108,16 @@ impl FixedSingularities {
             let x2 = zero * k;
             let square = (2.0 * x2 - k) * (2.0 * x2 - k);
             let is_zero = |rest: Complex64| (square + rest).norm() < 1e-6 * k * k;
-            for x in both(root(x2)) {
-                for p in both(root(1.0 - x2)) {
+            for x in both(x2.root()) {
+                for p in both((1.0 - x2).root()) {
                     let u = x / (1.0 + p);
-                    if is_zero(4.0 * x2 * p * root(k - x2)) && (u - 1.0).norm() > REMOVABLE {
+                    if is_zero(4.0 * x2 * p * (k - x2).root()) && (u - 1.0).norm() > REMOVABLE {
                         fast.push(u);
                     }
                 }
             }
-            for p_abs in both(root(x2 - 1.0)) {
-                for y in both(root(k - x2)) {
+            for p_abs in both((x2 - 1.0).root()) {
+                for y in both((k - x2).root()) {
                     let q = p_abs / (span.sqrt() + y);
                     if is_zero(-4.0 * i * x2 * p_abs * y) && q.norm() > REMOVABLE {
                         slow.push(q);
@@ -142,10 +133,10 @@ impl FixedSingularities {
             points.dedup_by(|b, a| (*b - *a).norm() < 1e-9);
         }
         let stretch = Stretch::farthest(&slow);
-        let slow = slow.into_iter().map(|q| stretch.variable(q));
+        let slow = slow.into_iter().map(|q| stretch.at(q));
         Self {
             fast: Singularities::new(fast, Complex64::ZERO, &[1.0]),
-            slow: Singularities::new(slow, stretch.variable(i), &[0.0, 1.0]),
+            slow: Singularities::new(slow, stretch.at(i), &[0.0, 1.0]),
             stretch,
         }
     }

@@ -57,30 +57,40 @@ impl Setting {
     }
 
     /// dx/du and the integrand at the half-angle u.
-    #[inline]
-    pub(crate) fn fast_term<const N: i32>(
+    #[inline(always)]
+    pub(crate) fn fast_term<const N: i32, T: Real>(
         &self,
-        at: Point,
-        wave: Wave,
-        sense: Sense,
-        u: f64,
-        shallow: bool,
-    ) -> (f64, Six) {
+        (at, digits): (Point, f64),
+        (wave, sense): (Wave, Sense),
+        u: T,
+    ) -> (T, [T; 6]) {
         let (x, p, jacobian) = half_angle(u);
         let eta = self.eta(at, wave, sense, x, p);
-        let psi = in_time::<N>(compact::<N>(self.profile, eta, at.r), sense, x);
+        let psi = compact::<N, T>(self.profile, eta, (at.r, digits));
         let amplitudes = spectrum::fast(wave, self.k, x, p);
-        let mut term = amplitudes.fields(&psi, at.r);
-        if shallow {
-            let root = match wave {
-                Wave::P => p,
-                Wave::S => (self.k - x * x).sqrt(),
-            };
-            let (surface, step) = (sense.sign() * at.t / x, at.z * root / x);
-            let (a, g) = shallow::compact_difference(surface, step, eta, at.r);
-            amplitudes.set_traction(&mut term, a, g, at.r);
-        }
-        (jacobian, term)
+        (
+            jacobian,
+            amplitudes.fields(&in_time::<N, T>(psi, sense, x), at.r),
+        )
+    }
+
+    /// Replaces the tractions by those of differences to the surface.
+    pub(crate) fn set_fast_traction(
+        &self,
+        at: Point,
+        (wave, sense): (Wave, Sense),
+        u: f64,
+        term: &mut Six,
+    ) {
+        let (x, p, _) = half_angle(u);
+        let root = match wave {
+            Wave::P => p,
+            Wave::S => (self.k - x * x).sqrt(),
+        };
+        let eta = self.eta(at, wave, sense, x, p);
+        let (surface, step) = (sense.sign() * at.t / x, at.z * root / x);
+        let (a, g) = shallow::compact_difference(surface, step, eta, at.r);
+        spectrum::fast(wave, self.k, x, p).set_traction(term, a, g, at.r);
     }
 
     /// int of the amplitude of w times x/2 dx over the whole fast interval: the time integral of a wave
@@ -137,14 +147,17 @@ impl Setting {
 }
 
 /// Derivatives and integrals in t of functions of eta = (z gamma^ -+ t)/x, from those in eta.
-#[inline]
-fn in_time<const N: i32>(psi: Potentials<f64>, sense: Sense, x: f64) -> Potentials<f64> {
+#[inline(always)]
+fn in_time<const N: i32, T: Real>(psi: Potentials<T>, sense: Sense, x: T) -> Potentials<T> {
     match Order::of(N) {
-        Order::Impulse => psi.map(|v| sense.sign() / x * v),
+        Order::Impulse => {
+            let over = x.constant(sense.sign()) / x;
+            psi.map(|v| over * v)
+        }
         Order::Step => psi,
         Order::StepIntegral => {
             // int dt = -+x int d eta; the order below b3 is -b2
-            let step = sense.sign() * x;
+            let step = x * sense.sign();
             let mut psi = psi.map(|v| step * v);
             psi.g_lower = -psi.g_lower;
             psi

@@ -23,7 +23,7 @@ use crate::integral::setting::Setting;
 use crate::integral::singularities::Singularities;
 use crate::integral::spectrum::Wave;
 use crate::integral::strength::Strength;
-use crate::numeric::complex::root;
+use crate::numeric::complex::Complex;
 use crate::numeric::lanes::Points;
 use crate::point::{Point, Sense};
 
@@ -72,7 +72,7 @@ fn add_fast(
             let sine = 2.0 * v / (1.0 + v * v);
             let (x, y) = (setting.root_k * sine, cosine(v));
             if y.re > 0.0 {
-                let u = x / (1.0 + root(1.0 - x * x));
+                let u = x / (1.0 + (1.0 - x * x).root());
                 with_mirror(u, |u| singularities.add(u));
                 with_reciprocal(u, |u| singularities.add(u));
             }
@@ -97,11 +97,11 @@ fn add_slow(singularities: &mut Singularities, setting: &Setting, at: Point, wav
         Wave::P | Wave::S if is_reciprocal(v) => {}
         Wave::P => {
             let s = Complex64::i() * cosine(v) / span;
-            add(s / (1.0 + root(1.0 - s * s)));
+            add(s / (1.0 + (1.0 - s * s).root()));
         }
         Wave::S => {
             let c = cosine(v) * (setting.root_k / span);
-            add(root(1.0 - c * c) / (1.0 + c));
+            add((1.0 - c * c).root() / (1.0 + c));
         }
     });
     points.map(&setting.fixed.stretch);

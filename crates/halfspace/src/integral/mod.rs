@@ -11,8 +11,7 @@
 //!
 //! In reading order: the integrand (`spectrum`, `setting`), its two parts below and above slowness 1/c1 (`fast`, `slow`) and
 //! the Rayleigh wave (`rayleigh_pole`, `rayleigh_front`); where it is singular and how strongly (`fronts`, `branch_points`,
-//! `strength`), and the intervals with their Gauss rules that follow (`singularities`, `panels`, `sum`); several nodes at a time
-//! (`side_by_side`), and the axis (`axis`).
+//! `strength`), and the intervals with their Gauss rules that follow (`singularities`, `panels`, `sum`); and the axis (`axis`).
 
 pub(crate) mod axis;
 pub(crate) mod branch_points;
@@ -22,7 +21,6 @@ pub(crate) mod panels;
 pub(crate) mod rayleigh_front;
 pub(crate) mod rayleigh_pole;
 pub(crate) mod setting;
-pub(crate) mod side_by_side;
 pub(crate) mod singularities;
 pub(crate) mod slow;
 pub(crate) mod spectrum;
@@ -34,18 +32,17 @@ use crate::field::{Estimate, Field, Six};
 use crate::numeric::lanes::dispatch;
 use crate::point::{Point, Sense};
 use crate::potentials::closed_form::SMALL_RADIUS;
-use crate::potentials::far_front;
+use crate::potentials::far_front::{ALL, FAR};
 use crate::potentials::order::STEP;
 use crate::potentials::shallow;
 use crate::profile::Profile;
 use num_complex::Complex64;
 use panels::Nodes;
 use setting::Setting;
-use side_by_side::Panel;
 use singularities::Singularities;
 use spectrum::Wave;
 use std::f64::consts::PI;
-use sum::Sum;
+use sum::{Panel, Sum};
 
 impl Setting {
     /// The remainder or one of its time integrals, continued to the axis where the fronts of a point force or a punch
@@ -103,7 +100,8 @@ impl Setting {
         shallow: bool,
         sum: &mut Sum,
     ) {
-        if side_by_side::applies::<N>(self.profile, at, shallow) {
+        // many are step responses, the others are not worth so much code
+        if N == STEP && !shallow {
             dispatch(Panel {
                 setting: self,
                 at,
@@ -115,10 +113,15 @@ impl Setting {
             return;
         }
         for (place, weight, error) in nodes.iter() {
-            let (jacobian, term) = match sense {
-                Some(sense) => self.fast_term::<N>(at, wave, sense, place, shallow),
-                None => self.slow_term::<N>(at, wave, place, shallow),
+            let (jacobian, mut term) = match sense {
+                Some(sense) => self.fast_term::<N, f64>((at, ALL), (wave, sense), place),
+                None => self.slow_term::<N, f64>((at, ALL), wave, place),
             };
+            match sense {
+                _ if !shallow => {}
+                Some(sense) => self.set_fast_traction(at, (wave, sense), place, &mut term),
+                None => self.set_slow_traction(at, wave, place, &mut term),
+            }
             sum.add(weight * jacobian, error, term);
         }
     }
@@ -130,7 +133,7 @@ impl Setting {
 /// its inverse root.
 fn rounding_floor<const N: i32>(profile: Profile, r: f64) -> Six {
     const UNIT: f64 = 2.0 * f64::EPSILON;
-    let [displacement, stress] = if N == STEP && profile == Profile::Hertz && r > far_front::FAR {
+    let [displacement, stress] = if N == STEP && profile == Profile::Hertz && r > FAR {
         [UNIT / r.sqrt(); 2]
     } else {
         // the primitives are divided by r^2

@@ -3,7 +3,7 @@
 //! Theory: `docs/theory.md` (T19).
 
 use crate::medium::Medium;
-use crate::numeric::complex::{logarithm, reciprocal, root_inside, times_i, times_minus_i};
+use crate::numeric::complex::Complex;
 use crate::numeric::double::Double;
 use crate::point::Point;
 use crate::potentials::Potentials;
@@ -53,7 +53,7 @@ impl Front {
         if self.r > far_front::FAR {
             // r - 1 - c t and r + 1 - c t; xi is the conjugate of d + i c t
             let delta = self.factors.map(|[_, edge]| Complex64::new(edge, xi.re));
-            far_front::potentials(delta, self.r).map(|v| v.conj())
+            far_front::potentials(delta, (self.r, far_front::ALL)).map(Complex::conj)
         } else {
             at_front(xi, self.r, self.factors)
         }
@@ -73,17 +73,17 @@ impl Front {
 /// `factors` are r - s and r + s of the two ends, s = -c t -+ 1, where those that are small near a front are exact.
 fn ends_at_front(xi: Complex64, factors: [[f64; 2]; 2]) -> ([Complex64; 2], [Complex64; 2]) {
     let zeta = [1.0, -1.0].map(|sigma| Complex64::new(xi.re, xi.im - sigma));
-    let rho = [0, 1].map(|i| root_inside(zeta[i], factors[i][0] * factors[i][1]));
+    let rho = [0, 1].map(|i| zeta[i].root_inside(factors[i][0] * factors[i][1]));
     (zeta, rho)
 }
 
 /// The potentials there, for xi near the disc and r not small.
 fn at_front(xi: Complex64, r: f64, factors: [[f64; 2]; 2]) -> Potentials<Complex64> {
     let (zeta, rho) = ends_at_front(xi, factors);
-    let phi = [0, 1].map(|i| times_minus_i(logarithm(zeta[i] + rho[i])));
-    let eta = times_minus_i(xi);
+    let phi = [0, 1].map(|i| (zeta[i] + rho[i]).logarithm().times_minus_i());
+    let eta = xi.times_minus_i();
     let psi = chord_primitives::<STEP, Complex64>(eta, r, phi, rho);
-    from_primitives::<STEP, Complex64>(psi, eta, r, times_i)
+    from_primitives::<STEP, Complex64>(psi, eta, r)
 }
 
 /// A_2 and B_2/r there, the difference between xi + step and xi = -i c t for real step > 0, to its own last digits.
@@ -103,22 +103,22 @@ fn step_at_front(
         if sum.norm_sqr() < TINY {
             return Complex64::default();
         }
-        step * (2.0 * zeta[i] + step) * reciprocal(sum)
+        step * (2.0 * zeta[i] + step) * sum.reciprocal()
     });
     let d_phi = [0, 1].map(|i| {
-        let w = (d_rho[i] + step) * reciprocal(zeta[i] + from[i]);
+        let w = (d_rho[i] + step) * (zeta[i] + from[i]).reciprocal();
         let modulus = 0.5 * (2.0 * w.re + w.norm_sqr()).ln_1p();
-        times_minus_i(Complex64::new(modulus, w.im.atan2(1.0 + w.re)))
+        Complex64::new(modulus, w.im.atan2(1.0 + w.re)).times_minus_i()
     });
-    let phi = [0, 1].map(|i| times_minus_i(logarithm(zeta[i] + step + to[i])));
-    let (eta, h) = (times_minus_i(xi), Complex64::new(0.0, -step));
+    let phi = [0, 1].map(|i| (zeta[i] + step + to[i]).logarithm().times_minus_i());
+    let (eta, h) = (xi.times_minus_i(), Complex64::new(0.0, -step));
     // s q changes by s dq + h q
-    let d_sq = [0, 1].map(|i| times_minus_i(zeta[i]) * d_rho[i] + h * to[i]);
+    let d_sq = [0, 1].map(|i| zeta[i].times_minus_i() * d_rho[i] + h * to[i]);
     let (m0, d_m0) = (phi[1] - phi[0], d_phi[1] - d_phi[0]);
     let (m1, d_m1) = (to[0] - to[1], d_rho[0] - d_rho[1]);
     let d_m2 = 0.5 * (r * r * d_m0 - d_sq[1] + d_sq[0]);
     let scale = 0.75 / PI;
     let a = scale * (d_m1 - eta * d_m0 - h * m0);
     let g = scale / (r * r) * (d_m2 - eta * d_m1 - h * m1);
-    (times_i(a), g)
+    (a.times_i(), g)
 }

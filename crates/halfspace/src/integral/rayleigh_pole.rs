@@ -7,15 +7,18 @@
 use crate::integral::panels::ROUNDING;
 use crate::integral::rayleigh_front::Front;
 use crate::integral::setting::Setting;
-use crate::integral::side_by_side::{self, Two};
 use crate::integral::strength::Strength;
 use crate::integral::sum::Sum;
-use crate::numeric::lanes::dispatch;
+use crate::numeric::lanes::{Lanes, Pair, dispatch};
 use crate::point::Point;
-use crate::potentials::closed_form::potentials;
-use crate::potentials::order::Order;
+use crate::potentials::Potentials;
+use crate::potentials::closed_form::{of_one, potentials};
+use crate::potentials::far_front::ALL;
+use crate::potentials::order::{Order, STEP};
 use crate::potentials::shallow;
+use crate::profile::Profile;
 use num_complex::Complex64;
+use pulp::{Simd, WithSimd};
 use std::f64::consts::PI;
 
 impl Setting {
@@ -27,12 +30,12 @@ impl Setting {
         let arguments = (self.poles).map(|pole| Complex64::new(pole.decay * at.z, -c * at.t));
         let both = match &front {
             Some(front) => arguments.map(|xi| front.potentials(xi)),
-            None if side_by_side::applies::<N>(self.profile, at, false) => dispatch(Two {
+            None if N == STEP => dispatch(Two {
                 profile: self.profile,
                 xi: arguments,
                 r: at.r,
             }),
-            None => arguments.map(|xi| potentials::<N>(self.profile, xi, at.r)),
+            None => arguments.map(|xi| of_one::<N>(self.profile, xi, at.r)),
         };
         for ((pole, xi), mut psi) in self.poles.iter().zip(arguments).zip(both) {
             // d/dt of order n + 1 is i c times order n
@@ -76,5 +79,26 @@ impl Setting {
             Strength::InverseRoot => [ROUNDING + ROUNDING.sqrt() * front.sqrt(), ROUNDING + front],
             Strength::FinitePart => [ROUNDING + front, ROUNDING + 3.0 * front],
         }
+    }
+}
+
+/// The potentials at two places.
+struct Two {
+    profile: Profile,
+    xi: [Complex64; 2],
+    r: f64,
+}
+
+impl WithSimd for Two {
+    type Output = [Potentials<Complex64>; 2];
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
+        let parts = self.xi.map(|xi| [xi.re, xi.im]);
+        let [re, im] = [0, 1].map(|i| Lanes::two(simd, parts.map(|xi| xi[i])));
+        let xi = Pair { re, im };
+        let psi = potentials::<STEP, Pair<S>>(self.profile, xi, (self.r, ALL), false);
+        let [first, second] = [0, 1].map(|i| psi.map(|v| Complex64::new(v.re.get(i), v.im.get(i))));
+        [first, second]
     }
 }

@@ -7,12 +7,11 @@
 
 use crate::integral::panels::{Nodes, Piece, ROUNDING, panels};
 use crate::integral::strength::Strength;
-use crate::numeric::complex::root;
-use crate::numeric::lanes::{Map, Pair, Points};
+use crate::numeric::complex::Complex;
+use crate::numeric::lanes::{Map, Points};
 use crate::numeric::scalar::Scalar;
 use arrayvec::ArrayVec;
 use num_complex::Complex64;
-use pulp::Simd;
 
 /// Power of the variable toward a cut of a single singularity.
 const SQUARE: i32 = 2;
@@ -174,7 +173,7 @@ impl Singularities {
         self.images.map(&image);
         let mut pole = (self.pole - start) / scale;
         if power == SQUARE {
-            pole = root(pole);
+            pole = pole.root();
         } else if is_cut {
             let exponent = 1.0 / f64::from(power);
             self.images.replace(|point| point.powf(exponent));
@@ -246,15 +245,14 @@ struct Image {
 
 impl Map for Image {
     #[inline(always)]
-    fn at<S: Simd>(&self, v: Pair<S>) -> Pair<S> {
-        let scale = v.re.constant(self.scale);
-        let image = Pair::new((v.re - self.start) / scale, v.im / scale);
-        let least = v.re.constant(self.least * self.least);
-        let nowhere = Pair::new(
-            v.re.constant(Points::NOWHERE),
-            v.re.constant(Points::NOWHERE),
-        );
-        let found = Pair::where_below(image.norm_sqr(), least, nowhere, image);
+    fn at<C: Complex>(&self, v: C) -> C {
+        let re = v.re();
+        let scale = re.constant(self.scale);
+        let image = C::new((re - self.start) / scale, v.im() / scale);
+        let least = re.constant(self.least * self.least);
+        let nowhere = re.constant(Points::NOWHERE);
+        let nowhere = C::new(nowhere, nowhere);
+        let found = C::where_below(image.norm_sqr(), least, nowhere, image);
         if self.square { found.root() } else { found }
     }
 }

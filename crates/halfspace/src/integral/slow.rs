@@ -8,22 +8,15 @@ use crate::integral::setting::Setting;
 use crate::integral::singularities::Singularities;
 use crate::integral::spectrum::{self, Wave};
 use crate::integral::sum::Sum;
+use crate::numeric::complex::Complex;
+use crate::numeric::scalar::Real;
 use crate::point::Point;
 use crate::potentials::Potentials;
 use crate::potentials::closed_form::potentials;
 use crate::potentials::order::Order;
 use crate::potentials::shallow;
+use crate::profile::Profile;
 use num_complex::Complex64;
-
-/// One slowness with the vertical slownesses that belong to it and 1/R = re + i im.
-#[derive(Debug, Clone, Copy)]
-struct Slowness {
-    x: f64,
-    p_abs: f64,
-    y: f64,
-    re: f64,
-    im: f64,
-}
 
 impl Setting {
     /// Adds both senses of one wave over 1 < x < 1/kappa.
@@ -43,100 +36,112 @@ impl Setting {
         }
     }
 
-    /// dx/ds and the integrand at the stretched half-angle s.
-    #[inline]
-    pub(crate) fn slow_term<const N: i32>(
-        &self,
-        at: Point,
-        wave: Wave,
-        s: f64,
-        shallow: bool,
-    ) -> (f64, Six) {
+    /// x, p^, y and dx/ds at the stretched half-angle s.
+    #[inline(always)]
+    fn slow_place<T: Real>(&self, s: T) -> [T; 4] {
         let (q, dq) = self.fixed.stretch.half_angle(s);
-        let inverse = 1.0 / (1.0 + q * q);
-        let p_abs = self.span * 2.0 * q * inverse;
-        let y = self.span * (1.0 - q) * (1.0 + q) * inverse;
-        let x = (1.0 + p_abs * p_abs).sqrt();
+        let one = s.constant(1.0);
+        let inverse = one / (q * q + 1.0);
+        let p_abs = q * inverse * (2.0 * self.span);
+        let y = (one - q) * (one + q) * inverse * self.span;
+        let x = (p_abs * p_abs + 1.0).sqrt();
         // dx = p^ dp^/x, dp^ = 2 y/(1 + q^2) dq
-        let jacobian = p_abs * 2.0 * y * inverse / x * dq;
+        [x, p_abs, y, p_abs * y * inverse * (one / x) * dq * 2.0]
+    }
+
+    /// dx/ds and the integrand at the stretched half-angle s.
+    #[inline(always)]
+    pub(crate) fn slow_term<const N: i32, T: Real>(
+        &self,
+        (at, digits): (Point, f64),
+        wave: Wave,
+        s: T,
+    ) -> (T, [T; 6]) {
+        let [x, p_abs, y, jacobian] = self.slow_place(s);
+        let over_x = s.constant(1.0) / x;
         let (re, im) = spectrum::inverse_rayleigh(self.k, x, p_abs, y);
-        let slowness = Slowness {
-            x,
-            p_abs,
-            y,
-            re,
-            im,
-        };
+        let load = (self.profile, (at.r, digits));
         let psi = match wave {
-            Wave::P => self.longitudinal::<N>(at, slowness),
-            Wave::S => self.shear::<N>(at, slowness),
+            Wave::P => {
+                let xi = T::Complex::new(p_abs * over_x * at.z, over_x * -at.t);
+                longitudinal::<N, T>(load, xi, im * 2.0, (x, over_x), at.z == 0.0)
+            }
+            Wave::S => {
+                let heights = [(y * at.z - at.t) * over_x, (y * at.z + at.t) * over_x];
+                shear::<N, T>(load, heights, T::Complex::new(re, im), (x, over_x))
+            }
         };
         let amplitudes = spectrum::slow(wave, self.k, x, p_abs, y);
-        let mut term = amplitudes.fields(&psi, at.r);
-        if shallow {
-            let (a, g) = match wave {
-                Wave::P => longitudinal_difference(at, slowness),
-                Wave::S => shear_difference(at, slowness),
-            };
-            amplitudes.set_traction(&mut term, a, g, at.r);
-        }
-        (jacobian, term)
+        (jacobian, amplitudes.fields(&psi, at.r))
     }
 
-    /// Re of -i/R times the sum of both senses, or times i x their difference for the time integral.
-    ///
-    /// xi+ is the conjugate of xi-, so the potentials combine to real numbers.
-    #[inline]
-    fn longitudinal<const N: i32>(&self, at: Point, n: Slowness) -> Potentials<f64> {
-        let inverse = 1.0 / n.x;
-        let xi = Complex64::new(at.z * n.p_abs * inverse, -at.t * inverse);
-        let factor = 2.0 * n.im;
-        potentials::<N>(self.profile, xi, at.r).map(|v| match Order::of(N) {
-            Order::Impulse => -factor * inverse * v.im,
-            Order::Step => factor * v.re,
-            Order::StepIntegral => factor * n.x * v.im,
-        })
-    }
-
-    /// The same for the shear wave, whose arguments are imaginary; u and the normal stresses take 1/R.
-    #[inline]
-    fn shear<const N: i32>(&self, at: Point, n: Slowness) -> Potentials<f64> {
-        let inverse = 1.0 / n.x;
-        let argument = |t: f64| Complex64::new(0.0, (at.z * n.y + t) * inverse);
-        let minus = potentials::<N>(self.profile, argument(-at.t), at.r);
-        let plus = potentials::<N>(self.profile, argument(at.t), at.r);
-        // the factors +-i/x of d/dt and -+i x of int dt for the two senses
-        let both = |m: Complex64, p: Complex64| match Order::of(N) {
-            Order::Impulse => Complex64::new(inverse * (p.im - m.im), inverse * (m.re - p.re)),
-            Order::Step => m + p,
-            Order::StepIntegral => Complex64::new(n.x * (m.im - p.im), n.x * (p.re - m.re)),
+    /// Replaces the tractions by those of differences to the surface.
+    pub(crate) fn set_slow_traction(&self, at: Point, wave: Wave, s: f64, term: &mut Six) {
+        let [x, p_abs, y, _] = self.slow_place(s);
+        let (re, im) = spectrum::inverse_rayleigh(self.k, x, p_abs, y);
+        let over_r = Complex64::new(re, im);
+        let surface = |t: f64| Complex64::new(0.0, t / x);
+        let (a, g) = match wave {
+            Wave::P => {
+                let step = Complex64::from(at.z * p_abs / x);
+                let (a, g) = shallow::difference(surface(-at.t), step, at.r);
+                (2.0 * im * a.re, 2.0 * im * g.re)
+            }
+            Wave::S => {
+                let step = Complex64::new(0.0, at.z * y / x);
+                let [minus, plus] =
+                    [-at.t, at.t].map(|t| shallow::difference(surface(t), step, at.r));
+                (
+                    ((minus.0 + plus.0) * over_r).re,
+                    ((minus.1 + plus.1) * over_r).im,
+                )
+            }
         };
-        // Re[(re + i im) v] and Re[-i (re + i im) v]
-        let over_r = |v: Complex64| n.re * v.re - n.im * v.im;
-        let over_ir = |v: Complex64| n.im * v.re + n.re * v.im;
-        Potentials {
-            a_upper: over_ir(both(minus.a_upper, plus.a_upper)),
-            a_lower: over_r(both(minus.a_lower, plus.a_lower)),
-            g_upper: over_r(both(minus.g_upper, plus.g_upper)),
-            g_lower: over_ir(both(minus.g_lower, plus.g_lower)),
-        }
+        spectrum::slow(wave, self.k, x, p_abs, y).set_traction(term, a, g, at.r);
     }
 }
 
-/// The longitudinal potentials of the tractions less their values at the surface.
-fn longitudinal_difference(at: Point, n: Slowness) -> (f64, f64) {
-    let surface = Complex64::new(0.0, -at.t / n.x);
-    let step = Complex64::new(at.z * n.p_abs / n.x, 0.0);
-    let (a, g) = shallow::difference(surface, step, at.r);
-    let factor = 2.0 * n.im;
-    (factor * a.re, factor * g.re)
+/// Re of -i/R times the sum of both senses, or times i x their difference for the time integral.
+///
+/// xi+ is the conjugate of xi-, so the potentials combine to real numbers.
+#[inline(always)]
+fn longitudinal<const N: i32, T: Real>(
+    (profile, place): (Profile, (f64, f64)),
+    xi: T::Complex,
+    factor: T,
+    (x, over_x): (T, T),
+    on_axis: bool,
+) -> Potentials<T> {
+    let psi = potentials::<N, T::Complex>(profile, xi, place, on_axis);
+    match Order::of(N) {
+        Order::Impulse => psi.map(|v| -factor * over_x * v.im()),
+        Order::Step => psi.map(|v| factor * v.re()),
+        Order::StepIntegral => psi.map(|v| factor * x * v.im()),
+    }
 }
 
-/// The same of the shear wave.
-fn shear_difference(at: Point, n: Slowness) -> (f64, f64) {
-    let step = Complex64::new(0.0, at.z * n.y / n.x);
-    let [minus, plus] =
-        [-at.t, at.t].map(|t| shallow::difference(Complex64::new(0.0, t / n.x), step, at.r));
-    let (a, g) = (minus.0 + plus.0, minus.1 + plus.1);
-    (n.re * a.re - n.im * a.im, n.im * g.re + n.re * g.im)
+/// The same for the shear wave, whose arguments are imaginary; u and the normal stresses take 1/R.
+#[inline(always)]
+fn shear<const N: i32, T: Real>(
+    (profile, place): (Profile, (f64, f64)),
+    [minus, plus]: [T; 2],
+    over_r: T::Complex,
+    (x, over_x): (T, T),
+) -> Potentials<T> {
+    let at = |height: T| T::Complex::new(height.constant(0.0), height);
+    let minus = potentials::<N, T::Complex>(profile, at(minus), place, true);
+    let plus = potentials::<N, T::Complex>(profile, at(plus), place, true);
+    // the factors +-i/x of d/dt and -+i x of int dt for the two senses
+    let both = match Order::of(N) {
+        Order::Impulse => minus.zip(plus, |m, p| (m - p).times_i().times(over_x)),
+        Order::Step => minus.zip(plus, |m, p| m + p),
+        Order::StepIntegral => minus.zip(plus, |m, p| (m - p).times_minus_i().times(x)),
+    };
+    // the upper ones of A and the lower ones of B over i R, the others over R
+    Potentials {
+        a_upper: (both.a_upper * over_r).im(),
+        a_lower: (both.a_lower * over_r).re(),
+        g_upper: (both.g_upper * over_r).re(),
+        g_lower: (both.g_lower * over_r).im(),
+    }
 }

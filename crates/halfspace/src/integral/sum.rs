@@ -1,7 +1,13 @@
 //! A running sum of six fields that carries its own error estimate.
 
 use crate::field::Six;
-use crate::numeric::lanes::{WIDTH, total};
+use crate::integral::panels::Nodes;
+use crate::integral::setting::Setting;
+use crate::integral::spectrum::Wave;
+use crate::numeric::lanes::{Lanes, WIDTH, total};
+use crate::point::{Point, Sense};
+use crate::potentials::order::STEP;
+use pulp::{Simd, WithSimd};
 
 /// Six fields and the squares of their likely errors, in blocks that are added up at the end.
 ///
@@ -30,6 +36,49 @@ impl Sum {
             let x = weight * term[f];
             self.values[f][0] += x;
             self.squares[f][0] += (relative * x) * (relative * x);
+        }
+    }
+}
+
+/// The nodes of one panel, to be added to a sum several at a time; a wave below slowness one has one sense, above it both.
+pub(crate) struct Panel<'a> {
+    pub(crate) setting: &'a Setting,
+    pub(crate) at: Point,
+    pub(crate) wave: Wave,
+    pub(crate) sense: Option<Sense>,
+    pub(crate) nodes: &'a Nodes,
+    pub(crate) sum: &'a mut Sum,
+}
+
+impl WithSimd for Panel<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let Self { setting, wave, .. } = self;
+        let (nodes, sum) = (self.nodes, self.sum);
+        let at = (self.at, setting.deep_digits);
+        let [rule, weights] = nodes
+            .rule
+            .in_registers(S::F64_LANES)
+            .map(|list| Lanes::registers(simd, list));
+        for (i, (node, weight)) in rule.zip(weights).enumerate() {
+            let (place, weight, error) = nodes.at(node, weight);
+            let (jacobian, term) = match self.sense {
+                Some(sense) => setting.fast_term::<STEP, _>(at, (wave, sense), place),
+                None => setting.slow_term::<STEP, _>(at, wave, place),
+            };
+            let weight = weight * jacobian;
+            // of the block
+            let i = i % (WIDTH / S::F64_LANES);
+            for f in 0..6 {
+                let x = weight * term[f];
+                let error = error[usize::from(f >= 2)] * x;
+                let value = &mut S::as_mut_simd_f64s(&mut sum.values[f]).0[i];
+                *value = (Lanes::of(simd, *value) + x).register;
+                let square = &mut S::as_mut_simd_f64s(&mut sum.squares[f]).0[i];
+                *square = (Lanes::of(simd, *square) + error * error).register;
+            }
         }
     }
 }

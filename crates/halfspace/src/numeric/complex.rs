@@ -1,69 +1,120 @@
-//! Complex functions of the closed forms, with the branches and limits that they need.
+//! Complex numbers, one or several side by side, with the functions, branches and limits that the closed forms need.
 
-use crate::numeric::scalar::Real;
+use crate::numeric::scalar::{Real, Scalar};
 use num_complex::Complex64;
-use std::f64::consts::FRAC_PI_2;
 
-/// Principal square root.
-pub(crate) fn root(v: Complex64) -> Complex64 {
-    let modulus = v.norm_sqr().sqrt();
-    if v.re >= 0.0 {
-        let a = (0.5 * (modulus + v.re)).sqrt();
-        Complex64::new(a, if a > 0.0 { 0.5 * v.im / a } else { 0.0 })
-    } else {
-        let b = (0.5 * (modulus - v.re)).sqrt();
-        Complex64::new(0.5 * v.im.abs() / b, b.copysign(v.im))
+/// A complex number.
+pub(crate) trait Complex: Scalar {
+    /// Real and imaginary part.
+    type Part: Real<Complex = Self>;
+
+    fn new(re: Self::Part, im: Self::Part) -> Self;
+    fn re(self) -> Self::Part;
+    fn im(self) -> Self::Part;
+
+    #[inline(always)]
+    fn times(self, real: Self::Part) -> Self {
+        Self::new(self.re() * real, self.im() * real)
+    }
+
+    #[inline(always)]
+    fn norm_sqr(self) -> Self::Part {
+        self.re() * self.re() + self.im() * self.im()
+    }
+
+    #[inline(always)]
+    fn conj(self) -> Self {
+        Self::new(self.re(), -self.im())
+    }
+
+    /// i times this.
+    #[inline(always)]
+    fn times_i(self) -> Self {
+        Self::new(-self.im(), self.re())
+    }
+
+    /// -i times this.
+    #[inline(always)]
+    fn times_minus_i(self) -> Self {
+        Self::new(self.im(), -self.re())
+    }
+
+    #[inline(always)]
+    fn reciprocal(self) -> Self {
+        let scale = self.re().constant(1.0) / self.norm_sqr();
+        Self::new(self.re() * scale, -self.im() * scale)
+    }
+
+    /// Principal square root.
+    #[inline(always)]
+    fn root(self) -> Self {
+        let (re, im) = (self.re(), self.im());
+        let modulus = self.norm_sqr().sqrt();
+        let large = ((modulus + re.abs()) * 0.5).sqrt();
+        let small = im.abs() * 0.5 / large.at_least(f64::MIN_POSITIVE);
+        let zero = re.constant(0.0);
+        Self::new(
+            re.where_below(zero, small, large),
+            re.where_below(zero, large, small).copysign(im),
+        )
+    }
+
+    /// Principal logarithm; of zero it is finite.
+    #[inline(always)]
+    fn logarithm(self) -> Self {
+        let square = self.norm_sqr().at_least(f64::MIN_POSITIVE);
+        Self::new(square.ln() * 0.5, self.im().angle_over(self.re()))
+    }
+
+    /// sqrt(d^2 + inside + 2 i d s) for this = d + i s, d >= 0; on the imaginary axis the side is that of s.
+    #[inline(always)]
+    fn root_inside(self, inside: Self::Part) -> Self {
+        let (d, s) = (self.re(), self.im());
+        let root = Self::new(d * d + inside, d * s * 2.0).root();
+        Self::new(root.re(), root.im().abs().copysign(s))
+    }
+
+    /// sqrt(zeta + ir) sqrt(zeta - ir), the branch that is zeta at r = 0, for Re zeta >= 0.
+    #[inline(always)]
+    fn root_with_circle(self, r: f64) -> Self {
+        let s = self.im();
+        self.root_inside((-s + r) * (s + r))
+    }
+
+    /// `yes` where `value` is below `limit`, else `no`.
+    #[inline(always)]
+    fn where_below(value: Self::Part, limit: Self::Part, yes: Self, no: Self) -> Self {
+        Self::new(
+            value.where_below(limit, yes.re(), no.re()),
+            value.where_below(limit, yes.im(), no.im()),
+        )
     }
 }
 
-/// 1/v.
-#[inline]
-pub(crate) fn reciprocal(v: Complex64) -> Complex64 {
-    let scale = 1.0 / v.norm_sqr();
-    Complex64::new(v.re * scale, -v.im * scale)
-}
-
-/// i v.
-pub(crate) fn times_i(v: Complex64) -> Complex64 {
-    Complex64::new(-v.im, v.re)
-}
-
-/// -i v.
-pub(crate) fn times_minus_i(v: Complex64) -> Complex64 {
-    Complex64::new(v.im, -v.re)
-}
-
-/// Principal logarithm; of zero it is finite.
-#[inline]
-pub(crate) fn logarithm(v: Complex64) -> Complex64 {
-    let modulus = v.norm_sqr().max(f64::MIN_POSITIVE);
-    let angle = if v.re == 0.0 {
-        FRAC_PI_2.copysign(v.im)
-    } else {
-        v.im.atan2(v.re)
-    };
-    Complex64::new(0.5 * modulus.ln(), angle)
-}
-
-/// sqrt(zeta + ir) sqrt(zeta - ir), the branch that is zeta at r = 0, for Re zeta >= 0.
-#[inline]
-pub(crate) fn root_with_circle(zeta: Complex64, r: f64) -> Complex64 {
-    root_inside(zeta, (r - zeta.im) * (r + zeta.im))
-}
-
-/// sqrt(d^2 + inside + 2 i d s) for zeta = d + i s.
-#[inline]
-pub(crate) fn root_inside(zeta: Complex64, inside: f64) -> Complex64 {
-    let (d, s) = (zeta.re, zeta.im);
-    if d == 0.0 {
-        return if inside >= 0.0 {
-            Complex64::new(inside.sqrt(), 0.0)
-        } else {
-            Complex64::new(0.0, (-inside).sqrt().copysign(s))
-        };
+impl Scalar for Complex64 {
+    #[inline(always)]
+    fn constant(self, value: f64) -> Self {
+        value.into()
     }
-    let square = Complex64::new(d * d + inside, 2.0 * d * s);
-    root(square)
+}
+
+impl Complex for Complex64 {
+    type Part = f64;
+
+    #[inline(always)]
+    fn new(re: f64, im: f64) -> Self {
+        Self { re, im }
+    }
+
+    #[inline(always)]
+    fn re(self) -> f64 {
+        self.re
+    }
+
+    #[inline(always)]
+    fn im(self) -> f64 {
+        self.im
+    }
 }
 
 /// (r - s)(r + s) at the ends s = eta -+ 1 of the chord, exact at the edge of the disc.

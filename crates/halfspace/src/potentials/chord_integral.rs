@@ -4,6 +4,7 @@
 //! integral are 1/q, phi and their antiderivatives, and the chord function is a parabola: what is left are integrals of
 //! powers of s times 1/q, phi and q between the ends s = eta -+ 1 of the chord.
 
+use crate::numeric::complex::Complex;
 use crate::numeric::scalar::Scalar;
 use crate::potentials::Potentials;
 use crate::potentials::order::Order;
@@ -73,12 +74,11 @@ pub(crate) fn chord_primitives<const N: i32, T: Scalar>(
 /// Potentials from chord primitives: powers of i from the change of variable, and the part of
 /// F_0 = (1 - zeta/rho)/r and F_1 = (rho - zeta)/r that is free of roots.
 #[inline(always)]
-pub(crate) fn from_primitives<const N: i32, T: Scalar>(
-    psi: Potentials<T>,
-    eta: T,
+pub(crate) fn from_primitives<const N: i32, C: Complex>(
+    psi: Potentials<C>,
+    eta: C,
     r: f64,
-    times_i: impl Fn(T) -> T,
-) -> Potentials<T> {
+) -> Potentials<C> {
     let force = 0.5 / (PI * r * r);
     match Order::of(N) {
         Order::Impulse => {
@@ -86,15 +86,15 @@ pub(crate) fn from_primitives<const N: i32, T: Scalar>(
         }
         Order::Step => Potentials {
             a_upper: psi.a_upper,
-            a_lower: times_i(psi.a_lower),
-            g_upper: times_i(psi.g_upper) + force,
+            a_lower: psi.a_lower.times_i(),
+            g_upper: psi.g_upper.times_i() + force,
             g_lower: psi.g_lower,
         },
         Order::StepIntegral => Potentials {
-            a_upper: times_i(psi.a_upper) * -1.0,
+            a_upper: psi.a_upper.times_minus_i(),
             a_lower: psi.a_lower,
-            g_upper: psi.g_upper - times_i(eta) * force,
-            g_lower: times_i(psi.g_lower) + force,
+            g_upper: psi.g_upper - eta.times_i() * force,
+            g_lower: psi.g_lower.times_i() + force,
         },
     }
 }

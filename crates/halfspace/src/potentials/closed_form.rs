@@ -7,16 +7,20 @@
 //! With the chord function h of the profile, A_n = int h(sigma) E_{n-3}(xi - i sigma) dsigma, where
 //! E_n(zeta) = int k^{-n} J0(kr) e^{-k zeta} dk is elementary (n > 0: the antiderivative chain
 //! E_n' = -E_{n-1}). The chord integral is done in closed form by parts when xi is near the chord,
-//! and by a short Gauss rule when it is far, where the closed form is a difference of large numbers.
+//! and by a series when it is far, where the closed form is a difference of large numbers.
 //! B_n is carried as B_n/r, which is smooth at r = 0.
+//!
+//! All hold for one number and for several side by side, each by the forms that hold for it.
 //!
 //! Theory: `docs/theory.md` (T12 to T14).
 
-use crate::numeric::complex::{inside, logarithm, reciprocal, root_inside, times_i, times_minus_i};
+use crate::numeric::complex::{Complex, inside};
+use crate::numeric::scalar::{Real, Scalar};
 use crate::potentials::Potentials;
 use crate::potentials::chord_integral::{chord_primitives, from_primitives};
-use crate::potentials::end::{End, end_orders};
-use crate::potentials::far_front;
+use crate::potentials::compact::held_primitives;
+use crate::potentials::end::End;
+use crate::potentials::far_front::{self, ALL, FAR};
 use crate::potentials::multipole;
 use crate::potentials::order::{IMPULSE, STEP};
 use crate::profile::Profile;
@@ -26,127 +30,256 @@ use std::f64::consts::PI;
 /// Below this radius the primitives, which are divided by r^2, lose digits.
 pub(crate) const SMALL_RADIUS: f64 = 0.15;
 
-/// The potentials at xi (Re xi >= 0) and radius r.
-#[inline]
-pub(crate) fn potentials<const N: i32>(
+/// The potentials at xi (Re xi >= 0) and radius r, to exp(-`digits`); on the imaginary axis real and imaginary part are apart.
+#[inline(always)]
+pub(crate) fn potentials<const N: i32, C: Complex>(
+    profile: Profile,
+    xi: C,
+    (r, digits): (f64, f64),
+    on_axis: bool,
+) -> Potentials<C> {
+    if profile == Profile::Point {
+        return by_parts::<N, C>(profile, xi, r);
+    }
+    let reach = Reach::new::<N>(xi, r);
+    let near = match profile {
+        _ if !reach.some_near => Potentials::all(xi.constant(0.0)),
+        Profile::Hertz if N == STEP && r > FAR => far_front::of_disc(xi, (r, digits), on_axis),
+        Profile::Hertz if N != IMPULSE && r > SMALL_RADIUS => {
+            if on_axis {
+                primitives_on_imaginary_axis::<N, _>(xi.im(), r)
+            } else {
+                by_primitives::<N, C>(xi, r)
+            }
+        }
+        Profile::Hertz | Profile::Punch | Profile::Point => by_parts::<N, C>(profile, xi, r),
+    };
+    if !reach.some_far {
+        return near;
+    }
+    let far = if on_axis && N == STEP {
+        multipole::on_imaginary_axis(profile, xi.im(), (r, digits))
+    } else {
+        multipole::potentials::<N, C>(profile, xi, (r, digits))
+    };
+    reach.pick(near, far)
+}
+
+/// The same at one xi, to the last digit.
+pub(crate) fn of_one<const N: i32>(
     profile: Profile,
     xi: Complex64,
     r: f64,
 ) -> Potentials<Complex64> {
-    if profile == Profile::Point {
-        return end_orders::<N>(xi, r).map(|v| v / (2.0 * PI));
-    }
-    match multipole::terms(xi, r, multipole::nearest::<N>(r)) {
-        Some(terms) => multipole::multipole::<N>(profile, terms, xi, r),
-        None if N == STEP && profile == Profile::Hertz && r > far_front::FAR => at_far_front(xi, r),
-        None if N != IMPULSE && profile == Profile::Hertz && r > SMALL_RADIUS => {
-            if xi.re == 0.0 {
-                on_imaginary_axis::<N>(xi.im, r)
-            } else {
-                by_primitives::<N>(xi, r)
-            }
+    potentials::<N, Complex64>(profile, xi, (r, ALL), xi.re == 0.0)
+}
+
+/// Where the closed forms hold and where the multipole series takes over.
+pub(crate) struct Reach<C: Complex> {
+    distance: C::Part,
+    nearest: C::Part,
+    pub(crate) some_near: bool,
+    pub(crate) some_far: bool,
+}
+
+impl<C: Complex> Reach<C> {
+    #[inline(always)]
+    pub(crate) fn new<const N: i32>(xi: C, r: f64) -> Self {
+        let nearest = multipole::nearest::<N>(r);
+        let gap = (xi.im().abs() - r).abs();
+        let square = xi.re() * xi.re();
+        if (gap + xi.re()).largest() + 1.0 < nearest {
+            return Self {
+                distance: gap,
+                nearest: gap.constant(nearest),
+                some_near: true,
+                some_far: false,
+            };
         }
-        None => by_parts::<N>(profile, xi, r),
+        let (inner, outer) = (gap - 1.0, gap + 1.0);
+        let distance = ((inner * inner + square).sqrt() + (outer * outer + square).sqrt()) * 0.5;
+        Self {
+            distance,
+            nearest: gap.constant(nearest),
+            some_near: distance.smallest() < nearest,
+            some_far: distance.largest() >= nearest,
+        }
+    }
+
+    #[inline(always)]
+    pub(crate) fn pick(&self, near: Potentials<C>, far: Potentials<C>) -> Potentials<C> {
+        near.zip(far, |near, far| {
+            C::where_below(self.distance, self.nearest, near, far)
+        })
     }
 }
 
-/// The step response of a distant point, xi = d + i eta; the potentials of the conjugate are conjugate.
-fn at_far_front(xi: Complex64, r: f64) -> Potentials<Complex64> {
-    let delta = far_front::delta(xi.im, r);
-    let psi = far_front::potentials(delta.map(|re| Complex64::new(re, xi.re)), r);
-    if xi.im < 0.0 {
-        psi.map(|v| v.conj())
-    } else {
-        psi
+/// The ends of the chord: zeta, rho and zeta + rho.
+struct Ends<C> {
+    zeta: [C; 2],
+    rho: [C; 2],
+    sum: [C; 2],
+}
+
+impl<C: Complex> Ends<C> {
+    #[inline(always)]
+    fn new(xi: C, r: f64) -> Self {
+        let zeta = [
+            C::new(xi.re(), xi.im() - 1.0),
+            C::new(xi.re(), xi.im() + 1.0),
+        ];
+        let inside = inside(xi.im(), r);
+        let rho = [
+            zeta[0].root_inside(inside[0]),
+            zeta[1].root_inside(inside[1]),
+        ];
+        let sum = [zeta[0] + rho[0], zeta[1] + rho[1]];
+        Self { zeta, rho, sum }
+    }
+
+    /// The logarithms of the sums; of the step response only their difference counts, and the first may be zero.
+    #[inline(always)]
+    fn logarithms(&self, difference: bool) -> [C; 2] {
+        let [first, second] = self.sum;
+        if !difference {
+            return [first.logarithm(), second.logarithm()];
+        }
+        let ratio = second * first.conj();
+        let modulus = (second.norm_sqr() / first.norm_sqr()).ln() * 0.5;
+        let angle = ratio.im().angle_over(ratio.re());
+        [first.constant(0.0), C::new(modulus, angle)]
     }
 }
 
 /// The Hertz disc from the chord primitives, phi = -i L and q = rho in the variable eta = -i xi.
-fn by_primitives<const N: i32>(xi: Complex64, r: f64) -> Potentials<Complex64> {
-    let zeta = [1.0, -1.0].map(|sigma| Complex64::new(xi.re, xi.im - sigma));
-    let inside = inside(xi.im, r);
-    let rho = [0, 1].map(|i| root_inside(zeta[i], inside[i]));
-    let sum = [zeta[0] + rho[0], zeta[1] + rho[1]];
-    let eta = times_minus_i(xi);
-    // The step response needs only the difference of phi.
-    let phi = if N == STEP {
-        [
-            Complex64::default(),
-            times_minus_i(logarithm(sum[1] * reciprocal(sum[0]))),
-        ]
-    } else {
-        sum.map(|sum| times_minus_i(logarithm(sum)))
-    };
-    let psi = chord_primitives::<N, Complex64>(eta, r, phi, rho);
-    from_primitives::<N, Complex64>(psi, eta, r, times_i)
+#[inline(always)]
+fn by_primitives<const N: i32, C: Complex>(xi: C, r: f64) -> Potentials<C> {
+    let ends = Ends::new(xi, r);
+    let [first, second] = ends.logarithms(N == STEP);
+    let phi = [first.times_minus_i(), second.times_minus_i()];
+    let eta = xi.times_minus_i();
+    let psi = chord_primitives::<N, C>(eta, r, phi, ends.rho);
+    from_primitives::<N, C>(psi, eta, r)
 }
 
 /// The same on the imaginary axis, where real and imaginary part separate into real functions.
-fn on_imaginary_axis<const N: i32>(eta: f64, r: f64) -> Potentials<Complex64> {
-    let s = [eta - 1.0, eta + 1.0];
+///
+/// For the step response the real part vanishes outside the circle around the whole chord, the imaginary part inside the
+/// one that it lies in.
+#[inline(always)]
+fn primitives_on_imaginary_axis<const N: i32, T: Real>(eta: T, r: f64) -> Potentials<T::Complex> {
+    let zero = eta.constant(0.0);
+    let size = eta.abs();
     let inside = inside(eta, r);
-    // Re: phi and q held at their value on the circle outside it
-    let re = if N == STEP && eta.abs() >= 1.0 + r {
-        Potentials::default()
+    let re = if N == STEP && size.smallest() >= r + 1.0 {
+        Potentials::all(zero)
     } else {
-        let phi = s.map(|s| (s / r).clamp(-1.0, 1.0).asin());
-        let q = inside.map(|square| square.max(0.0).sqrt());
-        chord_primitives::<N, f64>(eta, r, phi, q)
+        held_primitives::<N, T>(eta, r, inside)
     };
-    // Im: -log|zeta + rho| and Im rho, held inside the circle
-    let w = [0, 1].map(|i| (-inside[i]).max(0.0).sqrt().copysign(s[i]));
-    let modulus = [0, 1].map(|i| s[i].abs().max(r) + w[i].abs());
-    let log = if N == STEP {
-        [0.0, (modulus[0] / modulus[1]).ln()]
+    // -log|zeta + rho| and Im rho, held inside the circle
+    let im = if N == STEP && size.largest() <= r - 1.0 {
+        Potentials::all(zero)
     } else {
-        modulus.map(|modulus| -modulus.ln())
+        let s = [eta - 1.0, eta + 1.0];
+        let w = [held_root(-inside[0]), held_root(-inside[1])];
+        let modulus = [s[0].abs().at_least(r) + w[0], s[1].abs().at_least(r) + w[1]];
+        let log = if N == STEP {
+            [zero, (modulus[0] / modulus[1]).ln()]
+        } else {
+            [-modulus[0].ln(), -modulus[1].ln()]
+        };
+        let w = [w[0].copysign(s[0]), w[1].copysign(s[1])];
+        chord_primitives::<N, T>(eta, r, log, w)
     };
-    let im = chord_primitives::<N, f64>(eta, r, log, w);
-    let psi = re.zip(im, Complex64::new);
-    from_primitives::<N, Complex64>(psi, eta.into(), r, times_i)
+    let psi = re.zip(im, T::Complex::new);
+    from_primitives::<N, T::Complex>(psi, T::Complex::new(eta, zero), r)
 }
 
-fn by_parts<const N: i32>(profile: Profile, xi: Complex64, r: f64) -> Potentials<Complex64> {
-    let upper = End::new(Complex64::new(xi.re, xi.im - 1.0), r);
-    let lower = End::new(Complex64::new(xi.re, xi.im + 1.0), r);
+/// The root of what is positive, zero of what is not.
+#[inline(always)]
+pub(crate) fn held_root<T: Real>(square: T) -> T {
+    square.at_least(0.0).sqrt()
+}
+
+/// The potentials of a point force, or from the antiderivatives at both ends of the chord.
+#[inline(always)]
+fn by_parts<const N: i32, C: Complex>(profile: Profile, xi: C, r: f64) -> Potentials<C> {
     let m = N;
-    // (X - Y)/(2 i)
-    let half_difference = |x: Complex64, y: Complex64| Complex64::new(0.0, -0.5) * (x - y);
-    match profile {
-        Profile::Hertz => {
-            let scale = 1.5 / PI;
-            let (e3, e2, e1) = (3 + m, 2 + m, 1 + m);
-            let combine = |outer: [Complex64; 2], inner: [Complex64; 2]| {
-                scale * (half_difference(outer[0], outer[1]) - 0.5 * (inner[0] + inner[1]))
-            };
-            let e = |n| [upper.e(n), lower.e(n)];
-            let f = |n| [upper.f(n), lower.f(n)];
-            let (e_mid, f_mid) = (e(e2), f(e2));
-            Potentials {
-                a_upper: combine(e(e3), e_mid),
-                a_lower: combine(e_mid, e(e1)),
-                g_upper: combine(f(e3), f_mid),
-                g_lower: combine(f_mid, f(e1)),
-            }
-        }
-        Profile::Punch | Profile::Point => {
-            let scale = 0.5 / PI;
-            let a = |n| scale * half_difference(upper.e(n), lower.e(n));
-            let g = |n| scale * half_difference(upper.f(n), lower.f(n));
-            Potentials {
-                a_upper: a(1 + m),
-                a_lower: a(m),
-                g_upper: g(1 + m),
-                g_lower: g(m),
-            }
-        }
+    if profile == Profile::Point {
+        let rho = off_front(xi.root_with_circle(r), r);
+        let sum = xi + rho;
+        let end = End::new(xi, rho, sum, sum.logarithm(), r);
+        return Potentials {
+            a_upper: end.e(m) * (0.5 / PI),
+            a_lower: end.e(m - 1) * (0.5 / PI),
+            g_upper: end.f(m) * (0.5 / PI),
+            g_lower: end.f(m - 1) * (0.5 / PI),
+        };
     }
+    let ends = Ends::new(xi, r);
+    let Ends { zeta, mut rho, sum } = ends;
+    let [log0, log1] = ends.logarithms(N == STEP && profile == Profile::Punch);
+    if N == IMPULSE || profile == Profile::Punch {
+        rho = [off_front(rho[0], r), off_front(rho[1], r)];
+    }
+    let upper = End::new(zeta[0], rho[0], sum[0], log0, r);
+    let lower = End::new(zeta[1], rho[1], sum[1], log1, r);
+    if profile == Profile::Punch {
+        return Potentials {
+            a_upper: constant(upper.e(1 + m), lower.e(1 + m)),
+            a_lower: constant(upper.e(m), lower.e(m)),
+            g_upper: constant(upper.f(1 + m), lower.f(1 + m)),
+            g_lower: constant(upper.f(m), lower.f(m)),
+        };
+    }
+    let [e1, f1] = [
+        [upper.e(1 + m), lower.e(1 + m)],
+        [upper.f(1 + m), lower.f(1 + m)],
+    ];
+    let [e2, f2] = [
+        [upper.e(2 + m), lower.e(2 + m)],
+        [upper.f(2 + m), lower.f(2 + m)],
+    ];
+    let [e3, f3] = [
+        [upper.e(3 + m), lower.e(3 + m)],
+        [upper.f(3 + m), lower.f(3 + m)],
+    ];
+    Potentials {
+        a_upper: parabola(e3, e2),
+        a_lower: parabola(e2, e1),
+        g_upper: parabola(f3, f2),
+        g_lower: parabola(f2, f1),
+    }
+}
+
+/// The root at a node, which if it rounds to the very front is as near as rounding lets it be.
+#[inline(always)]
+fn off_front<C: Complex>(rho: C, r: f64) -> C {
+    let least = rho.re().constant(f64::MIN_POSITIVE);
+    C::where_below(
+        rho.norm_sqr(),
+        least,
+        rho.constant(f64::EPSILON.sqrt() * r),
+        rho,
+    )
+}
+
+/// The chord function of a punch times a potential of a point force, of the antiderivatives at both ends.
+#[inline(always)]
+fn constant<C: Complex>(upper: C, lower: C) -> C {
+    (upper - lower).times_minus_i() * (0.25 / PI)
+}
+
+/// The same of the Hertz load.
+#[inline(always)]
+fn parabola<C: Complex>(outer: [C; 2], inner: [C; 2]) -> C {
+    ((outer[0] - outer[1]).times_minus_i() - (inner[0] + inner[1])) * (0.75 / PI)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::potentials::order::{IMPULSE, STEP, STEP_INTEGRAL};
+    use crate::potentials::order::STEP_INTEGRAL;
 
     /// d/dxi of order n + 1 is minus order n: A_{n+1}(xi + h) - A_{n+1}(xi - h) = -2 h A_n.
     #[test]
@@ -162,9 +295,9 @@ mod tests {
                     (0.3, -70.0),
                 ] {
                     let xi = Complex64::new(x, y);
-                    let here = potentials::<STEP>(profile, xi, r);
-                    let ahead = potentials::<STEP_INTEGRAL>(profile, xi + h, r);
-                    let behind = potentials::<STEP_INTEGRAL>(profile, xi - h, r);
+                    let here = of_one::<STEP>(profile, xi, r);
+                    let ahead = of_one::<STEP_INTEGRAL>(profile, xi + h, r);
+                    let behind = of_one::<STEP_INTEGRAL>(profile, xi - h, r);
                     let check = |a: Complex64, b: Complex64, value: Complex64| {
                         let slope = -(a - b) / (2.0 * h);
                         let tolerance = 1e-4 * value.norm() + 1e-10;
@@ -197,12 +330,12 @@ mod tests {
                 let xi = Complex64::new(x, y);
                 let pairs = [
                     (
-                        potentials::<STEP>(Profile::Hertz, xi, r),
-                        by_parts::<STEP>(Profile::Hertz, xi, r),
+                        of_one::<STEP>(Profile::Hertz, xi, r),
+                        by_parts::<STEP, _>(Profile::Hertz, xi, r),
                     ),
                     (
-                        potentials::<STEP_INTEGRAL>(Profile::Hertz, xi, r),
-                        by_parts::<STEP_INTEGRAL>(Profile::Hertz, xi, r),
+                        of_one::<STEP_INTEGRAL>(Profile::Hertz, xi, r),
+                        by_parts::<STEP_INTEGRAL, _>(Profile::Hertz, xi, r),
                     ),
                 ];
                 for (a, b) in pairs {
@@ -226,16 +359,16 @@ mod tests {
                     let xi = Complex64::new(x, y);
                     let pairs = [
                         (
-                            by_parts::<STEP>(profile, xi, r),
-                            multipole::multipole::<STEP>(profile, 9, xi, r),
+                            by_parts::<STEP, _>(profile, xi, r),
+                            multipole::potentials::<STEP, _>(profile, xi, (r, ALL)),
                         ),
                         (
-                            by_parts::<STEP_INTEGRAL>(profile, xi, r),
-                            multipole::multipole::<STEP_INTEGRAL>(profile, 9, xi, r),
+                            by_parts::<STEP_INTEGRAL, _>(profile, xi, r),
+                            multipole::potentials::<STEP_INTEGRAL, _>(profile, xi, (r, ALL)),
                         ),
                         (
-                            by_parts::<IMPULSE>(profile, xi, r),
-                            multipole::multipole::<IMPULSE>(profile, 9, xi, r),
+                            by_parts::<IMPULSE, _>(profile, xi, r),
+                            multipole::potentials::<IMPULSE, _>(profile, xi, (r, ALL)),
                         ),
                     ];
                     for (order, (closed, series)) in pairs.into_iter().enumerate() {
@@ -259,8 +392,8 @@ mod tests {
                 for i in -40..=40 {
                     let eta = r + 0.217 * f64::from(i);
                     for xi in [Complex64::new(d, eta), Complex64::new(d, -eta)] {
-                        let found = at_far_front(xi, r).into_array();
-                        let expected = by_parts::<STEP>(Profile::Hertz, xi, r).into_array();
+                        let found = far_front::of_disc(xi, (r, ALL), d == 0.0).into_array();
+                        let expected = by_parts::<STEP, _>(Profile::Hertz, xi, r).into_array();
                         for (a, b) in found.into_iter().zip(expected) {
                             let gap = (a - b).norm();
                             assert!(gap < 1e-15 * r * r, "{r} {xi}: {a} {b}");

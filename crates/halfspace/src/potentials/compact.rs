@@ -19,90 +19,42 @@
 //!
 //! Theory: `docs/theory.md` (T17).
 
+use crate::numeric::complex::{Complex, inside};
+use crate::numeric::scalar::Real;
 use crate::potentials::Potentials;
 use crate::potentials::chord_integral::chord_primitives;
-use crate::potentials::far_front;
+use crate::potentials::closed_form::{Reach, held_root};
+use crate::potentials::far_front::{self, FAR};
 use crate::potentials::multipole;
-use crate::potentials::order::{Order, STEP, STEP_INTEGRAL};
+use crate::potentials::order::{IMPULSE, Order, STEP, STEP_INTEGRAL};
 use crate::profile::Profile;
-use num_complex::Complex64;
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::PI;
 
 /// Radius below which a point is on the axis as far as rounding goes.
-pub(crate) const AXIS: f64 = 1e-13;
-
-/// Why an order is not met here.
-const HERTZ_ONLY: &str = "impulse responses are refused for other profiles than Hertz";
+const AXIS: f64 = 1e-13;
 
 /// The compact parts at eta: (a3, a2, b3/r, b2/r) of the step response, (a4, a3, b4/r, b3/r) of its integral.
 ///
 /// Of the Hertz profile also the derivatives of those of the step response, for the impulse response.
-#[inline]
-pub(crate) fn compact<const N: i32>(profile: Profile, eta: f64, r: f64) -> Potentials<f64> {
+#[inline(always)]
+pub(crate) fn compact<const N: i32, T: Real>(
+    profile: Profile,
+    eta: T,
+    (r, digits): (f64, f64),
+) -> Potentials<T> {
     match profile {
-        Profile::Hertz => match Order::of(N) {
-            Order::Impulse => hertz_impulse(eta, r),
-            Order::StepIntegral if r < AXIS => hertz_integral_on_axis(eta),
-            Order::Step if r > far_front::FAR => hertz_far(eta, r),
-            Order::Step | Order::StepIntegral => hertz::<N>(eta, r),
-        },
-        Profile::Punch => punch::<N>(eta, r),
-        Profile::Point => point::<N>(eta, r),
-    }
-}
-
-/// phi and q at the end s = eta + shift of the chord.
-///
-/// r - s and r + s are taken from r -+ shift, which is exact at the edge of the disc.
-#[inline]
-fn circle(eta: f64, shift: f64, r: f64) -> (f64, f64) {
-    let (below, above) = ((r - shift) - eta, (r + shift) + eta);
-    if below <= 0.0 {
-        (FRAC_PI_2, 0.0)
-    } else if above <= 0.0 {
-        (-FRAC_PI_2, 0.0)
-    } else {
-        let sine = ((eta + shift) / r).clamp(-1.0, 1.0);
-        (sine.asin(), (below * above).sqrt())
-    }
-}
-
-#[inline]
-fn hertz<const N: i32>(eta: f64, r: f64) -> Potentials<f64> {
-    let ((phi1, q1), (phi2, q2)) = (circle(eta, -1.0, r), circle(eta, 1.0, r));
-    let mut psi = chord_primitives::<N, f64>(eta, r, [phi1, phi2], [q1, q2]);
-    // measured from their values before the arrival
-    if N == STEP_INTEGRAL {
-        psi.a_upper -= 0.25;
-    }
-    psi
-}
-
-/// The step response of a distant point.
-fn hertz_far(eta: f64, r: f64) -> Potentials<f64> {
-    let distance = eta.abs();
-    if distance >= r + 1.0 {
-        return Potentials::default();
-    }
-    let psi = match multipole::terms(Complex64::new(0.0, distance), r, 10.0) {
-        Some(terms) => {
-            let xi = Complex64::new(0.0, distance);
-            let psi = multipole::multipole::<STEP>(Profile::Hertz, terms, xi, r);
-            Potentials {
-                a_upper: psi.a_upper.re,
-                a_lower: psi.a_lower.im,
-                g_upper: psi.g_upper.im,
-                g_lower: psi.g_lower.re,
+        Profile::Hertz if N == IMPULSE => hertz_impulse(eta, r),
+        Profile::Hertz if r < AXIS => hertz_on_axis::<N, T>(eta),
+        Profile::Hertz if N == STEP && r > FAR => hertz_far(eta, (r, digits)),
+        Profile::Hertz => {
+            let mut psi = held_primitives::<N, T>(eta, r, inside(eta, r));
+            if N == STEP_INTEGRAL {
+                psi.a_upper = psi.a_upper + BEFORE;
             }
+            psi
         }
-        None => far_front::compact(far_front::delta(eta, r), r),
-    };
-    // a2 and b3 are odd
-    let sign = 1.0_f64.copysign(eta);
-    Potentials {
-        a_lower: sign * psi.a_lower,
-        g_upper: sign * psi.g_upper,
-        ..psi
+        Profile::Punch => punch::<N, T>(eta, r),
+        Profile::Point => point::<N, T>(eta, r),
     }
 }
 
@@ -114,70 +66,142 @@ pub(crate) const PASSED: Potentials<f64> = Potentials {
     g_lower: 0.0,
 };
 
+/// What is added to a potential of the integral so that it is measured from its value before the arrival.
+const BEFORE: f64 = -0.25;
+
+/// The chord primitives with phi and q held beyond the circle.
+#[inline(always)]
+pub(crate) fn held_primitives<const N: i32, T: Real>(
+    eta: T,
+    r: f64,
+    inside: [T; 2],
+) -> Potentials<T> {
+    let s = [eta - 1.0, eta + 1.0];
+    let q = [held_root(inside[0]), held_root(inside[1])];
+    let phi = if N == STEP {
+        [eta.constant(0.0), angle_between(s, q)]
+    } else {
+        [s[0].angle_over(q[0]), s[1].angle_over(q[1])]
+    };
+    chord_primitives::<N, T>(eta, r, phi, q)
+}
+
+/// The difference of the angles of the vectors (q, s).
+#[inline(always)]
+fn angle_between<T: Real>(s: [T; 2], q: [T; 2]) -> T {
+    (s[1] * q[0] - s[0] * q[1]).angle_over(q[0] * q[1] + s[0] * s[1])
+}
+
+/// 1/q, and nothing where the circle is not reached.
+#[inline(always)]
+fn inverse<T: Real>(q: T) -> T {
+    let zero = q.constant(0.0);
+    zero.where_below(q, q.constant(1.0) / q, zero)
+}
+
+/// The limit r = 0, where the circle shrinks to a point of the chord.
+#[inline(always)]
+fn hertz_on_axis<const N: i32, T: Real>(eta: T) -> Potentials<T> {
+    let (zero, one) = (eta.constant(0.0), eta.constant(1.0));
+    let size = eta.abs();
+    let within = size.where_below(one, eta, zero);
+    let a3 = size.where_below(one, (one - within * within) * 0.375, zero);
+    match Order::of(N) {
+        Order::Step => Potentials {
+            a_upper: a3,
+            a_lower: within * -0.75,
+            g_upper: within * -0.375,
+            g_lower: size.where_below(one, one * 0.375, zero),
+        },
+        Order::StepIntegral => {
+            let held = size.where_below(one, eta, one.copysign(eta));
+            Potentials {
+                a_upper: (one - held * held * (1.0 / 3.0)) * held * 0.375 + BEFORE,
+                a_lower: a3,
+                g_upper: a3 * 0.5,
+                g_lower: within * -0.375,
+            }
+        }
+        Order::Impulse => unreachable!("impulses on the axis are continued from beside it"),
+    }
+}
+
+/// The step response of a distant point.
+#[inline(always)]
+fn hertz_far<T: Real>(eta: T, (r, digits): (f64, f64)) -> Potentials<T> {
+    let zero = eta.constant(0.0);
+    let distance = eta.abs();
+    let reach = Reach::new::<STEP>(T::Complex::new(zero, distance), r);
+    let mut psi = Potentials::all(T::Complex::new(zero, zero));
+    if reach.some_near {
+        let near = far_front::compact(eta, (r, digits));
+        psi = Potentials {
+            a_upper: T::Complex::new(near.a_upper, zero),
+            a_lower: T::Complex::new(zero, near.a_lower),
+            g_upper: T::Complex::new(zero, near.g_upper),
+            g_lower: T::Complex::new(near.g_lower, zero),
+        };
+    }
+    if reach.some_far {
+        let far = multipole::on_imaginary_axis(Profile::Hertz, distance, (r, digits));
+        psi = reach.pick(psi, far);
+    }
+    let (a2, b3) = (psi.a_lower.im(), psi.g_upper.im());
+    // both are odd
+    Potentials {
+        a_upper: psi.a_upper.re(),
+        a_lower: eta.where_below(zero, -a2, a2),
+        g_upper: eta.where_below(zero, -b3, b3),
+        g_lower: psi.g_lower.re(),
+    }
+}
+
 /// d/d eta of (a3, a2, b3/r, b2/r); the inverse roots are those of the fronts.
-#[inline]
-fn hertz_impulse(eta: f64, r: f64) -> Potentials<f64> {
-    let ((phi1, q1), (phi2, q2)) = (circle(eta, -1.0, r), circle(eta, 1.0, r));
-    let (phi, q) = ([phi1, phi2], [q1, q2]);
+#[inline(always)]
+fn hertz_impulse<T: Real>(eta: T, r: f64) -> Potentials<T> {
     let scale = 0.75 / PI;
     let ring = scale / (r * r);
-    let inverse = q.map(|q| if q > 0.0 { 1.0 / q } else { 0.0 });
-    let (m0, m1) = (phi[1] - phi[0], q[0] - q[1]);
-    let m2 = 0.5 * (r * r * m0 - (eta + 1.0) * q[1] + (eta - 1.0) * q[0]);
+    let s = [eta - 1.0, eta + 1.0];
+    let inside = inside(eta, r);
+    let q = [held_root(inside[0]), held_root(inside[1])];
+    let over = [inverse(q[0]), inverse(q[1])];
+    let (m0, m1) = (angle_between(s, q), q[0] - q[1]);
+    let m2 = (m0 * (r * r) - s[1] * q[1] + s[0] * q[0]) * 0.5;
     Potentials {
-        a_upper: scale * (m1 - eta * m0),
-        a_lower: scale * (inverse[0] + inverse[1] - m0),
-        g_upper: ring * (eta * m1 - m2),
-        g_lower: ring * ((eta + 1.0) * inverse[1] + (eta - 1.0) * inverse[0] - m1),
+        a_upper: (m1 - eta * m0) * scale,
+        a_lower: (over[0] + over[1] - m0) * scale,
+        g_upper: (eta * m1 - m2) * ring,
+        g_lower: (s[1] * over[1] + s[0] * over[0] - m1) * ring,
     }
 }
 
-/// The limit r = 0 of the integral of the step response, where the circle shrinks to a point of the chord.
-///
-/// The step response itself is [`side_by_side`](crate::integral::side_by_side) there.
-#[inline]
-fn hertz_integral_on_axis(eta: f64) -> Potentials<f64> {
-    if eta >= 1.0 {
-        return Potentials::default();
-    }
-    if eta <= -1.0 {
-        return PASSED;
-    }
-    let square = eta * eta;
-    let inside = 1.0 - square;
-    Potentials {
-        a_upper: 0.375 * eta * (1.0 - square / 3.0) - 0.25,
-        a_lower: 0.375 * inside,
-        g_upper: 0.1875 * inside,
-        g_lower: -0.375 * eta,
-    }
-}
-
-#[inline]
-fn punch<const N: i32>(eta: f64, r: f64) -> Potentials<f64> {
-    let (s1, s2) = (eta - 1.0, eta + 1.0);
-    let ((phi1, q1), (phi2, q2)) = (circle(eta, -1.0, r), circle(eta, 1.0, r));
+#[inline(always)]
+fn punch<const N: i32, T: Real>(eta: T, r: f64) -> Potentials<T> {
     let scale = 0.25 / PI;
     let ring = scale / (r * r);
-    let a3 = scale * (phi2 - phi1);
-    let b3 = ring * (q2 - q1);
+    let s = [eta - 1.0, eta + 1.0];
+    let inside = inside(eta, r);
+    let q = [held_root(inside[0]), held_root(inside[1])];
+    let angle = angle_between(s, q);
+    let (a3, b3) = (angle * scale, (q[1] - q[0]) * ring);
     match Order::of(N) {
         Order::Step => {
-            let inverse = |q: f64| if q > 0.0 { 1.0 / q } else { 0.0 };
-            let (v1, v2) = (inverse(q1), inverse(q2));
+            let over = [inverse(q[0]), inverse(q[1])];
             Potentials {
                 a_upper: a3,
-                a_lower: scale * (v2 - v1),
+                a_lower: (over[1] - over[0]) * scale,
                 g_upper: b3,
-                g_lower: ring * (s2 * v2 - s1 * v1),
+                g_lower: (s[1] * over[1] - s[0] * over[0]) * ring,
             }
         }
         Order::StepIntegral => {
-            let sq = s2 * q2 - s1 * q1;
+            let phi = [s[0].angle_over(q[0]), s[1].angle_over(q[1])];
+            let sphi = s[1] * phi[1] - s[0] * phi[0];
+            let sq = s[1] * q[1] - s[0] * q[0];
             Potentials {
-                a_upper: scale * (s2 * phi2 - s1 * phi1 + q2 - q1) - 0.25,
+                a_upper: (sphi + q[1] - q[0]) * scale + BEFORE,
                 a_lower: a3,
-                g_upper: ring * 0.5 * (sq + r * r * (phi2 - phi1)),
+                g_upper: (sq + angle * (r * r)) * (ring * 0.5),
                 g_lower: b3,
             }
         }
@@ -185,38 +209,42 @@ fn punch<const N: i32>(eta: f64, r: f64) -> Potentials<f64> {
     }
 }
 
-#[inline]
-fn point<const N: i32>(eta: f64, r: f64) -> Potentials<f64> {
-    let (phi, q) = circle(eta, 0.0, r);
+#[inline(always)]
+fn point<const N: i32, T: Real>(eta: T, r: f64) -> Potentials<T> {
     let scale = 0.5 / PI;
     let ring = scale / (r * r);
-    let inverse = if q > 0.0 { 1.0 / q } else { 0.0 };
-    let a3 = scale * inverse;
-    let b3 = -ring * eta * inverse;
+    let q = held_root((-eta + r) * (eta + r));
+    let over = inverse(q);
+    let (a3, b3) = (over * scale, eta * over * -ring);
     match Order::of(N) {
         Order::Step => {
-            let cube = inverse * inverse * inverse;
+            let cube = over * over * over;
             Potentials {
                 a_upper: a3,
-                a_lower: scale * eta * cube,
+                a_lower: eta * cube * scale,
                 g_upper: b3,
-                g_lower: ring * r * r * cube,
+                g_lower: cube * (ring * r * r),
             }
         }
         Order::StepIntegral => Potentials {
-            a_upper: scale * phi - 0.25,
+            a_upper: eta.angle_over(q) * scale + BEFORE,
             a_lower: a3,
-            g_upper: ring * q,
+            g_upper: q * ring,
             g_lower: b3,
         },
         Order::Impulse => unreachable!("{HERTZ_ONLY}"),
     }
 }
 
+/// Why an order is not met here.
+const HERTZ_ONLY: &str = "impulse responses are refused for other profiles than Hertz";
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::potentials::closed_form::potentials;
+    use crate::potentials::closed_form::of_one;
+    use crate::potentials::far_front::ALL;
+    use num_complex::Complex64;
 
     /// The parts named in the module text, taken from the complex potentials.
     #[test]
@@ -228,12 +256,12 @@ mod tests {
                     let eta = 0.097 * f64::from(i) + if r > 5.0 { r } else { 0.0 };
                     let xi = Complex64::new(0.0, eta);
                     let (full0, full1) = (
-                        potentials::<STEP>(profile, xi, r),
-                        potentials::<STEP_INTEGRAL>(profile, xi, r),
+                        of_one::<STEP>(profile, xi, r),
+                        of_one::<STEP_INTEGRAL>(profile, xi, r),
                     );
                     let (c0, c1) = (
-                        compact::<STEP>(profile, eta, r),
-                        compact::<STEP_INTEGRAL>(profile, eta, r),
+                        compact::<STEP, _>(profile, eta, (r, ALL)),
+                        compact::<STEP_INTEGRAL, _>(profile, eta, (r, ALL)),
                     );
                     let pairs = [
                         (c0.a_upper, full0.a_upper.re),

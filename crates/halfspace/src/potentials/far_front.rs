@@ -16,12 +16,11 @@
 //!
 //! Nothing is left of the distance but its root, so all digits of the front are kept.
 
-use crate::numeric::complex::{root, times_minus_i};
+use crate::numeric::complex::Complex;
 use crate::numeric::scalar::{Real, Scalar};
 use crate::potentials::Potentials;
-use num_complex::Complex64;
+use crate::potentials::closed_form::held_root;
 use std::f64::consts::PI;
-use std::ops::Mul;
 
 /// Radius from which on the closed forms are replaced.
 pub(crate) const FAR: f64 = 25.0;
@@ -32,18 +31,20 @@ const C: f64 = 0.375 / PI;
 const MOST_TERMS: usize = 26;
 
 /// The four chord integrals.
-pub(crate) struct Chord<T> {
-    pub(crate) i: [T; 2],
-    pub(crate) k: [T; 2],
+struct Chord<T> {
+    i: [T; 2],
+    k: [T; 2],
 }
 
 /// Digits that reach rounding.
 pub(crate) const ALL: f64 = 37.0;
 
-/// Terms of the series that leave exp(-`digits`) for delta up to `size`.
+/// Terms of the series that leave exp(-`digits`).
 #[inline(always)]
-pub(crate) fn terms(size: f64, r: f64, digits: f64) -> usize {
-    let ratio = size / (2.0 * r);
+fn terms(r: f64, digits: f64) -> usize {
+    /// Largest distance behind a front for which the multipole series is not taken, whatever is beside it in a register.
+    const LARGEST: f64 = 12.0;
+    let ratio = LARGEST / (2.0 * r);
     ((-digits.min(ALL) / ratio.ln()) as usize + 1).clamp(4, MOST_TERMS)
 }
 
@@ -52,12 +53,7 @@ pub(crate) fn terms(size: f64, r: f64, digits: f64) -> usize {
 /// Any branch of the root may be taken, and a root of zero stands for an end that the front has not reached. They are
 /// linear in the roots.
 #[inline(always)]
-pub(crate) fn chord<D: Scalar, T: Scalar + Mul<D, Output = T>>(
-    delta: [D; 2],
-    root: [T; 2],
-    terms: usize,
-    r: f64,
-) -> Chord<T> {
+fn chord<T: Scalar>(delta: [T; 2], root: [T; 2], (r, digits): (f64, f64)) -> Chord<T> {
     let zero = root[0].constant(0.0);
     // sigma = e + delta
     let e = delta[1].constant(1.0) - delta[1];
@@ -68,7 +64,7 @@ pub(crate) fn chord<D: Scalar, T: Scalar + Mul<D, Output = T>>(
     let mut powers = root;
     let (mut d, mut sums) = ([zero; 4], [zero; 4]);
     let mut coefficient = 1.0;
-    for m in 0..terms + 3 {
+    for m in 0..terms(r, digits) + 3 {
         let half = 1.0 / (m as f64 + 0.5);
         d = [d[1], d[2], d[3], (powers[1] - powers[0]) * half];
         powers = [powers[0] * steps[0], powers[1] * steps[1]];
@@ -97,23 +93,17 @@ pub(crate) fn chord<D: Scalar, T: Scalar + Mul<D, Output = T>>(
 
 /// delta = r - |eta| -+ 1 of a distant point.
 #[inline(always)]
-pub(crate) fn delta<T: Real>(eta: T, r: f64) -> [T; 2] {
+fn delta<T: Real>(eta: T, r: f64) -> [T; 2] {
     let distance = eta.abs();
     [-distance + (r - 1.0), -distance + (r + 1.0)]
 }
 
-/// The compact parts (a3, a2, b3/r, b2/r) at r - 9 < eta, from `delta` = r - eta -+ 1 at sigma = -1 and 1.
-///
-/// They vanish before the front, delta < 0.
-pub(crate) fn compact(delta: [f64; 2], r: f64) -> Potentials<f64> {
-    let root = delta.map(|delta| delta.max(0.0).sqrt());
-    let size = delta[0].abs().max(delta[1].abs());
-    compact_of(chord(delta, root, terms(size, r, ALL), r), r)
-}
-
-/// The compact parts from real chord integrals.
+/// The compact parts (a3, a2, b3/r, b2/r) at eta > 0; they vanish before the front.
 #[inline(always)]
-pub(crate) fn compact_of<T: Scalar>(Chord { i, k }: Chord<T>, r: f64) -> Potentials<T> {
+pub(crate) fn compact<T: Real>(eta: T, (r, digits): (f64, f64)) -> Potentials<T> {
+    let delta = delta(eta, r);
+    let root = [held_root(delta[0]), held_root(delta[1])];
+    let Chord { i, k } = chord(delta, root, (r, digits));
     let ring = C / (r * r);
     Potentials {
         a_upper: i[0] * C,
@@ -123,32 +113,49 @@ pub(crate) fn compact_of<T: Scalar>(Chord { i, k }: Chord<T>, r: f64) -> Potenti
     }
 }
 
+/// The potentials of a distant point at xi = d + i eta, on the imaginary axis or off it.
+#[inline(always)]
+pub(crate) fn of_disc<T: Complex>(xi: T, (r, digits): (f64, f64), on_axis: bool) -> Potentials<T> {
+    let delta = delta(xi.im(), r);
+    let psi = if on_axis {
+        // linear in the roots, which are real or imaginary
+        let re = chord(
+            delta,
+            [held_root(delta[0]), held_root(delta[1])],
+            (r, digits),
+        );
+        let im = chord(
+            delta,
+            [held_root(-delta[0]), held_root(-delta[1])],
+            (r, digits),
+        );
+        let i = [T::new(re.i[0], im.i[0]), T::new(re.i[1], im.i[1])];
+        let k = [T::new(re.k[0], im.k[0]), T::new(re.k[1], im.k[1])];
+        of_chord(Chord { i, k }, r)
+    } else {
+        let delta = [T::new(delta[0], xi.re()), T::new(delta[1], xi.re())];
+        potentials(delta, (r, digits))
+    };
+    // the conjugate where xi is below the real axis
+    let zero = xi.im().constant(0.0);
+    psi.map(|v| T::where_below(xi.im(), zero, v.conj(), v))
+}
+
 /// The potentials at xi = d + i eta, eta > 0, from `delta` = r - eta -+ 1 + i d at sigma = -1 and 1.
-pub(crate) fn potentials(delta: [Complex64; 2], r: f64) -> Potentials<Complex64> {
-    let roots = delta.map(|delta| {
-        if delta.im == 0.0 && delta.re < 0.0 {
-            Complex64::new(0.0, (-delta.re).sqrt())
-        } else {
-            root(delta)
-        }
-    });
-    let size = delta[0].norm().max(delta[1].norm());
-    let chord = chord(delta, roots, terms(size, r, ALL), r);
-    of_chord(chord, r, times_minus_i)
+#[inline(always)]
+pub(crate) fn potentials<T: Complex>(delta: [T; 2], (r, digits): (f64, f64)) -> Potentials<T> {
+    let root = [delta[0].root(), delta[1].root()];
+    of_chord(chord(delta, root, (r, digits)), r)
 }
 
 /// The same from the chord integrals.
 #[inline(always)]
-pub(crate) fn of_chord<T: Scalar>(
-    Chord { i, k }: Chord<T>,
-    r: f64,
-    times_minus_i: impl Fn(T) -> T,
-) -> Potentials<T> {
+fn of_chord<T: Complex>(Chord { i, k }: Chord<T>, r: f64) -> Potentials<T> {
     let ring = C / (r * r);
     Potentials {
         a_upper: i[0] * C,
-        a_lower: times_minus_i(k[0]) * (2.0 * C),
-        g_upper: (times_minus_i(i[0] * r - i[1]) + 4.0 / 3.0) * ring,
+        a_lower: k[0].times_minus_i() * (2.0 * C),
+        g_upper: ((i[0] * r - i[1]).times_minus_i() + 4.0 / 3.0) * ring,
         g_lower: (k[0] * r - k[1]) * (-2.0 * ring),
     }
 }

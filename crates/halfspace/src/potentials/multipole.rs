@@ -12,12 +12,11 @@
 //!
 //! Theory: `docs/theory.md` (T20).
 
-use crate::numeric::complex::{logarithm, reciprocal, root_with_circle};
-use crate::numeric::scalar::Scalar;
+use crate::numeric::complex::Complex;
+use crate::numeric::scalar::{Real, Scalar};
 use crate::potentials::Potentials;
-use crate::potentials::order::{IMPULSE, Order};
+use crate::potentials::order::{IMPULSE, Order, STEP};
 use crate::profile::Profile;
-use num_complex::Complex64;
 use std::f64::consts::PI;
 
 /// Most terms of the series.
@@ -32,30 +31,9 @@ pub(crate) fn nearest<const N: i32>(r: f64) -> f64 {
     }
 }
 
-/// Number of terms that reach 1e-13 of the first, or nothing when xi is too near.
-///
-/// The distance is half the sum of the distances of the singularities sigma = -i xi +- r from the ends of
-/// the chord.
-#[inline]
-pub(crate) fn terms(xi: Complex64, r: f64, nearest: f64) -> Option<usize> {
-    let gap = (xi.im.abs() - r).abs();
-    if gap + xi.re + 1.0 < nearest {
-        return None;
-    }
-    let y2 = xi.re * xi.re;
-    let sum = ((gap - 1.0).powi(2) + y2).sqrt() + ((gap + 1.0).powi(2) + y2).sqrt();
-    let distance = 0.5 * sum;
-    if distance < nearest {
-        return None;
-    }
-    let terms = [(60.0, 4), (25.0, 5), (14.0, 6), (9.5, 7)];
-    let found = terms.into_iter().find(|(least, _)| distance >= *least);
-    Some(found.map_or(MOST_TERMS, |(_, n)| n))
-}
-
-/// Those that leave exp(-`digits`) at the nearest distance at which the series is taken.
+/// Terms that leave exp(-`digits`) at the nearest distance at which the series is taken.
 #[inline(always)]
-pub(crate) fn terms_to(digits: f64) -> usize {
+fn terms(digits: f64) -> usize {
     /// 1 over twice the logarithm of the nearest distance.
     const A_DIGIT: f64 = 0.257;
     ((A_DIGIT * digits).ceil() as usize).clamp(2, MOST_TERMS)
@@ -63,7 +41,7 @@ pub(crate) fn terms_to(digits: f64) -> usize {
 
 /// Even moments M_2j of the chord function.
 #[inline(always)]
-pub(crate) const fn moment(profile: Profile, j: usize) -> f64 {
+const fn moment(profile: Profile, j: usize) -> f64 {
     let odd = (2 * j + 1) as f64;
     match profile {
         Profile::Hertz => 1.5 / (PI * odd * (odd + 2.0)),
@@ -113,7 +91,7 @@ static TERMS: [[Term; MOST_TERMS]; 3] = [
 ///
 /// `alternate` is the factor from one j to the next, `over` is zeta/rho^2, `inverse2` 1/rho^2, `q0` 1/rho.
 #[inline(always)]
-pub(crate) fn sums<const N: i32, T: Scalar>(
+fn sums<const N: i32, T: Scalar>(
     profile: Profile,
     terms: usize,
     alternate: f64,
@@ -168,27 +146,49 @@ pub(crate) fn sums<const N: i32, T: Scalar>(
     sum
 }
 
-/// The potentials by `terms` terms of the series.
-pub(crate) fn multipole<const N: i32>(
+/// The potentials by the series.
+#[inline(always)]
+pub(crate) fn potentials<const N: i32, C: Complex>(
     profile: Profile,
-    terms: usize,
-    xi: Complex64,
-    r: f64,
-) -> Potentials<Complex64> {
-    let rho = root_with_circle(xi, r);
-    let inverse = reciprocal(rho);
+    xi: C,
+    (r, digits): (f64, f64),
+) -> Potentials<C> {
+    let rho = xi.root_with_circle(r);
+    let inverse = rho.reciprocal();
     let square = inverse * inverse;
-    let sum = reciprocal(rho + xi);
+    let sum = (rho + xi).reciprocal();
+    let mut psi = sums::<N, C>(profile, terms(digits), -1.0, xi * square, square, inverse);
     let mass = moment(profile, 0);
-    let mut psi = sums::<N, Complex64>(profile, terms, -1.0, xi * square, square, inverse);
     match Order::of(N) {
         Order::Impulse => {}
-        Order::Step => psi.g_upper += mass * inverse * sum,
+        Order::Step => psi.g_upper = psi.g_upper + inverse * sum * mass,
         Order::StepIntegral => {
-            psi.a_upper -= mass * logarithm(rho + xi);
-            psi.g_upper += mass * sum;
-            psi.g_lower += mass * inverse * sum;
+            psi.a_upper = psi.a_upper - (rho + xi).logarithm() * mass;
+            psi.g_upper = psi.g_upper + sum * mass;
+            psi.g_lower = psi.g_lower + inverse * sum * mass;
         }
     }
     psi
+}
+
+/// Those of the step response at zeta = i s, where Q_k is i^k/rho and V_k is i^{k-1}/rho times a real number.
+#[inline(always)]
+pub(crate) fn on_imaginary_axis<T: Real>(
+    profile: Profile,
+    s: T,
+    (r, digits): (f64, f64),
+) -> Potentials<T::Complex> {
+    let xi = T::Complex::new(s.constant(0.0), s);
+    let square = (-s + r) * (s + r);
+    let rho = xi.root_inside(square);
+    let (inverse, inverse2) = (rho.reciprocal(), s.constant(1.0) / square);
+    let one = s.constant(1.0);
+    let sum = sums::<STEP, T>(profile, terms(digits), 1.0, s * inverse2, -inverse2, one);
+    let mass = moment(profile, 0);
+    Potentials {
+        a_upper: inverse.times(sum.a_upper),
+        a_lower: inverse.times(sum.a_lower).times_i(),
+        g_upper: inverse.times(sum.g_upper).times_i() + inverse * (rho + xi).reciprocal() * mass,
+        g_lower: inverse.times(-sum.g_lower),
+    }
 }

@@ -11,8 +11,9 @@
 //! Theory: `docs/theory.md` (T19).
 
 use crate::point::Point;
-use crate::potentials::closed_form::potentials;
+use crate::potentials::closed_form::of_one;
 use crate::potentials::compact::compact;
+use crate::potentials::far_front::ALL;
 use crate::potentials::order::{IMPULSE, STEP};
 use crate::profile::Profile;
 use num_complex::Complex64;
@@ -51,14 +52,14 @@ pub(crate) fn is_short(xi: Complex64, step: f64, r: f64) -> bool {
 pub(crate) fn difference(xi: Complex64, step: Complex64, r: f64) -> (Complex64, Complex64) {
     if is_short(xi, step.norm(), r) {
         let [first, second] =
-            PLACES.map(|place| potentials::<IMPULSE>(Profile::Hertz, xi + place * step, r));
+            PLACES.map(|place| of_one::<IMPULSE>(Profile::Hertz, xi + place * step, r));
         (
             -0.5 * step * (first.a_lower + second.a_lower),
             -0.5 * step * (first.g_lower + second.g_lower),
         )
     } else {
-        let from = potentials::<STEP>(Profile::Hertz, xi, r);
-        let to = potentials::<STEP>(Profile::Hertz, xi + step, r);
+        let from = of_one::<STEP>(Profile::Hertz, xi, r);
+        let to = of_one::<STEP>(Profile::Hertz, xi + step, r);
         (to.a_lower - from.a_lower, to.g_lower - from.g_lower)
     }
 }
@@ -68,15 +69,15 @@ pub(crate) fn difference(xi: Complex64, step: Complex64, r: f64) -> (Complex64, 
 /// Just after the plane front both are large and eta is not, so it is not taken from their sum.
 pub(crate) fn compact_difference(surface: f64, step: f64, eta: f64, r: f64) -> (f64, f64) {
     if is_short(Complex64::new(0.0, surface), step.abs(), r) {
-        let [first, second] =
-            PLACES.map(|place| compact::<IMPULSE>(Profile::Hertz, surface + place * step, r));
+        let [first, second] = PLACES
+            .map(|place| compact::<IMPULSE, f64>(Profile::Hertz, surface + place * step, (r, ALL)));
         (
             0.5 * step * (first.a_lower + second.a_lower),
             0.5 * step * (first.g_lower + second.g_lower),
         )
     } else {
-        let from = compact::<STEP>(Profile::Hertz, surface, r);
-        let to = compact::<STEP>(Profile::Hertz, eta, r);
+        let from = compact::<STEP, f64>(Profile::Hertz, surface, (r, ALL));
+        let to = compact::<STEP, f64>(Profile::Hertz, eta, (r, ALL));
         (to.a_lower - from.a_lower, to.g_lower - from.g_lower)
     }
 }

@@ -14,7 +14,7 @@ const LN_2_LOW: f64 = 1.908_214_929_270_587_7e-10;
 impl<S: Simd> Lanes<S> {
     /// The angle of the vector (`x`, self), in [-pi, pi]; of nothing it is zero.
     #[inline(always)]
-    pub(crate) fn angle_over(self, x: Self) -> Self {
+    pub(super) fn angle(self, x: Self) -> Self {
         const TAN_PI_8: f64 = 0.414_213_562_373_095_03;
         const FRAC_PI_4_LOW: f64 = 3.061_616_997_868_383e-17;
         let zero = self.constant(0.0);
@@ -51,7 +51,7 @@ impl<S: Simd> Lanes<S> {
 
     /// The natural logarithm of positive numbers that are not subnormal.
     #[inline(always)]
-    pub(crate) fn ln(self) -> Self {
+    pub(super) fn logarithm(self) -> Self {
         // of 2^52 the last bit counts one
         const MAGIC: f64 = 4_503_599_627_370_496.0;
         let simd = self.simd;

@@ -84,30 +84,13 @@ impl<S: Simd> Lanes<S> {
     }
 
     #[inline(always)]
-    pub(crate) fn max(self, other: Self) -> Self {
+    fn max(self, other: Self) -> Self {
         self.with(self.simd.max_f64s(self.register, other.register))
     }
 
     #[inline(always)]
-    pub(crate) fn min(self, other: Self) -> Self {
+    fn min(self, other: Self) -> Self {
         self.with(self.simd.min_f64s(self.register, other.register))
-    }
-
-    #[inline(always)]
-    pub(crate) fn copysign(self, other: Self) -> Self {
-        let Self { simd, .. } = self;
-        let sign = simd.and_f64s(other.register, simd.splat_f64s(-0.0));
-        self.with(simd.or_f64s(self.abs().register, sign))
-    }
-
-    #[inline(always)]
-    pub(crate) fn largest(self) -> f64 {
-        self.simd.reduce_max_f64s(self.register)
-    }
-
-    #[inline(always)]
-    pub(crate) fn smallest(self) -> f64 {
-        self.simd.reduce_min_f64s(self.register)
     }
 
     /// Horner's rule, the highest coefficient first.
@@ -167,6 +150,8 @@ impl<S: Simd> Scalar for Lanes<S> {
 }
 
 impl<S: Simd> Real for Lanes<S> {
+    type Complex = Pair<S>;
+
     #[inline(always)]
     fn sqrt(self) -> Self {
         self.with(self.simd.sqrt_f64s(self.register))
@@ -178,8 +163,30 @@ impl<S: Simd> Real for Lanes<S> {
     }
 
     #[inline(always)]
+    fn ln(self) -> Self {
+        self.logarithm()
+    }
+
+    #[inline(always)]
     fn abs(self) -> Self {
         self.with(self.simd.abs_f64s(self.register))
+    }
+
+    #[inline(always)]
+    fn copysign(self, sign: Self) -> Self {
+        let Self { simd, .. } = self;
+        let sign = simd.and_f64s(sign.register, simd.splat_f64s(-0.0));
+        self.with(simd.or_f64s(self.abs().register, sign))
+    }
+
+    #[inline(always)]
+    fn at_least(self, least: f64) -> Self {
+        self.max(self.constant(least))
+    }
+
+    #[inline(always)]
+    fn angle_over(self, x: Self) -> Self {
+        self.angle(x)
     }
 
     #[inline(always)]
@@ -189,7 +196,12 @@ impl<S: Simd> Real for Lanes<S> {
     }
 
     #[inline(always)]
-    fn at_least(self, least: f64) -> Self {
-        self.max(self.constant(least))
+    fn largest(self) -> f64 {
+        self.simd.reduce_max_f64s(self.register)
+    }
+
+    #[inline(always)]
+    fn smallest(self) -> f64 {
+        self.simd.reduce_min_f64s(self.register)
     }
 }

@@ -1,7 +1,8 @@
 //! Complex numbers side by side.
 
 use super::Lanes;
-use crate::numeric::scalar::{Real, Scalar};
+use crate::numeric::complex::Complex;
+use crate::numeric::scalar::Scalar;
 use pulp::Simd;
 use std::ops::{Add, Mul, Sub};
 
@@ -12,67 +13,29 @@ pub(crate) struct Pair<S: Simd> {
     pub(crate) im: Lanes<S>,
 }
 
-impl<S: Simd> Pair<S> {
+impl<S: Simd> Complex for Pair<S> {
+    type Part = Lanes<S>;
+
     #[inline(always)]
-    pub(crate) fn new(re: Lanes<S>, im: Lanes<S>) -> Self {
+    fn new(re: Lanes<S>, im: Lanes<S>) -> Self {
         Self { re, im }
     }
 
-    /// Principal logarithm; of zero it is finite.
     #[inline(always)]
-    pub(crate) fn logarithm(self) -> Self {
-        let square = self.norm_sqr().at_least(f64::MIN_POSITIVE);
-        Self::new(square.ln() * 0.5, self.im.angle_over(self.re))
+    fn re(self) -> Lanes<S> {
+        self.re
     }
 
     #[inline(always)]
-    pub(crate) fn norm_sqr(self) -> Lanes<S> {
-        self.re * self.re + self.im * self.im
+    fn im(self) -> Lanes<S> {
+        self.im
     }
+}
 
+impl<S: Simd> Scalar for Pair<S> {
     #[inline(always)]
-    pub(crate) fn conj(self) -> Self {
-        Self::new(self.re, -self.im)
-    }
-
-    /// i times this.
-    #[inline(always)]
-    pub(crate) fn times_i(self) -> Self {
-        Self::new(-self.im, self.re)
-    }
-
-    /// -i times this.
-    #[inline(always)]
-    pub(crate) fn times_minus_i(self) -> Self {
-        Self::new(self.im, -self.re)
-    }
-
-    #[inline(always)]
-    pub(crate) fn reciprocal(self) -> Self {
-        let scale = self.re.constant(1.0) / self.norm_sqr();
-        Self::new(self.re * scale, -self.im * scale)
-    }
-
-    /// Principal square root.
-    #[inline(always)]
-    pub(crate) fn root(self) -> Self {
-        let modulus = self.norm_sqr().sqrt();
-        let large = ((modulus + self.re.abs()) * 0.5).sqrt();
-        let small = self.im.abs() * 0.5 / large.at_least(f64::MIN_POSITIVE);
-        let zero = self.re.constant(0.0);
-        Self::new(
-            self.re.where_below(zero, small, large),
-            self.re.where_below(zero, large, small).copysign(self.im),
-        )
-    }
-
-    /// `yes` where `value` is below `limit`, else `no`.
-    #[inline(always)]
-    pub(crate) fn where_below(value: Lanes<S>, limit: Lanes<S>, yes: Self, no: Self) -> Self {
-        Self::new(
-            value.where_below(limit, yes.re, no.re),
-            value.where_below(limit, yes.im, no.im),
-        )
+    fn constant(self, value: f64) -> Self {
+        Self::new(self.re.constant(value), self.re.constant(0.0))
     }
 }
 
@@ -106,15 +69,6 @@ impl<S: Simd> Mul for Pair<S> {
     }
 }
 
-impl<S: Simd> Mul<Lanes<S>> for Pair<S> {
-    type Output = Self;
-
-    #[inline(always)]
-    fn mul(self, real: Lanes<S>) -> Self {
-        Self::new(self.re * real, self.im * real)
-    }
-}
-
 impl<S: Simd> Add<f64> for Pair<S> {
     type Output = Self;
 
@@ -138,13 +92,6 @@ impl<S: Simd> Mul<f64> for Pair<S> {
 
     #[inline(always)]
     fn mul(self, other: f64) -> Self {
-        self * self.re.constant(other)
-    }
-}
-
-impl<S: Simd> Scalar for Pair<S> {
-    #[inline(always)]
-    fn constant(self, value: f64) -> Self {
-        Self::new(self.re.constant(value), self.re.constant(0.0))
+        self.times(self.re.constant(other))
     }
 }

@@ -1,6 +1,7 @@
 //! Points of a complex plane, of which a function is taken for several at a time.
 
 use super::{Lanes, Pair, WIDTH, dispatch};
+use crate::numeric::complex::Complex;
 use crate::numeric::scalar::{Real, Scalar};
 use arrayvec::ArrayVec;
 use num_complex::Complex64;
@@ -11,7 +12,7 @@ const CAPACITY: usize = 8 * WIDTH;
 
 /// A function of a complex number.
 pub(crate) trait Map {
-    fn at<S: Simd>(&self, v: Pair<S>) -> Pair<S>;
+    fn at<C: Complex>(&self, v: C) -> C;
 }
 
 /// Points of a complex plane, real and imaginary parts side by side.
