@@ -51,7 +51,6 @@ pub struct Collision {
 
 impl Collision {
     /// The collision of a striker with a half-space at a velocity of approach in m/s.
-    #[must_use]
     pub fn new(half_space: &HalfSpace, striker: &Striker, velocity_m_s: f64) -> Self {
         let (one, two) = (&striker.material, half_space.material());
         let compliance = 1.0 / one.plane_modulus_pa() + 1.0 / two.plane_modulus_pa();
@@ -169,14 +168,12 @@ impl Collision {
     }
 
     /// Units of the collision: Hertz's largest approach and force, K = (4/3) E* sqrt(R), (37).
-    #[must_use]
     pub fn units(&self) -> CollisionUnits {
         let stiffness_n_m32 = 4.0 / 3.0 * self.effective_modulus_pa * self.tip_radius_m.sqrt();
         CollisionUnits::new(stiffness_n_m32, self.mass_kg, self.velocity_m_s)
     }
 
     /// Units of the half-space's kernels for a disc.
-    #[must_use]
     pub fn kernel_units(&self, disc_radius_m: f64) -> KernelUnits {
         KernelUnits {
             disc_radius_m,
@@ -191,19 +188,16 @@ impl Collision {
     }
 
     /// Contact radius a = sqrt(R alpha) in m under a force in N: (3 P R/(4 E*))^(1/3).
-    #[must_use]
     pub fn contact_radius_m(&self, force_n: f64) -> f64 {
         (0.75 * force_n * self.tip_radius_m / self.effective_modulus_pa).cbrt()
     }
 
     /// phi: the half-space's part of the contact's compliance, E* (1 - nu^2)/E in (0, 1).
-    #[must_use]
     pub fn target_share(&self) -> f64 {
         self.effective_modulus_pa / self.target_plane_modulus_pa
     }
 
     /// The groups of an impact on a fixed disc.
-    #[must_use]
     pub fn fixed_disc<'a, R: DiscResponse>(
         &self,
         response: &'a R,
@@ -221,7 +215,6 @@ impl Collision {
     }
 
     /// Static compliance of a disc over Hertz's, and r0/c1, in collision units.
-    #[must_use]
     pub fn disc_groups(&self, static_compliance: f64, disc_radius_m: f64) -> (f64, f64) {
         let (units, kernel) = (self.units(), self.kernel_units(disc_radius_m));
         let compliance = static_compliance * kernel.displacement_m_per_n();
@@ -230,7 +223,6 @@ impl Collision {
     }
 
     /// The groups of an impact whose contact radius follows the load.
-    #[must_use]
     pub fn growing_contact<'w>(&self, waves: &'w PunchWaves) -> GrowingContact<'w> {
         GrowingContact {
             waves,
@@ -240,7 +232,6 @@ impl Collision {
     }
 
     /// a/c1 in collision times, a = sqrt(R alpha) the contact radius at Hertz's largest approach.
-    #[must_use]
     pub fn contact_wave_time(&self) -> f64 {
         let units = self.units();
         let radius = (self.tip_radius_m * units.length_m).sqrt();
@@ -248,7 +239,6 @@ impl Collision {
     }
 
     /// c of the radiation model in collision units: w = -c p' to first order, for any load.
-    #[must_use]
     pub fn lag(&self, response: &impl DiscResponse) -> f64 {
         self.lag_of(self.contact_wave_time(), response)
     }

@@ -81,7 +81,6 @@ pub(crate) fn work(force: &[f64], deflection: &[f64]) -> f64 {
 }
 
 /// int P dw in J from the first sample to each, of forces in N and deflections in m.
-#[must_use]
 pub fn work_until_j(force_n: &[f64], deflection_m: &[f64]) -> Vec<f64> {
     let mut sum = 0.0;
     let first = force_n.first().map(|_| 0.0);

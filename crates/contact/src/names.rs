@@ -43,7 +43,6 @@ pub(crate) use choice;
 const MOST_LETTERS: usize = 64;
 
 /// The candidate that differs least from `word`, if it differs little.
-#[must_use]
 pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<String> {
     if word.chars().nth(MOST_LETTERS).is_some() {
         return None;

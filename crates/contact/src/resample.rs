@@ -27,7 +27,6 @@ const POINTS: usize = 5;
 
 impl Resampler {
     /// Of a history.
-    #[must_use]
     pub fn new(history: History) -> Self {
         let mut made = Self {
             history,
@@ -52,7 +51,6 @@ impl Resampler {
     }
 
     /// The first sample after all contacts, in collision units.
-    #[must_use]
     pub fn end(&self) -> f64 {
         if let Some(solved) = &self.history.pieces {
             return solved.summary.contact_time;
@@ -62,7 +60,6 @@ impl Resampler {
     }
 
     /// Where the rate of the force jumps within a contact, in collision units, ascending.
-    #[must_use]
     pub fn kinks(&self) -> &[f64] {
         self.history
             .pieces
@@ -71,7 +68,6 @@ impl Resampler {
     }
 
     /// Force, rate and second rate at a time in collision units; zero outside the contacts.
-    #[must_use]
     pub fn force(&self, time: f64) -> [f64; 3] {
         if let Some(solved) = &self.history.pieces {
             return solved.force(time);
@@ -81,7 +77,6 @@ impl Resampler {
     }
 
     /// The force alone, as [`Self::force`] has it, in half of the time.
-    #[must_use]
     pub fn force_alone(&self, time: f64) -> f64 {
         if let Some(solved) = &self.history.pieces {
             return solved.force(time)[0];
@@ -91,7 +86,6 @@ impl Resampler {
     }
 
     /// The state at a time in collision units, from the touch on.
-    #[must_use]
     pub fn at(&self, time: f64) -> Instant {
         if let Some(solved) = &self.history.pieces {
             return solved.state(time);

@@ -67,7 +67,6 @@ impl Tabulated {
     ///
     /// The lattice has steps of 1/4096 in sqrt(1/2 - nu); what lies between is off by less than 1e-6, of punches in their
     /// first instants by 1e-5.
-    #[must_use]
     pub fn on_lattice() -> Self {
         Self {
             lattice: true,

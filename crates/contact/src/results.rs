@@ -105,7 +105,6 @@ impl Plastic {
 
 impl Results {
     /// Of a contact solved; `radiated` is relative to the kinetic energy before.
-    #[must_use]
     pub fn new(collision: &Collision, settings: &Settings, solved: &Solved, radiated: f64) -> Self {
         let (s, units) = (&solved.summary, collision.units());
         let peak_force_n = s.peak_force * units.force_n;

@@ -85,7 +85,6 @@ const YIELDS: f64 = 2.0;
 
 impl<'a, S: Responses> Solver<'a, S> {
     /// With a cache of responses.
-    #[must_use]
     pub fn new(responses: &'a S) -> Self {
         Self {
             responses,
@@ -99,7 +98,6 @@ impl<'a, S: Responses> Solver<'a, S> {
     }
 
     /// With a cache of responses, and series in place of marches where results alone are asked for.
-    #[must_use]
     pub fn sharing(responses: &'a S, outcomes: &'a Outcomes) -> Self {
         Self {
             outcomes: Some(outcomes),

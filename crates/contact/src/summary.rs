@@ -54,7 +54,6 @@ pub struct Estimates {
 
 impl Estimates {
     /// The largest of what a tolerance is asked on: peak force, contact time, restitution, displacement.
-    #[must_use]
     pub fn contact(&self) -> f64 {
         self.peak_force
             .max(self.contact_time)
@@ -90,7 +89,6 @@ impl Summary {
 
     /// The largest difference of what a tolerance is asked on, relative (restitution: of the velocity
     /// of approach): peak force, contact time, restitution, largest displacement.
-    #[must_use]
     pub fn distance(&self, other: &Self) -> f64 {
         self.motion_distance(other)
             .max(relative(self.contact_time, other.contact_time))
@@ -104,7 +102,6 @@ impl Summary {
     }
 
     /// The relative difference of the loss.
-    #[must_use]
     pub fn loss_distance(&self, other: &Self) -> f64 {
         relative(self.loss, other.loss)
     }

@@ -31,7 +31,6 @@ impl CollisionUnits {
     /// Units of a striker of mass `mass_kg` that meets a Hertz spring P = K h^(3/2) at `velocity_m_s`.
     ///
     /// All three arguments must be positive.
-    #[must_use]
     pub fn new(stiffness_n_m32: f64, mass_kg: f64, velocity_m_s: f64) -> Self {
         let energy = mass_kg * velocity_m_s * velocity_m_s;
         let length_m = (1.25 * energy / stiffness_n_m32).powf(0.4);
@@ -43,7 +42,6 @@ impl CollisionUnits {
     }
 
     /// Unit of velocity in m/s: the velocity of approach.
-    #[must_use]
     pub fn velocity_m_s(&self) -> f64 {
         self.length_m / self.time_s
     }
@@ -62,19 +60,16 @@ pub struct KernelUnits {
 
 impl KernelUnits {
     /// Unit of time r0/c1 in s.
-    #[must_use]
     pub fn time_s(&self) -> f64 {
         self.disc_radius_m / self.longitudinal_speed_m_s
     }
 
     /// Displacement in m for a force of 1 N: 1/(mu r0).
-    #[must_use]
     pub fn displacement_m_per_n(&self) -> f64 {
         1.0 / (self.shear_modulus_pa * self.disc_radius_m)
     }
 
     /// Stress in Pa for a force of 1 N: 1/r0^2.
-    #[must_use]
     pub fn stress_pa_per_n(&self) -> f64 {
         1.0 / (self.disc_radius_m * self.disc_radius_m)
     }

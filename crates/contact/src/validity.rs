@@ -14,7 +14,6 @@ use halfspace::Deflection;
 use std::f64::consts::PI;
 
 /// alpha_A = sqrt(pi rho r^3/m) (V0/c1)^(3/2): the weight of the super-seismic stage.
-#[must_use]
 pub fn super_seismic(half_space: &HalfSpace, collision: &Collision, radius_m: f64) -> f64 {
     (PI * half_space.density_kg_m3() * radius_m.powi(3) / collision.mass_kg).sqrt()
         * (collision.velocity_m_s / half_space.longitudinal_speed_m_s()).powf(1.5)
@@ -36,7 +35,6 @@ const USUAL: [(&str, [f64; 2], &str, &str, f64); 8] = [
 ];
 
 /// What hints at slips in the numbers of two bodies, by field.
-#[must_use]
 pub fn doubts(half_space: &HalfSpace, striker: &Striker) -> Vec<String> {
     let target = half_space.material();
     let of_material = |body, material: &Material| {
@@ -97,7 +95,6 @@ fn doubt(striker: &Striker) -> Option<String> {
 
 /// What the user should know of the bodies, the settings, the plan and what it gave: sentences with their numbers, none where
 /// all is well.
-#[must_use]
 pub fn warnings(
     half_space: &HalfSpace,
     striker: &Striker,

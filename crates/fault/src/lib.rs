@@ -64,7 +64,6 @@ pub enum Class {
 
 impl Class {
     /// Its name for programs.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Scene => "scene",
@@ -93,7 +92,6 @@ pub enum Remedy {
 }
 
 /// What a program can use of an error; none where it has no such thing.
-#[must_use]
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Culprit<'a> {
     pub class: Class,
@@ -158,7 +156,6 @@ impl<'a> Culprit<'a> {
 /// ```
 /// assert_eq!([-0.25, 1e300].map(fault::number), ["-0.25", "1e300"]);
 /// ```
-#[must_use]
 pub fn number(value: f64) -> String {
     match value.abs() {
         0.0 | 1e-7..1e16 => value.to_string(),

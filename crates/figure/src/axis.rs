@@ -1,7 +1,6 @@
 //! Axes: what one shows, in which unit, over which values, and the places of these along it.
 
 /// One axis, of a panel or of colours.
-#[must_use]
 #[derive(Debug, Clone, PartialEq)]
 pub struct Axis {
     /// What it shows: "contact force".

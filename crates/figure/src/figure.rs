@@ -112,7 +112,6 @@ pub enum Legend {
 }
 
 /// One panel.
-#[must_use]
 #[derive(Debug, Clone, PartialEq)]
 pub struct Panel {
     /// Written above it; may be empty.

@@ -82,7 +82,6 @@ impl SceneError {
     }
 
     /// A value of the wrong kind.
-    #[must_use]
     pub fn wrong_kind(key: String, value: String, expected: &str) -> Self {
         let mut error = Self::of(format!("{key} = {value} is not {expected}"), key);
         error.0.culprit.word = Some(value.into());

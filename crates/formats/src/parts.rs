@@ -75,14 +75,12 @@ impl Parts {
     }
 
     /// Rows of the sweep that no part has.
-    #[must_use]
     pub fn missing(&self) -> Vec<Range<usize>> {
         let held = self.full().map(|part| part.selection.rows.clone());
         gaps(&held.collect::<Vec<_>>(), &(0..self.sweep_rows))
     }
 
     /// Into how many shards the sweep was divided, where the parts agree on it.
-    #[must_use]
     pub fn shards(&self) -> Option<usize> {
         let parts = self.parts.iter();
         let mut counts = parts.map(|part| Some(part.selection.shard?.count));
@@ -91,7 +89,6 @@ impl Parts {
     }
 
     /// The shards, of so many, some rows of which no part has.
-    #[must_use]
     pub fn missing_shards(&self, count: usize) -> Vec<usize> {
         let missing = self.missing();
         let lacks = |&index: &usize| {
@@ -103,7 +100,6 @@ impl Parts {
     }
 
     /// The first rows that two parts have, if there are any.
-    #[must_use]
     pub fn overlap(&self) -> Option<SceneError> {
         let full: Vec<&Part> = self.full().collect();
         full.windows(2).find_map(|pair| {

@@ -32,7 +32,6 @@ pub struct Quantity {
 
 impl Quantity {
     /// Its value in all that a scene gives; none where it does not exist.
-    #[must_use]
     pub fn of(&self, outcome: &Outcome) -> Option<f64> {
         match &outcome.cause {
             Cause::Contact { results, .. } => {

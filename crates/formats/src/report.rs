@@ -15,7 +15,6 @@ const CLOSED_FORM: &str = "closed form";
 
 /// What a scene was computed with, by name: the model, never "auto", but "prescribed" for a force that was given; the scheme,
 /// "closed form" where nothing was marched; the static share; the deflection; and why this model.
-#[must_use]
 pub fn choices<'a>(scene: &Scene, outcome: &'a Outcome) -> [&'a str; 5] {
     let settings = &scene.settings;
     let deflection = settings.deflection.name();
@@ -59,7 +58,6 @@ pub(crate) fn treatment(scene: &Scene) -> Vec<(&'static str, Option<f64>)> {
 }
 
 /// Kernel of the fields: "none", "direct" or "table".
-#[must_use]
 pub fn kernel_name(outcome: &Outcome) -> &'static str {
     let used = outcome.used.as_ref();
     used.map_or("none", |used| used.kernel())
@@ -121,7 +119,6 @@ pub fn infer(
 }
 
 /// All that is reported of a scene, with the time that it took in s.
-#[must_use]
 pub fn json_report(scene: &Scene, outcome: &Outcome, wall_s: f64) -> Value {
     let [model, scheme, static_share, deflection, reason] = choices(scene, outcome);
     let used = outcome.used.as_ref();
@@ -162,7 +159,6 @@ pub fn json_report(scene: &Scene, outcome: &Outcome, wall_s: f64) -> Value {
 }
 
 /// A material with its wave speeds.
-#[must_use]
 pub fn material_report(m: &Material) -> Value {
     json!({
         "name": m.name,
@@ -180,7 +176,6 @@ pub fn material_report(m: &Material) -> Value {
 }
 
 /// What the table of a file covers, how it was made and how exact it is.
-#[must_use]
 pub fn table_report(path: &Path, table: &Table) -> Value {
     let content = table.content();
     let origin = &content.origin;
@@ -210,7 +205,6 @@ pub fn table_report(path: &Path, table: &Table) -> Value {
 }
 
 /// Relative errors of a table measured off its grid, by length of the pulse, region and field.
-#[must_use]
 pub fn accuracy_report(accuracy: &[Accuracy]) -> Value {
     let fields = |errors: &[Quantiles; 6]| {
         let of = |&Quantiles { p50, p99, max }: &Quantiles| json!({ "p50": p50, "p99": p99, "max": max });

@@ -52,20 +52,17 @@ impl Arrivals {
     }
 
     /// The first arrival: the distance to the nearest point of the disc.
-    #[must_use]
     pub fn first(&self) -> f64 {
         self.above.map_or(self.p[0], |above| above[0])
     }
 
     /// The last arrival; after it every field is a smooth function of 1/t.
-    #[must_use]
     pub fn last(&self) -> f64 {
         let head = self.head[1].unwrap_or(0.0);
         self.s[1].max(self.rayleigh[1]).max(head)
     }
 
     /// All arrivals in ascending order.
-    #[must_use]
     pub fn sorted(&self) -> Vec<f64> {
         let heads = self.head.into_iter().flatten();
         let above = self.above.into_iter().flatten();

@@ -29,13 +29,11 @@ pub const FIELDS: [Field; 6] = [
 
 impl Field {
     /// Position in a [`Six`].
-    #[must_use]
     pub const fn index(self) -> usize {
         self as usize
     }
 
     /// Whether the field is odd in r (it vanishes on the axis); the others are even.
-    #[must_use]
     pub const fn is_odd_in_r(self) -> bool {
         matches!(self, Self::DisplacementR | Self::StressRz)
     }

@@ -27,7 +27,6 @@ use std::f64::consts::{FRAC_PI_2, PI};
 /// assert!((kausel::centre_step(&Medium::new(0.3)?, 0.5) - 0.4834211245802).abs() < 1e-12);
 /// # Ok::<(), halfspace::DomainError>(())
 /// ```
-#[must_use]
 pub fn centre_step(medium: &Medium, t: f64) -> f64 {
     let kappa = medium.kappa();
     let roots = medium.rayleigh_cubic_roots;

@@ -82,19 +82,16 @@ impl Kernel {
     }
 
     /// The half-space.
-    #[must_use]
     pub fn medium(&self) -> &Medium {
         &self.setting.medium
     }
 
     /// The load profile.
-    #[must_use]
     pub fn profile(&self) -> Profile {
         self.setting.profile
     }
 
     /// The accuracy asked for, as a fraction of each field's peak over time.
-    #[must_use]
     pub fn tolerance(&self) -> f64 {
         self.setting.tolerance
     }

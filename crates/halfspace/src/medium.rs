@@ -61,25 +61,21 @@ impl Medium {
     }
 
     /// Poisson's ratio nu.
-    #[must_use]
     pub fn poisson_ratio(&self) -> f64 {
         self.poisson_ratio
     }
 
     /// kappa = c2/c1, the shear wave speed: sqrt((1 - 2 nu)/(2 - 2 nu)).
-    #[must_use]
     pub fn kappa(&self) -> f64 {
         self.kappa
     }
 
     /// lambda/mu = 2 nu/(1 - 2 nu), the ratio of the Lame constants.
-    #[must_use]
     pub fn lambda_over_mu(&self) -> f64 {
         2.0 * self.poisson_ratio / (1.0 - 2.0 * self.poisson_ratio)
     }
 
     /// c = c_R/c1, the Rayleigh wave speed.
-    #[must_use]
     pub fn rayleigh_speed(&self) -> f64 {
         self.rayleigh_speed
     }
@@ -91,7 +87,6 @@ impl Medium {
 
     /// D'(c) in the pole term: the derivative of Rayleigh's function D(c) = (2 - v)^2 - 4 sqrt((1 - c^2)(1 - v)), v = (c/kappa)^2,
     /// at the Rayleigh speed.
-    #[must_use]
     pub fn rayleigh_slope(&self) -> f64 {
         let (c, k) = (self.rayleigh_speed, self.shear_slowness_squared());
         let a = (1.0 - c * c).sqrt();

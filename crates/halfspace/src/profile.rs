@@ -19,7 +19,6 @@ pub enum Profile {
 
 impl Profile {
     /// Radius of the loaded disc: 1, or 0 for the point force.
-    #[must_use]
     pub fn radius(self) -> f64 {
         match self {
             Self::Hertz | Self::Punch => 1.0,
@@ -30,7 +29,6 @@ impl Profile {
     /// Pressure of a unit force at radius r, in P/r0^2.
     ///
     /// Zero outside the disc; infinite at the edge of a punch and under a point force; NaN for NaN.
-    #[must_use]
     pub fn pressure(self, r: f64) -> f64 {
         use std::f64::consts::PI;
         let inside = (1.0 - r) * (1.0 + r);

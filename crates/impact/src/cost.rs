@@ -169,7 +169,6 @@ const PRODUCT_S: f64 = 1e-9;
 
 impl Forecast {
     /// The least that a scene takes, before its force is known.
-    #[must_use]
     pub fn least(scene: &Scene) -> Self {
         Self::of(scene, FEWEST, busy(scene.points()))
     }

@@ -128,7 +128,6 @@ impl EnergySeries {
     }
 
     /// The energy radiated at the last time, in J.
-    #[must_use]
     pub fn radiated_at_last_j(&self) -> f64 {
         self.radiated_j.last().copied().unwrap_or(0.0)
     }

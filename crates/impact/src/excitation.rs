@@ -54,7 +54,6 @@ pub enum PressureRadius {
 
 impl PressureRadius {
     /// The largest in m: the unit of length of the fields.
-    #[must_use]
     pub fn largest_m(self) -> f64 {
         match self {
             Self::Fixed(radius_m) => radius_m,
@@ -191,7 +190,6 @@ impl Excitation {
     }
 
     /// The half-space's Poisson ratio and what follows from it.
-    #[must_use]
     pub fn medium(&self) -> &Medium {
         &self.medium
     }
@@ -206,13 +204,11 @@ impl Excitation {
     }
 
     /// Radius of the pressure.
-    #[must_use]
     pub fn radius(&self) -> PressureRadius {
         self.radius
     }
 
     /// Units of the kernels: largest radius of the pressure, wave speed, shear modulus.
-    #[must_use]
     pub fn units(&self) -> &KernelUnits {
         &self.units
     }
@@ -226,7 +222,6 @@ impl Excitation {
     }
 
     /// The record that it is, if it is one.
-    #[must_use]
     pub fn record(&self) -> Option<&ForceRecord> {
         match &self.force {
             Force::Contact(_) => None,
@@ -241,7 +236,6 @@ impl Excitation {
     }
 
     /// The force at a time, in N.
-    #[must_use]
     pub fn force_n(&self, time_s: f64) -> f64 {
         match &self.force {
             Force::Contact(contact) => {
@@ -380,7 +374,6 @@ impl Excitation {
     }
 
     /// The striker at a time; none for a record.
-    #[must_use]
     pub fn motion(&self, time_s: f64) -> Option<Motion> {
         let Contact { samples, units, .. } = self.contact()?;
         let now = samples.at(time_s / units.time_s);
@@ -397,21 +390,18 @@ impl Excitation {
     }
 
     /// Wave speeds of the half-space.
-    #[must_use]
     pub fn speeds(&self) -> WaveSpeeds {
         WaveSpeeds::new(&self.medium, self.units.longitudinal_speed_m_s)
     }
 
     /// First arrivals in s of the P, S and Rayleigh wave at a place in m; infinite for a Rayleigh wave where there is
     /// none.
-    #[must_use]
     pub fn arrivals_s(&self, [r_m, z_m]: [f64; 2]) -> [f64; 3] {
         let first = self.speeds().arrivals_s(r_m, z_m, self.units.disc_radius_m);
         first.map(|t| self.start_s() + t)
     }
 
     /// When the force ends, in s.
-    #[must_use]
     pub fn end_s(&self) -> f64 {
         match &self.force {
             Force::Contact(contact) => contact.duration_s,

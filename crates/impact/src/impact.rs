@@ -54,7 +54,6 @@ impl Deref for Run {
 
 impl Run {
     /// The force on the half-space.
-    #[must_use]
     pub fn excitation(&self) -> &Excitation {
         &self.excitation
     }
@@ -90,7 +89,6 @@ pub(crate) fn solve<S: Responses>(
 
 impl Impact {
     /// With the default settings: model `auto` at a tolerance of 1e-4.
-    #[must_use]
     pub fn new(half_space: HalfSpace, striker: Striker, velocity_m_s: f64) -> Self {
         Self {
             half_space,
@@ -108,7 +106,6 @@ impl Impact {
     }
 
     /// What its contact follows from.
-    #[must_use]
     pub fn collision(&self) -> Collision {
         Collision::new(&self.half_space, &self.striker, self.velocity_m_s)
     }

@@ -61,7 +61,6 @@ pub struct FieldsUsed {
 
 impl FieldsUsed {
     /// Name of the kernels in reports and results: "direct" or "table".
-    #[must_use]
     pub fn kernel(&self) -> &'static str {
         match self.table {
             None => "direct",
@@ -113,7 +112,6 @@ pub struct Outcome {
 
 impl Outcome {
     /// Step of the output in s; a record that is quiet for long begins with a gap.
-    #[must_use]
     pub fn step_s(&self) -> f64 {
         let time_s = &self.series.time_s;
         let first = time_s.get(1).map_or(0.0, |second| second - time_s[0]);
@@ -122,7 +120,6 @@ impl Outcome {
     }
 
     /// The results of a contact; none for a record.
-    #[must_use]
     pub fn results(&self) -> Option<&Results> {
         match &self.cause {
             Cause::Contact { results, .. } => Some(results),

@@ -67,7 +67,6 @@ pub struct Scene {
 
 impl Scene {
     /// The striker with its velocity; none of a force record.
-    #[must_use]
     pub fn strike(&self) -> Option<&Strike> {
         match &self.load {
             Load::Strike(strike) => Some(strike),
@@ -76,7 +75,6 @@ impl Scene {
     }
 
     /// The force record; none of a striker.
-    #[must_use]
     pub fn record(&self) -> Option<&ForceRecord> {
         match &self.load {
             Load::Strike(_) => None,
@@ -115,7 +113,6 @@ impl Scene {
     }
 
     /// Points at which fields are asked for.
-    #[must_use]
     pub fn points(&self) -> usize {
         let section = self.section.map_or(0, |s| s.points[0] * s.points[1]);
         self.probes.len() + section

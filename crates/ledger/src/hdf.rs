@@ -58,13 +58,11 @@ impl HdfFile {
     }
 
     /// Bytes of the HDF5 part.
-    #[must_use]
     pub fn length(&self) -> u64 {
         self.bytes.length
     }
 
     /// Whether it has a seal.
-    #[must_use]
     pub fn is_sealed(&self) -> bool {
         self.bytes.digests.is_some()
     }
@@ -146,32 +144,27 @@ pub struct Dataset {
 
 impl Dataset {
     /// Its dimensions; none of a single value.
-    #[must_use]
     pub fn shape(&self) -> &[usize] {
         &self.shape
     }
 
     /// How many values it has.
-    #[must_use]
     pub fn count(&self) -> usize {
         self.shape.iter().copied().fold(1, usize::saturating_mul)
     }
 
     /// Dimensions of its chunks, if it has them.
-    #[must_use]
     pub fn chunk(&self) -> Option<Vec<usize>> {
         let chunk = self.data.chunks()?.into_iter();
         Some(chunk.map(|n| n as usize).collect())
     }
 
     /// Whether its values are texts.
-    #[must_use]
     pub fn holds_texts(&self) -> bool {
         kind(self.data.dtype()) == TEXT
     }
 
     /// Whether its values are numbers of a type.
-    #[must_use]
     pub fn holds<T: H5Type>(&self) -> bool {
         same_type::<T>(self.data.dtype()).is_ok()
     }

@@ -24,7 +24,6 @@ impl Identity {
     }
 
     /// Sixty-four hexadecimal digits.
-    #[must_use]
     pub fn hex(self) -> String {
         format!("{:x}", self.0.finalize())
     }

@@ -18,7 +18,6 @@ impl Shard {
     pub const MOST: usize = 1_000_000;
 
     /// Its units, of so many, which are not divided within a grain; shards differ by one grain at most.
-    #[must_use]
     pub fn range(self, units: usize, grain: usize) -> Range<usize> {
         let grains = units.div_ceil(grain) as u128;
         let bound = |index: usize| {
@@ -53,7 +52,6 @@ impl FromStr for Shard {
 }
 
 /// What of a range is not held, ascending; what is held ascends.
-#[must_use]
 pub fn gaps(held: &[Range<usize>], all: &Range<usize>) -> Vec<Range<usize>> {
     let (mut found, mut place) = (Vec::new(), all.start);
     for held in held {

@@ -27,13 +27,11 @@ pub struct Accuracy {
 
 impl Accuracy {
     /// The field with the largest 99 % quantile on slices, and its errors.
-    #[must_use]
     pub fn worst_on_slices(&self) -> (Field, Quantiles) {
         worst(&self.on_slices)
     }
 
     /// The field with the largest 99 % quantile between slices, and its errors.
-    #[must_use]
     pub fn worst_between_slices(&self) -> Option<(Field, Quantiles)> {
         self.between_slices.as_ref().map(worst)
     }
@@ -43,7 +41,6 @@ impl Content {
     /// The errors measured, for each of [`Self::pulse_lengths`]; places where a field is zero throughout say nothing.
     ///
     /// The content must be one that [`crate::Table::new`] accepts.
-    #[must_use]
     pub fn accuracy(&self) -> Vec<Accuracy> {
         let slices: Vec<&Verification> = self.slices.iter().map(|s| &s.verification).collect();
         let between: Vec<&Verification> = self.between.iter().map(|b| &b.verification).collect();
@@ -69,7 +66,6 @@ impl Content {
 /// ```
 /// assert_eq!(lookup::quantile(&[1.0, 2.0, 3.0, 10.0, 20.0], 0.5), 3.0);
 /// ```
-#[must_use]
 pub fn quantile(ascending: &[f64], fraction: f64) -> f64 {
     let last = ascending.len().saturating_sub(1) as f64;
     let index = (fraction * last).round() as usize;

@@ -68,7 +68,6 @@ pub enum Role {
 
 impl Role {
     /// The name in the file.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Grid => "grid",
@@ -131,7 +130,6 @@ pub struct Verification {
 
 impl Slice {
     /// The numbers at the nodes, with the names of their datasets.
-    #[must_use]
     pub fn lists(&self) -> [(&'static str, &[f32]); 4] {
         [
             (schema::REMAINDER, &self.remainder),
@@ -142,7 +140,6 @@ impl Slice {
     }
 
     /// Number of coefficients of a tail, given the number of nodes of the grid.
-    #[must_use]
     pub fn tail_terms(&self, nodes: usize) -> usize {
         self.tail.len() / (nodes * FIELDS).max(1)
     }
@@ -150,7 +147,6 @@ impl Slice {
 
 impl Verification {
     /// The numbers with the names of their datasets.
-    #[must_use]
     pub fn lists(&self) -> [(&'static str, &[f32]); 3] {
         [
             (schema::PROBE_DIRECT, &self.direct),
@@ -170,14 +166,12 @@ impl Verification {
 
 impl Content {
     /// Radii and depths of the probes of a slice: centres of the meshes that are served.
-    #[must_use]
     pub fn probes(&self) -> [Vec<f64>; 2] {
         [centres(&self.r, self.r_max), centres(&self.z, self.z_max)]
     }
 }
 
 /// Centres of the intervals between `nodes` up to `max`.
-#[must_use]
 pub fn centres(nodes: &[f64], max: f64) -> Vec<f64> {
     nodes
         .windows(2)

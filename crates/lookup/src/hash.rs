@@ -7,7 +7,6 @@ use sha2::{Digest, Sha256};
 /// Identity of a table: the first 16 hexadecimal digits of SHA-256 over the major format version and the resolved grid.
 ///
 /// Two tables with the same id were made with the same settings, whatever the machine or the date.
-#[must_use]
 pub fn settings_id(grid: &str) -> String {
     let mut hash = Sha256::new();
     hash.update(schema::MAJOR_READ.to_string().as_bytes());
@@ -21,7 +20,6 @@ pub fn settings_id(grid: &str) -> String {
 /// SHA-256 over everything in a table except the creation time, the software version and the revision.
 ///
 /// Numbers enter as little-endian bytes, lengths and texts before them, in the order of [`Content`].
-#[must_use]
 pub fn content_hash(content: &Content) -> String {
     let mut hash = Sha256::new();
     hash.update(content.origin.grid.as_bytes());

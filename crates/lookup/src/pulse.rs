@@ -20,7 +20,6 @@ pub struct PulseSum {
 
 impl PulseSum {
     /// The pulse whose length is `length`, rounded to whole cells of `width` (at least two).
-    #[must_use]
     pub fn new(length: f64, width: f64) -> Self {
         let cells = ((length / width).round() as usize).max(2);
         let mut pulse = Self {
@@ -37,13 +36,11 @@ impl PulseSum {
     }
 
     /// Length of the pulse in cells.
-    #[must_use]
     pub fn cells(&self) -> usize {
         self.cells
     }
 
     /// P at the end of cell `n - 1`.
-    #[must_use]
     pub fn force(&self, n: usize) -> f64 {
         if n >= self.cells {
             return 0.0;
@@ -56,7 +53,6 @@ impl PulseSum {
     /// Responses at the times 0, 1, 2, ... cells, one for each entry of `cells`.
     ///
     /// `static_part` zero and `cells` a difference of two traces gives the difference of their responses.
-    #[must_use]
     pub fn response(&self, static_part: &Six, cells: &[Six]) -> Vec<Six> {
         let mut sums = [[[0.0; 2]; 6]; 2];
         let mut out = Vec::with_capacity(cells.len());

@@ -109,7 +109,6 @@ pub const FIELD_NAMES: [&str; 6] = [
 ];
 
 /// Name of the group of one slice: `nu_` and the shortest decimal form of Poisson's ratio.
-#[must_use]
 pub fn slice_name(poisson_ratio: f64) -> String {
     format!("nu_{poisson_ratio}")
 }

@@ -56,19 +56,16 @@ impl Table {
     }
 
     /// Identity of the settings that the table was made with: 16 hexadecimal digits.
-    #[must_use]
     pub fn id(&self) -> &str {
         &self.id
     }
 
     /// Bytes of numbers that were decoded to load it as a part of a file: what loading took; 0 of any other table.
-    #[must_use]
     pub fn decoded_bytes(&self) -> u64 {
         self.decoded_bytes
     }
 
     /// Poisson ratios tabulated, ascending.
-    #[must_use]
     pub fn poisson_ratios(&self) -> &[f64] {
         &self.poisson_ratios
     }
@@ -82,13 +79,11 @@ impl Table {
     }
 
     /// Everything that the table holds.
-    #[must_use]
     pub fn content(&self) -> &Content {
         &self.content
     }
 
     /// Gives the content back.
-    #[must_use]
     pub fn into_content(self) -> Content {
         self.content
     }

@@ -20,7 +20,6 @@ pub enum Existing {
 
 impl Existing {
     /// Keeps it unless it may be replaced.
-    #[must_use]
     pub fn replaced(may: bool) -> Self {
         if may { Self::Replace } else { Self::Keep }
     }

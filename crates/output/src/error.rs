@@ -49,7 +49,6 @@ impl OutputError {
     }
 
     /// A write that failed.
-    #[must_use]
     pub fn writing(path: &Path, fault: impl Into<Fault>) -> Self {
         let Fault { reason, full } = fault.into();
         let path = path.to_owned();

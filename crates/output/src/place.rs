@@ -9,13 +9,11 @@ use std::path::{Path, PathBuf};
 const MOST_LINKS: usize = 40;
 
 /// Whether a name stands for standard output.
-#[must_use]
 pub fn is_standard(path: &Path) -> bool {
     path == Path::new("-")
 }
 
 /// The folder of a path.
-#[must_use]
 pub fn folder(path: &Path) -> &Path {
     match path.parent() {
         Some(parent) if !parent.as_os_str().is_empty() => parent,
@@ -191,7 +189,6 @@ pub const CSV: Ending = Ending("text in columns", &["csv", "txt"]);
 
 impl Ending {
     /// Whether a name ends so.
-    #[must_use]
     pub fn is_of(self, path: &Path) -> bool {
         path.extension().is_some() && self.check(path).is_ok()
     }

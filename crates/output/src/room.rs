@@ -10,7 +10,6 @@ const UNKNOWN: f64 = 8e9;
 const USABLE: f64 = 0.85;
 
 /// Memory in bytes that work may take: of the machine, of the container, of the process (`ulimit -v`).
-#[must_use]
 pub fn free_memory() -> f64 {
     let free = [machine(), container(), process()];
     let least = free.into_iter().flatten().reduce(f64::min);
@@ -18,7 +17,6 @@ pub fn free_memory() -> f64 {
 }
 
 /// Bytes that the disk of a file has left, where the system says so.
-#[must_use]
 pub fn free_disk(path: &Path) -> Option<f64> {
     #[cfg(unix)]
     if let Ok(disk) = rustix::fs::statvfs(folder(path)) {
@@ -29,7 +27,6 @@ pub fn free_disk(path: &Path) -> Option<f64> {
 }
 
 /// Seconds of all threads that the processor has spent on this process, where the system says so.
-#[must_use]
 pub fn processor_s() -> Option<f64> {
     #[cfg(unix)]
     {

@@ -29,7 +29,6 @@ pub struct Row {
 
 impl Row {
     /// Ours over the paper's, less one.
-    #[must_use]
     pub fn difference(&self) -> f64 {
         self.here / self.paper - 1.0
     }
@@ -44,7 +43,6 @@ impl Row {
     }
 
     /// The two numbers and their difference as text, without unit.
-    #[must_use]
     pub fn told(&self) -> [String; 3] {
         let digits = self.digits;
         [
@@ -93,13 +91,11 @@ impl Numbers {
     }
 
     /// The numbers that matter most, those of the contact, few enough for a screen.
-    #[must_use]
     pub fn short(&self) -> String {
         lines(&self.sections[1..3]).join("\n")
     }
 
     /// All numbers, with remarks.
-    #[must_use]
     pub fn text(&self) -> String {
         let mut lines = lines(&self.sections);
         lines.push(String::new());

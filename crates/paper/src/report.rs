@@ -64,7 +64,6 @@ impl Redone {
     }
 
     /// The report as Markdown; the figures are named as they are beside it.
-    #[must_use]
     pub fn report(&self) -> String {
         let mut lines = vec![
             "# The paper, redone\n".to_owned(),

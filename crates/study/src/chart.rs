@@ -71,7 +71,6 @@ impl Chart {
     }
 
     /// What is ahead of the default path at 1e-3 to 1e-8 without a reason, in words; empty as it should be.
-    #[must_use]
     pub fn unexplained(&self) -> Vec<String> {
         let rankings = rankings(&self.records);
         rankings.iter().filter_map(Ranking::unexplained).collect()

@@ -69,7 +69,6 @@ impl PointPlan {
     }
 
     /// The exact kernels.
-    #[must_use]
     pub fn kernel(&self) -> &Kernel {
         &self.kernel
     }

@@ -36,7 +36,6 @@ pub struct Library {
 
 impl Library {
     /// The library that comes with the program.
-    #[must_use]
     pub fn built_in() -> &'static Self {
         static LIBRARY: LazyLock<Library> =
             LazyLock::new(|| BUILT_IN.lines().skip(1).filter_map(material).collect());
@@ -52,7 +51,6 @@ impl Library {
     }
 
     /// A material by its exact name.
-    #[must_use]
     pub fn get(&self, name: &str) -> Option<&Material> {
         self.materials.get(name)
     }

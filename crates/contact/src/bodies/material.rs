@@ -49,33 +49,28 @@ impl Material {
     }
 
     /// Shear modulus mu = E/(2 (1 + nu)) in Pa.
-    #[must_use]
     pub fn shear_modulus_pa(&self) -> f64 {
         0.5 * self.youngs_modulus_pa / (1.0 + self.poisson_ratio)
     }
 
     /// Plane modulus E/(1 - nu^2) in Pa.
-    #[must_use]
     pub fn plane_modulus_pa(&self) -> f64 {
         self.youngs_modulus_pa / ((1.0 - self.poisson_ratio) * (1.0 + self.poisson_ratio))
     }
 
     /// Modulus of longitudinal waves rho c1^2 = mu (2 - 2 nu)/(1 - 2 nu) in Pa.
-    #[must_use]
     pub fn longitudinal_modulus_pa(&self) -> f64 {
         let nu = self.poisson_ratio;
         self.shear_modulus_pa() * (2.0 - 2.0 * nu) / (1.0 - 2.0 * nu)
     }
 
     /// Longitudinal wave speed in m/s; needs the density.
-    #[must_use]
     pub fn longitudinal_speed_m_s(&self) -> Option<f64> {
         let modulus = self.longitudinal_modulus_pa();
         self.density_kg_m3.map(|density| (modulus / density).sqrt())
     }
 
     /// Shear wave speed in m/s; needs the density.
-    #[must_use]
     pub fn shear_speed_m_s(&self) -> Option<f64> {
         let modulus = self.shear_modulus_pa();
         self.density_kg_m3.map(|density| (modulus / density).sqrt())
@@ -89,7 +84,6 @@ impl Material {
 /// ```
 ///
 /// nu lies in (-1, 1/2) for c2/c1 below sqrt(3)/2.
-#[must_use]
 pub fn from_wave_speeds(longitudinal_m_s: f64, shear_m_s: f64, density_kg_m3: f64) -> (f64, f64) {
     let k = (shear_m_s / longitudinal_m_s).powi(2);
     let nu = (1.0 - 2.0 * k) / (2.0 - 2.0 * k);

@@ -39,7 +39,6 @@ impl HalfSpace {
     }
 
     /// What it is made of.
-    #[must_use]
     pub fn material(&self) -> &Material {
         &self.material
     }
@@ -56,13 +55,11 @@ impl HalfSpace {
     }
 
     /// Density in kg/m^3.
-    #[must_use]
     pub fn density_kg_m3(&self) -> f64 {
         self.density_kg_m3
     }
 
     /// Longitudinal wave speed c1 in m/s.
-    #[must_use]
     pub fn longitudinal_speed_m_s(&self) -> f64 {
         (self.material.longitudinal_modulus_pa() / self.density_kg_m3).sqrt()
     }
@@ -183,7 +180,6 @@ pub const GRAVITY_M_S2: f64 = 9.80665;
 /// ```
 /// assert!((contact::fall_velocity_m_s(0.2) - 1.980571).abs() < 1e-6);
 /// ```
-#[must_use]
 pub fn fall_velocity_m_s(height_m: f64) -> f64 {
     (2.0 * GRAVITY_M_S2 * height_m).sqrt()
 }

@@ -24,7 +24,6 @@ pub enum Shape {
 
 impl Shape {
     /// Radius of curvature in m of the surface that strikes.
-    #[must_use]
     pub fn tip_radius_m(&self) -> f64 {
         match *self {
             Self::Ball { diameter_m } => 0.5 * diameter_m,
@@ -37,7 +36,6 @@ impl Shape {
     }
 
     /// Length in m of a rod.
-    #[must_use]
     pub fn length_m(&self) -> Option<f64> {
         match *self {
             Self::Ball { .. } => None,

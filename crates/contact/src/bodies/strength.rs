@@ -63,7 +63,6 @@ impl Strength {
 /// 0.620 at nu = 0.3, reached in a depth of 0.48 contact radii.
 /// For -1 < nu < 1/2; good to 1e-10.
 /// Johnson, Contact Mechanics, (3.45).
-#[must_use]
 pub fn largest_mises(poisson_ratio: f64) -> f64 {
     let nu = poisson_ratio;
     // near the one maximum, from where what is missing is of second order in the slope
@@ -94,7 +93,6 @@ pub struct Loading {
 
 impl Loading {
     /// Of a largest force on a disc, with the tip's radius and E* of the contact.
-    #[must_use]
     pub fn new(
         bodies: &[Strength; 2],
         force_n: f64,

@@ -25,7 +25,6 @@ impl WaveSpeeds {
     }
 
     /// Of a medium with a longitudinal speed in m/s.
-    #[must_use]
     pub fn new(medium: &Medium, longitudinal_m_s: f64) -> Self {
         Self {
             p: longitudinal_m_s,
@@ -45,7 +44,6 @@ impl WaveSpeeds {
     ///
     /// (Nakano 1925; Aki and Richards, Quantitative Seismology, section 6.3); nearer to the axis there is none, and its arrival
     /// is infinite.
-    #[must_use]
     pub fn arrivals_s(&self, r_m: f64, z_m: f64, disc_radius_m: f64) -> [f64; 3] {
         let aside_m = (r_m - disc_radius_m).max(0.0);
         let cotangent = self.rayleigh / (self.s * self.s - self.rayleigh * self.rayleigh).sqrt();
@@ -68,7 +66,6 @@ impl WaveSpeeds {
     /// ```
     ///
     /// For a place inside the block.
-    #[must_use]
     pub fn first_echo_s(
         &self,
         block: &HalfSpace,

@@ -79,7 +79,6 @@ impl History {
     /// Samples of a contact that was solved by pieces, a step apart up to the first after it, with the pieces themselves.
     ///
     /// After the contact the deflection is not followed: that sample holds the one at the end.
-    #[must_use]
     pub fn of_pieces(solved: &SolvedContact, step: f64) -> Self {
         let contact_time = solved.summary.contact_time;
         let mut history = Self::at_touch(step);

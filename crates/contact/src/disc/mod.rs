@@ -48,7 +48,6 @@ impl<R> Copy for FixedDisc<'_, R> {}
 
 impl<R: DiscResponse> FixedDisc<'_, R> {
     /// Memory of the half-space in collision times.
-    #[must_use]
     pub fn memory(&self) -> f64 {
         self.response.disc().memory * self.wave_time
     }

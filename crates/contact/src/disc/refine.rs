@@ -46,7 +46,6 @@ const LOSS_REST: f64 = 0.35;
 
 impl Accuracy {
     /// Of the contact's results only: what a sweep asks.
-    #[must_use]
     pub fn of_contact(tolerance: f64, loss: Option<f64>) -> Self {
         Self {
             tolerance,
@@ -93,7 +92,6 @@ impl Accuracy {
     }
 
     /// Steps of the first march over a contact: the coarser of two that are expected to agree.
-    #[must_use]
     pub fn first_steps(&self) -> f64 {
         let contact = 12.0 * (1e-4 / self.tolerance).max(1.0).powf(0.4);
         let of_loss = |asked: f64| 13.0 * (1e-3 / asked).max(1.0).powf(0.5);

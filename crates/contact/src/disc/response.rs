@@ -107,7 +107,6 @@ const WIDTH: f64 = 1.0 / CELLS as f64;
 
 impl ResponseTable {
     /// Tabulates a response.
-    #[must_use]
     pub fn new(response: &SurfaceResponse) -> Self {
         let memory = response.disc.memory;
         let mut nodes = vec![[0.0; 3]];
@@ -133,7 +132,6 @@ impl ResponseTable {
     ///
     /// At equal fractions of the memory the response changes smoothly with Poisson's ratio, so the
     /// error is that of linear interpolation, of second order in the distance.
-    #[must_use]
     pub fn between(near: &Self, far: &Self, fraction: f64) -> Self {
         let (one, other) = (&near.disc, &far.disc);
         debug_assert_eq!(one.deflection, other.deflection);
@@ -152,7 +150,6 @@ impl ResponseTable {
     }
 
     /// int W dt from 0 to t, in r0/c1, by cubic interpolation: accuracy 1e-8 of the memory.
-    #[must_use]
     #[inline]
     pub fn integral(&self, t: f64) -> f64 {
         let Some(([[w0, v0, _], [w1, v1, _]], x)) = self.cell(t) else {
@@ -170,7 +167,6 @@ impl ResponseTable {
     }
 
     /// int W dt and int int W dt^2 from 0 to t, in r0/c1 and its square.
-    #[must_use]
     #[inline]
     pub fn integrals(&self, t: f64) -> [f64; 2] {
         let m = self.disc.memory;

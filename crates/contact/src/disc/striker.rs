@@ -122,7 +122,6 @@ impl History {
     }
 
     /// Velocity of the striker at every sample.
-    #[must_use]
     pub fn velocities(&self) -> Vec<f64> {
         if !self.velocity.is_empty() {
             return self.velocity.clone();

@@ -25,7 +25,6 @@ pub struct Weights {
 impl Weights {
     /// For a force that is known at so many samples, which reach no older weights; `step` and `unit` = r0/c1 in the same
     /// unit of time.
-    #[must_use]
     pub fn of_samples(response: &impl DiscResponse, step: f64, unit: f64, samples: usize) -> Self {
         let mut weights = Self::default();
         weights.fill(response, step / unit, f64::INFINITY, samples);
@@ -36,7 +35,6 @@ impl Weights {
     /// of the same disc.
     ///
     /// The deflection is coupling [p_n - sum_j g_j (p_{n-j} - p_{n-j-1})], without the first p_n for the dynamic share.
-    #[must_use]
     pub fn of<R>(impact: &FixedDisc<'_, R>, response: &impl DiscResponse, step: f64) -> Self {
         let mut weights = Self::default();
         weights.fill_for(impact, response, step);
@@ -84,7 +82,6 @@ impl Weights {
     }
 
     /// sum over all j of g_j (p_{n-j} - p_{n-j-1}), the deflection still to come; `force` holds p_0 = 0 .. p_n.
-    #[must_use]
     #[inline]
     pub fn delayed(&self, force: &[f64]) -> f64 {
         let (newest, past) = match force {

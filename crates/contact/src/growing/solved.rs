@@ -142,7 +142,6 @@ impl SolvedContact {
 
     /// Stored energy, plastic work and work on the waves until a time, over the kinetic energy before; nothing of a contact
     /// that has not yielded.
-    #[must_use]
     pub fn energies(&self, time: f64) -> Option<[f64; 3]> {
         let flow = self.flow.as_ref()?;
         let yielding = &flow.yielding;
@@ -167,7 +166,6 @@ impl SolvedContact {
 
     /// Hertz's pressures that stand for the one at a time, where that is known, as under `recovery`: part of the force and
     /// square of the radius over that of [`Flow::disc_radius`], with their rates.
-    #[must_use]
     pub fn pressures(&self, time: f64) -> Option<[[f64; 4]; 2]> {
         /// Radii apart, over the radius, between which rates are differences.
         const APART: f64 = 1e-5;
@@ -192,13 +190,11 @@ impl SolvedContact {
     }
 
     /// Number of polynomial pieces.
-    #[must_use]
     pub fn pieces(&self) -> usize {
         self.pieces.len()
     }
 
     /// Contact radius at a time over that at Hertz's largest approach; zero outside the contact.
-    #[must_use]
     pub fn radius(&self, time: f64) -> f64 {
         let inside = time >= 0.0 && time <= self.summary.contact_time;
         let place = self.place(time).filter(|_| inside);
@@ -218,7 +214,6 @@ impl SolvedContact {
     }
 
     /// Force, rate and second rate at a time; the second zero at the very ends, all outside.
-    #[must_use]
     pub fn force(&self, time: f64) -> [f64; 3] {
         if !(time > 0.0 && time < self.summary.contact_time) {
             return [0.0; 3];
@@ -237,7 +232,6 @@ impl SolvedContact {
     }
 
     /// The state at any time from the touch on; the deflection is not followed after the contact.
-    #[must_use]
     pub fn state(&self, time: f64) -> Instant {
         let end = self.summary.contact_time;
         let Some((piece, place)) = self.place(time.max(0.0)).filter(|_| time < end) else {

@@ -42,7 +42,6 @@ pub struct PunchWaves {
 
 impl PunchWaves {
     /// The waves of a half-space.
-    #[must_use]
     pub fn new(medium: &Medium) -> Self {
         let c = medium.rayleigh_speed();
         let mut points = surface_measure(medium, HALVINGS, NODES);
@@ -66,7 +65,6 @@ impl PunchWaves {
     /// Linear between those of two ratios, `fraction` of the way to the second.
     ///
     /// Nodes and masses of the rules are smooth in the ratio.
-    #[must_use]
     pub fn between(near: Arc<Self>, far: Arc<Self>, fraction: f64) -> Self {
         let mix = |a: f64, b: f64| a + fraction * (b - a);
         Self {
@@ -79,13 +77,11 @@ impl PunchWaves {
     }
 
     /// int V_p dt in a/c1: 3/2 of the relaxation time of a Hertz disc's centre.
-    #[must_use]
     pub fn relaxation_time(&self) -> f64 {
         0.5 * self.moment(1)
     }
 
     /// int X^n dmu, n = 0 to 3.
-    #[must_use]
     pub fn moment(&self, n: usize) -> f64 {
         self.moments[n] * self.memory.powi(n as i32)
     }
@@ -93,7 +89,6 @@ impl PunchWaves {
     /// V_p(t), t in a/c1, and its integral from 0 to t; constant from the memory on.
     ///
     /// By summation; the convergence is that of the points: 1e-4, and of the integral 2e-6 of the relaxation time.
-    #[must_use]
     pub fn relaxation(&self, t: f64) -> [f64; 2] {
         let [value, integral] = self.reduced(t / self.memory);
         [value, self.memory * integral]

@@ -30,7 +30,6 @@ const COARSE: f64 = 1e-5;
 ///
 /// Within 1e-3 of itself for tolerances down to 1e-5, within 2e-5 below, beside the error of the force; for memories up
 /// to the length of the contact.
-#[must_use]
 pub fn work_on_half_space(
     contact: &GrowingContact<'_>,
     solved: &SolvedContact,

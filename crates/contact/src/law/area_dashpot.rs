@@ -52,7 +52,6 @@ pub const LARGEST_LAG: f64 = 0.2;
 /// ```
 ///
 /// One beyond [`LARGEST_LAG`] and [`LARGEST_MEMORY`].
-#[must_use]
 pub fn left_out(lag: f64, memory: f64) -> Estimates {
     let (c, t) = (lag, memory);
     let square = c * t * t;
@@ -80,7 +79,6 @@ const LOSS_FLOOR: f64 = 2e-7;
 
 impl AreaDashpot {
     /// The terms of a contact: phi, tau = a/c1 in collision times, and the waves under a punch.
-    #[must_use]
     pub fn new(target_share: f64, wave_time: f64, waves: &PunchWaves) -> Self {
         Self {
             lag: target_share * wave_time * waves.moment(1) / 3.0,
@@ -91,7 +89,6 @@ impl AreaDashpot {
     }
 
     /// Contact force at a displacement and a velocity, to the third order; none in tension.
-    #[must_use]
     pub fn force(&self, displacement: f64, velocity: f64) -> f64 {
         self.law(displacement, velocity).max(0.0)
     }
@@ -122,7 +119,6 @@ impl AreaDashpot {
     /// Samples of the contact, a step apart; its results are those of [`summary`](Self::summary).
     ///
     /// The force is as good as [`left_out`] says.
-    #[must_use]
     pub fn history(&self, step: f64) -> History {
         let results = self.summary();
         pulse(
@@ -142,7 +138,6 @@ impl AreaDashpot {
     }
 
     /// Results, for a lag in [0, [`LARGEST_LAG`]].
-    #[must_use]
     pub fn summary(&self) -> Summary {
         let (c, b) = (self.lag.min(LARGEST_LAG), self.inertia);
         let x = 2.0 * c / LARGEST_LAG - 1.0;

@@ -17,7 +17,6 @@ use crate::summary::Summary;
 
 /// Solves the impact on two springs in series for `coupling` = sigma >= 0: its results without waves, accurate to 1e-9, and
 /// (5/2) int p'^2 dt to 2e-6, the loss 1 - e^2 that a lag of one would cause to first order.
-#[must_use]
 pub fn quasi_static(coupling: f64) -> (Summary, f64) {
     at_energy(coupling, 1.0)
 }
@@ -54,7 +53,6 @@ fn at_energy(coupling: f64, energy: f64) -> (Summary, f64) {
 /// Results with a lag c to first order; without coupling this is the radiation law.
 ///
 /// `lag` times the loss per lag must be in [0, 1).
-#[must_use]
 pub fn quasi_static_radiation(coupling: f64, lag: f64) -> Summary {
     let (still, loss_per_lag) = quasi_static(coupling);
     let loss = loss_per_lag * lag;
@@ -148,7 +146,6 @@ impl Springs {
 }
 
 /// How long a quasi-static contact with this coupling lasts, in collision units, to 3e-4; any coupling >= 0.
-#[must_use]
 pub fn expected_contact_time(coupling: f64) -> f64 {
     let spring = Springs::still(coupling);
     let top = spring.top();

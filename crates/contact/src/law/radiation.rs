@@ -32,7 +32,6 @@ pub const MOST_LOSS: f64 = 0.5;
 /// Results of an impact with lag c (collision units) to first order in c, [`LOSS`] c in [0, [`MOST_LOSS`]].
 ///
 /// The largest deflection is c times the largest slope of Hertz's pulse.
-#[must_use]
 pub fn radiation(lag: f64) -> Summary {
     let loss = LOSS * lag;
     let restitution = (1.0 - loss).max(0.0).sqrt();

@@ -137,7 +137,6 @@ impl Groups {
 
     /// The cheapest rung that meets the accuracy asked for, and its estimated relative error; zero for full memory, whose
     /// error is its step's.
-    #[must_use]
     pub fn choose(&self, accuracy: &Accuracy) -> (Rung, f64) {
         let [first_order, _] = self.beyond_radiation();
         let quasi_static = 0.5 * self.first_order_loss() + first_order;
@@ -200,7 +199,6 @@ pub(crate) fn plan(
 
 impl Plan {
     /// sigma of the quasi-static spring.
-    #[must_use]
     pub fn coupling(&self) -> f64 {
         match self.model.row() {
             (Rung::QuasiStatic | Rung::Radiation, true) => self.groups.coupling,
@@ -251,7 +249,6 @@ impl Plan {
     }
 
     /// Why this model, in words.
-    #[must_use]
     pub fn reason(&self, settings: &Settings) -> String {
         let yields = match (settings.plasticity, settings.yield_pressure_pa) {
             (_, Some(_)) => "the contact yields at the yield_pressure_pa given",
@@ -315,13 +312,11 @@ pub(crate) fn accuracy(settings: &Settings) -> Accuracy {
 }
 
 /// Radius of the disc of the fixed models in m: that of the settings, or the tip's.
-#[must_use]
 pub(crate) fn disc_radius_m(settings: &Settings, collision: &Collision) -> f64 {
     settings.disc_radius_m.unwrap_or(collision.tip_radius_m)
 }
 
 /// Radius of the disc that loads the half-space in m where the model fixes it; none for a contact that follows the load.
-#[must_use]
 pub fn fixed_disc_m(model: Model, settings: &Settings, collision: &Collision) -> Option<f64> {
     let of_tip = model.row().1.then_some(collision.tip_radius_m);
     settings.disc_radius_m.or(of_tip)

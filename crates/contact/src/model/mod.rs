@@ -47,7 +47,6 @@ impl Model {
     /// The table of models: the memory that each has, and whether the half-space is loaded on a disc of fixed radius.
     ///
     /// `auto` is the paper's disc until it has chosen.
-    #[must_use]
     pub fn row(self) -> (Rung, bool) {
         match self {
             Self::Hertz => (Rung::QuasiStatic, false),
@@ -102,7 +101,6 @@ choice!(Deflection: Centre = "centre", Mean = "mean");
 
 impl StaticShare {
     /// Part of the static deflection that enters.
-    #[must_use]
     pub fn factor(self) -> f64 {
         match self {
             Self::Full => 1.0,
@@ -173,7 +171,6 @@ pub enum Conflict {
 
 impl Settings {
     /// The first two settings that exclude each other, if there are any.
-    #[must_use]
     pub fn conflict(&self) -> Option<Conflict> {
         let (law, model, disc) = (self.plasticity, self.model, self.disc_radius_m.is_some());
         let explicit = self.scheme == Scheme::Explicit;

@@ -38,7 +38,6 @@ pub struct Yielding {
 
 impl Yielding {
     /// s: velocity of approach over that at which yield begins.
-    #[must_use]
     pub fn velocity_ratio(&self) -> f64 {
         self.depth.powf(-1.25)
     }

@@ -12,7 +12,6 @@ use std::path::Path;
 
 /// Identity of the resolved scene with the samples of its force record, of the program's version, of the
 /// revisions of its numbers and of the format.
-#[must_use]
 pub fn scene_sha256(scene: &Scene) -> String {
     // wherever its record lies
     let mut placeless = scene.clone();

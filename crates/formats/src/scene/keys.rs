@@ -223,14 +223,12 @@ pub(super) fn number(name: &str) -> Option<&'static Key> {
 /// assert_eq!(sections_of("velocity_m_s"), ["striker"]);
 /// assert_eq!(sections_of("poisson_ratio"), ["target", "striker"]);
 /// ```
-#[must_use]
 pub fn sections_of(key: &str) -> Vec<&'static str> {
     let has = |section: &&str| keys_of(section).any(|known| known.name == key);
     SECTIONS[..3].iter().copied().filter(has).collect()
 }
 
 /// The scene with every default and material spelled out, as TOML.
-#[must_use]
 pub fn resolved(scene: &Scene) -> String {
     let mut root = Table::new();
     for section in SECTIONS {

@@ -76,13 +76,11 @@ impl StoredImpact {
     }
 
     /// Where it lies.
-    #[must_use]
     pub fn path(&self) -> &Path {
         &self.stored.path
     }
 
     /// A scalar result by its name, where the file has it.
-    #[must_use]
     pub fn number(&self, name: &str) -> Option<f64> {
         self.stored.number(name)
     }
@@ -91,7 +89,6 @@ impl StoredImpact {
     /// numbers in the units of their keys.
     ///
     /// Lists are left out: the probes, the points of a section.
-    #[must_use]
     pub fn keys(&self) -> Vec<(String, Value)> {
         let mut found = Vec::new();
         for (section, keys) in &self.scene {
@@ -186,7 +183,6 @@ pub struct StoredProbes {
 
 impl StoredProbes {
     /// What was stored at each probe over time.
-    #[must_use]
     pub fn quantities(&self) -> Vec<Described> {
         self.stored
             .quantities(PROBES, &[self.r_m.len(), self.samples])
@@ -203,7 +199,6 @@ impl StoredProbes {
     }
 
     /// The estimated error of a quantity at a probe, where it is there.
-    #[must_use]
     pub fn error(&self, quantity: &str, probe: usize) -> Option<f64> {
         let path = format!("{PROBES}/{quantity}{ERROR_SUFFIX}");
         let errors = self.stored.numbers(&path, &[self.r_m.len()]).ok()?;
@@ -227,7 +222,6 @@ pub struct StoredSection {
 
 impl StoredSection {
     /// What was stored in each frame.
-    #[must_use]
     pub fn quantities(&self) -> Vec<Described> {
         self.stored.quantities(MAP, &self.shape())
     }
@@ -246,7 +240,6 @@ impl StoredSection {
     }
 
     /// The largest value of a quantity over all samples at each place, where the file has it.
-    #[must_use]
     pub fn peak(&self, quantity: &str) -> Option<Vec<f64>> {
         let path = format!("{MAP}/{quantity}{}", PEAK_SUFFIXES[0]);
         let [_, z, r] = self.shape();

@@ -265,13 +265,11 @@ impl StoredSweep {
     }
 
     /// Where it lies.
-    #[must_use]
     pub fn path(&self) -> &Path {
         &self.stored.path
     }
 
     /// The results of every row.
-    #[must_use]
     pub fn quantities(&self) -> Vec<Described> {
         let mut found = self.stored.quantities(RESULTS, &self.shape());
         // scales of a sweep with one axis have the same shape

@@ -24,7 +24,6 @@ pub enum Values {
 
 impl Values {
     /// How many.
-    #[must_use]
     pub fn count(&self) -> usize {
         match self {
             Self::Numbers(numbers) => numbers.len(),
@@ -34,7 +33,6 @@ impl Values {
     }
 
     /// One of the numbers; nothing of words.
-    #[must_use]
     pub fn number(&self, index: usize) -> Option<f64> {
         match self {
             Self::Numbers(numbers) => numbers.get(index).copied(),
@@ -120,7 +118,6 @@ pub struct Column {
 
 impl Column {
     /// The full name, such as `striker.mass_kg`.
-    #[must_use]
     pub fn name(&self) -> String {
         format!("{}.{}", self.section, self.key)
     }
@@ -157,7 +154,6 @@ pub struct Axis {
 
 impl Axis {
     /// Whether it runs over random draws.
-    #[must_use]
     pub fn is_drawn(&self) -> bool {
         self.name == SAMPLE
     }

@@ -61,13 +61,11 @@ impl Drawn {
     }
 
     /// How many.
-    #[must_use]
     pub fn count(&self) -> usize {
         self.samples
     }
 
     /// Draw number `index`: a function of the seed, the keys and this number only.
-    #[must_use]
     pub fn at(&self, index: usize) -> f64 {
         let index = index as u64;
         if self.mixed.is_empty() {

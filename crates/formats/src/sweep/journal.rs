@@ -101,7 +101,6 @@ pub struct Unfinished {
 
 impl Unfinished {
     /// Reads a journal without changing it; nothing where the file is none.
-    #[must_use]
     pub fn read(path: &Path) -> Option<Self> {
         let mut records = Records::open(path, KIND).ok()??;
         let mut words = records.title.about.split(' ');
@@ -121,7 +120,6 @@ impl Unfinished {
 }
 
 /// Whether the journal at `part` keeps all rows that are asked for, so that a run may have begun to write its outputs.
-#[must_use]
 pub fn is_computed(spec: &Spec, part: &Path) -> bool {
     let rows = spec.selected();
     Unfinished::read(part).is_some_and(|found| {

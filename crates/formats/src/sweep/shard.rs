@@ -10,7 +10,6 @@ use std::path::PathBuf;
 pub const BLOCK: usize = 32_768;
 
 /// Rows that shards do not divide: with probes one may take seconds.
-#[must_use]
 pub fn grain(fields: &Fields) -> usize {
     let has_probes = fields.width() > QUANTITIES.len();
     if has_probes { 1 } else { BLOCK }

@@ -169,7 +169,6 @@ impl Spec {
     }
 
     /// Memory in bytes that a run takes, about: it does not depend on the number of rows.
-    #[must_use]
     pub fn memory_bytes(&self) -> f64 {
         let values: usize = (self.columns().map(|column| &column.values))
             .filter(|values| !matches!(values, Values::Drawn(_)))
@@ -180,13 +179,11 @@ impl Spec {
     }
 
     /// Number of scenes.
-    #[must_use]
     pub fn rows(&self) -> usize {
         rows(&self.axes).unwrap_or(0)
     }
 
     /// The dimensions of what is asked for: the axes, or the one of a part.
-    #[must_use]
     pub fn shape(&self) -> Vec<usize> {
         match &self.selection {
             Some(selection) => vec![selection.rows.len()],
@@ -218,7 +215,6 @@ impl Spec {
     }
 
     /// The rows that are asked for.
-    #[must_use]
     pub fn selected(&self) -> Range<usize> {
         let selection = self.selection.as_ref();
         selection.map_or(0..self.rows(), |selection| selection.rows.clone())
@@ -239,7 +235,6 @@ impl Spec {
     }
 
     /// Whether its base scene has probes, whose fields need [`Self::with_fields`].
-    #[must_use]
     pub fn has_probes(&self) -> bool {
         self.scene.contains_key("probe")
     }

@@ -78,7 +78,6 @@ fn step(medium: &Medium, profile: Profile, at: Point) -> (f64, bool) {
 
 /// What the fields at the i-th of some radii weigh in those at r: by Lagrange's polynomials in r^2, of the fields divided by
 /// r where odd.
-#[must_use]
 pub fn weights_off_axis(r: f64, radii: &[f64], i: usize) -> Six {
     let weight = lagrange(|j| radii[j] * radii[j], radii.len(), i, r * r);
     FIELDS.map(|field| match field.is_odd_in_r() {

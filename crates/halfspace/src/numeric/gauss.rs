@@ -25,7 +25,6 @@ impl Rule {
     /// The rule with `n` > 0 nodes, exact for polynomials of degree 2n - 1.
     ///
     /// Newton iteration on the Legendre polynomial from Tricomi's initial guess.
-    #[must_use]
     pub fn new(n: usize) -> Self {
         let mut nodes = vec![0.0; n];
         let mut weights = vec![0.0; n];
@@ -70,7 +69,6 @@ impl Rule {
     }
 
     /// Nodes on [-1, 1], ascending.
-    #[must_use]
     pub fn nodes(&self) -> &[f64] {
         &self.nodes[..self.count]
     }
@@ -94,7 +92,6 @@ impl Rule {
 ///
 /// # Panics
 /// Where n is not from 1 to [`MAX_NODES`].
-#[must_use]
 pub fn rule(n: usize) -> &'static Rule {
     static RULES: [OnceLock<Rule>; MAX_NODES] = [const { OnceLock::new() }; MAX_NODES];
     RULES[n - 1].get_or_init(|| Rule::new(n))
@@ -134,7 +131,6 @@ fn finite_part(n: usize) -> Rule {
 }
 
 /// Legendre polynomial of degree n and its derivative at |x| < 1.
-#[must_use]
 #[inline]
 pub fn legendre(n: usize, x: f64) -> (f64, f64) {
     let (mut previous, mut current) = (0.0, 1.0);

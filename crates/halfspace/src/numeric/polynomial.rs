@@ -2,7 +2,6 @@
 
 /// A Chebyshev series at x in [-1, 1], by Clenshaw's recurrence.
 #[inline]
-#[must_use]
 pub fn chebyshev(series: &[f64], x: f64) -> f64 {
     let (mut b1, mut b2) = (0.0, 0.0);
     for &c in series[1..].iter().rev() {
@@ -13,7 +12,6 @@ pub fn chebyshev(series: &[f64], x: f64) -> f64 {
 
 /// The polynomial that is one at the k-th of `count` places and zero at the others, at x.
 #[inline]
-#[must_use]
 pub fn lagrange(place: impl Fn(usize) -> f64, count: usize, k: usize, x: f64) -> f64 {
     let (own, others) = (place(k), (0..count).filter(|&j| j != k));
     let factors = others.map(|j| (x - place(j)) / (own - place(j)));

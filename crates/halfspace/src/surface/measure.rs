@@ -28,7 +28,6 @@ pub(super) struct Measure {
 ///
 /// By Gauss's rule of so many nodes on panels of its two intervals, 0 < x < 1, x = sin(angle), and 1 < x < 1/kappa,
 /// x^2 = 1 + (K - 1) sin^2(angle); the panels are halved so often toward both ends, 0 and pi/2, of the angle of each.
-#[must_use]
 pub fn surface_measure(medium: &Medium, halvings: [[i32; 2]; 2], nodes: usize) -> Vec<(f64, f64)> {
     let mut found = vec![];
     for (zone, halvings) in ZONES.into_iter().zip(halvings) {

@@ -87,7 +87,6 @@ pub struct SurfaceResponse {
 
 impl SurfaceResponse {
     /// Prepares the response of `medium`; make it once for many values.
-    #[must_use]
     pub fn new(medium: &Medium, deflection: Deflection) -> Self {
         let measure = Measure::new(medium);
         let chord = Chord::new(deflection);
@@ -108,7 +107,6 @@ impl SurfaceResponse {
     }
 
     /// W(t): step response over its static value; 0 for t <= 0, 1 for t >= [`LoadedDisc::memory`], NaN for NaN.
-    #[must_use]
     pub fn step(&self, t: f64) -> f64 {
         self.value(t, STEP, |chord, eta| {
             1.0 - self.measure.rayleigh_mass * chord.value(eta)
@@ -116,7 +114,6 @@ impl SurfaceResponse {
     }
 
     /// int_0^t W dt in r0/c1; t - [`LoadedDisc::relaxation_time`] once the response is static, 0 for t <= 0, NaN for NaN.
-    #[must_use]
     pub fn step_integral(&self, t: f64) -> f64 {
         self.value(t, INTEGRAL, |chord, eta| {
             let late = chord.integral(chord.support) - chord.integral(eta);
@@ -135,7 +132,6 @@ impl SurfaceResponse {
     /// the centre, (32); 0 for t < 0 and for t >= [`LoadedDisc::memory`], where the centre jumps.
     /// The sampled kernel of the paper's scheme (41).
     /// Accuracy 1e-11 of the value at t = 0.
-    #[must_use]
     pub fn impulse(&self, t: f64) -> f64 {
         self.value(t, SLOPE, |chord, eta| {
             if eta >= chord.support {

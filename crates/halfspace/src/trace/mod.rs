@@ -120,13 +120,11 @@ impl Trace {
     }
 
     /// Estimated error of a response to the force that the trace is for, over the peak of the force.
-    #[must_use]
     pub fn error(&self) -> &Six {
         &self.error
     }
 
     /// R at a time; after the end of the trace, its value there.
-    #[must_use]
     pub fn at(&self, t: f64) -> Six {
         let after = self.segments.partition_point(|s| s.times[1] < t);
         match self.segments.get(after).or(self.segments.last()) {
@@ -154,7 +152,6 @@ impl Trace {
     }
 
     /// Estimated error of the average over a cell; half of it is that of the first moment.
-    #[must_use]
     pub fn cell_error(&self, from: f64, to: f64) -> Six {
         let before = self.first_arrival.clamp(from, to) - from;
         let mut error = self.static_field.map(|s| f64::EPSILON * s.abs() * before);

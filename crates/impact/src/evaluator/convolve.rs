@@ -43,13 +43,11 @@ pub(crate) fn transform_ns(size: f64) -> f64 {
 
 impl Convolver {
     /// Fields are wanted at all samples.
-    #[must_use]
     pub fn new(force: &[f64]) -> Self {
         Self::from_base(0.0, force, (0..force.len()).collect())
     }
 
     /// As [`Convolver::new`], with the summation method given.
-    #[must_use]
     pub fn by(force: &[f64], method: Method) -> Self {
         let mut convolver = Self::new(force);
         let size = (2 * force.len()).next_power_of_two();
@@ -89,7 +87,6 @@ impl Convolver {
 
     /// The six fields at the samples wanted, from the static part and the averages of the remainder over at least as many
     /// cells as the force has samples.
-    #[must_use]
     pub fn fields(&self, static_part: &Six, averages: &[Six]) -> [Vec<f64>; 6] {
         let mut out = match &self.transform {
             Some(transform) => transform.convolve(averages, self.force.len(), &self.wanted),
@@ -143,7 +140,6 @@ pub enum Method {
 
 impl Method {
     /// Its name in reports and results.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Direct => "direct sum",

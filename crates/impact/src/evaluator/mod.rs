@@ -79,7 +79,6 @@ pub struct Trace {
 
 impl Trace {
     /// The sample of the largest magnitude, with its sign.
-    #[must_use]
     pub fn peak(&self) -> f64 {
         let larger = |most: f64, &x: &f64| if x.abs() > most.abs() { x } else { most };
         self.samples.iter().fold(0.0, larger)

@@ -54,7 +54,6 @@ impl Excitation {
     }
 
     /// The fields by kernels of a source, such as a table.
-    #[must_use]
     pub fn fields_from(&self, source: KernelSource) -> Fields<'_> {
         Fields {
             excitation: self,

@@ -82,7 +82,6 @@ impl Quantity {
     /// assert_eq!(Quantity::VonMises.of(stresses, [2e11, 0.3]), 4e6);
     /// assert_eq!(Quantity::StrainRr.of(stresses, [2e11, 0.3]), 6e-6);
     /// ```
-    #[must_use]
     pub fn of(self, [rr, tt, zz, rz]: [f64; 4], [modulus, ratio]: [f64; 2]) -> f64 {
         let strain = |own: f64, others: f64| (own - ratio * others) / modulus;
         match self {
@@ -113,7 +112,6 @@ impl Quantity {
     /// principal   Weyl: the spectral norm of the errors, max(e_tt, (e_rr + e_zz)/2 + sqrt((e_rr - e_zz)^2/4 + e_rz^2))
     /// Tresca      twice that
     /// ```
-    #[must_use]
     pub fn error(self, [rr, tt, zz, rz]: [f64; 4], [modulus, ratio]: [f64; 2]) -> f64 {
         let worst = -ratio.abs();
         match self {

@@ -77,14 +77,12 @@ const FARTHER: f64 = 1.5;
 
 impl Shared {
     /// Of some tables; nothing is loaded yet.
-    #[must_use]
     pub fn new(tables: Arc<dyn Tables>) -> Self {
         let seen = Mutex::default();
         Self { tables, seen }
     }
 
     /// Why a part could not be read, where that has happened: what was computed since may lack it.
-    #[must_use]
     pub fn fault(&self) -> Option<String> {
         let seen = self.seen.lock().unwrap_or_else(PoisonError::into_inner);
         seen.1.clone()

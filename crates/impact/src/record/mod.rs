@@ -140,19 +140,16 @@ impl ForceRecord {
     }
 
     /// Times of the samples in s.
-    #[must_use]
     pub fn time_s(&self) -> &[f64] {
         &self.time_s
     }
 
     /// Forces of the samples in N.
-    #[must_use]
     pub fn force_n(&self) -> &[f64] {
         &self.force_n
     }
 
     /// The force at a time: linear between samples, zero outside.
-    #[must_use]
     pub fn at(&self, time_s: f64) -> f64 {
         let [start_s, end_s] = self.span_s();
         if time_s == end_s {
@@ -188,7 +185,6 @@ impl ForceRecord {
     }
 
     /// Times of the first and the last sample in s.
-    #[must_use]
     pub fn span_s(&self) -> [f64; 2] {
         [self.time_s[0], self.time_s[self.time_s.len() - 1]]
     }
@@ -209,7 +205,6 @@ impl ForceRecord {
     }
 
     /// int P dt in N s.
-    #[must_use]
     pub fn impulse_n_s(&self) -> f64 {
         let pairs = self.time_s.windows(2).zip(self.force_n.windows(2));
         pairs.fold(0.0, |sum, (t, p)| sum + 0.5 * (t[1] - t[0]) * (p[0] + p[1]))

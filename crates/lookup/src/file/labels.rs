@@ -11,7 +11,6 @@ use std::ffi::{CString, c_char, c_int, c_uint};
 /// A file to be written, in the format that every version of the library reads, whatever the linked one prefers.
 ///
 /// Version 2 of the library would write groups and superblocks of a later format, which its versions before 1.8 do not know.
-#[must_use]
 pub fn new_file() -> FileBuilder {
     let mut file = FileBuilder::new();
     file.with_fapl(|access| access.libver_earliest());
@@ -19,7 +18,6 @@ pub fn new_file() -> FileBuilder {
 }
 
 /// What the system said, if it did, else the first line of what the library says.
-#[must_use]
 pub fn reason(error: &hdf5::Error) -> String {
     let frames: Vec<String> = error
         .stack()

@@ -46,13 +46,11 @@ impl TableFile {
     }
 
     /// Identity of the settings that it was made with, when it was opened.
-    #[must_use]
     pub fn id(&self) -> &str {
         &self.id
     }
 
     /// Where the file is.
-    #[must_use]
     pub fn path(&self) -> &Path {
         &self.path
     }

@@ -48,7 +48,6 @@ pub struct Moments {
 
 impl Moments {
     /// None yet, with room for so many cells.
-    #[must_use]
     pub fn with_capacity(count: usize) -> Self {
         let [averages, first, second] = [(); 3].map(|()| Vec::with_capacity(count));
         Self {
@@ -66,7 +65,6 @@ impl Moments {
     }
 
     /// The cells but for the last [`smooth::BEYOND`], with what their moments are worth under a smooth force.
-    #[must_use]
     pub fn absorbed(&self) -> Vec<Six> {
         let count = self.averages.len().saturating_sub(smooth::BEYOND);
         let mut cells = self.averages[..count].to_vec();
@@ -103,7 +101,6 @@ impl Numbers {
     }
 
     /// The same to read.
-    #[must_use]
     pub fn lists(&self) -> [&[Six]; 4] {
         [&self.averages, &self.moments, &self.curvatures, &self.tail]
     }
@@ -136,7 +133,6 @@ fn resolution(averages: &[Six], field: usize) -> f64 {
 
 impl Series {
     /// A series from its numbers; `width` is that of a cell, and the tail follows after `cells` of them.
-    #[must_use]
     pub fn new(width: f64, cells: usize, numbers: Numbers) -> Self {
         Self {
             width,
@@ -146,7 +142,6 @@ impl Series {
     }
 
     /// Width of a table cell in r0/c1.
-    #[must_use]
     pub fn width(&self) -> f64 {
         self.width
     }
@@ -173,7 +168,6 @@ impl Series {
     /// ```
     ///
     /// Where an edge cuts a table cell, R is the parabola of its three numbers there.
-    #[must_use]
     pub fn moments(&self, width: f64, count: usize) -> Moments {
         let part = width / self.width;
         // a width that is a whole number of cells to rounding is exactly that

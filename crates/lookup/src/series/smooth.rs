@@ -68,7 +68,6 @@ pub fn absorb(cells: &mut [Six], moments: &[Six], curvatures: &[Six]) {
 ///
 /// `own` is which of its five cells that cell is: 2, and 1 or 0 for the last two before the instant of the response.
 /// In rises a cell, with s growing into the past: the rate over the cell is rise + slope s + half curvature (s^2 - 1/12).
-#[must_use]
 pub fn absorbed(rises: &[f64], cell: isize, own: usize) -> [f64; 2] {
     let (mut slope, mut bend) = (0.0, 0.0);
     for i in 0..REACH {

@@ -8,7 +8,6 @@ pub(crate) const MAX_POINTS: usize = 8;
 /// Index of the interval [nodes\[i\], nodes\[i+1\]] that holds `x`; the last interval is closed.
 ///
 /// `nodes` ascend strictly and have at least two entries. Returns `None` outside, and for NaN.
-#[must_use]
 pub fn locate(nodes: &[f64], x: f64) -> Option<usize> {
     let last = *nodes.last()?;
     if !(x >= nodes[0] && x <= last) {
@@ -35,7 +34,6 @@ pub struct Stencil {
 
 impl Stencil {
     /// Stencil of `points` (at most 8, at most the number of nodes) around `x` in `interval`, one-sided at both ends.
-    #[must_use]
     pub fn one_sided(nodes: &[f64], interval: usize, x: f64, points: usize) -> Self {
         let points = points.min(nodes.len()).min(MAX_POINTS);
         let first = (interval + 1)
@@ -58,7 +56,6 @@ impl Stencil {
     ///
     /// A mirrored node -nodes\[i\] adds its weight to node i: with its sign for even fields
     /// ([`Self::even`]) and against it for odd ones ([`Self::odd`]).
-    #[must_use]
     pub fn mirrored(nodes: &[f64], interval: usize, x: f64, points: usize) -> Self {
         let points = points.min(nodes.len()).min(MAX_POINTS);
         let first =
@@ -91,19 +88,16 @@ impl Stencil {
     }
 
     /// Indices of the nodes, ascending.
-    #[must_use]
     pub fn nodes(&self) -> &[usize] {
         &self.node[..self.points]
     }
 
     /// Weights of a field that is even across r = 0.
-    #[must_use]
     pub fn even(&self) -> &[f64] {
         &self.even[..self.points]
     }
 
     /// Weights of a field that is odd across r = 0.
-    #[must_use]
     pub fn odd(&self) -> &[f64] {
         &self.odd[..self.points]
     }

@@ -32,7 +32,6 @@ pub struct Axis {
 
 impl Axis {
     /// A uniform axis.
-    #[must_use]
     pub fn uniform(max: f64, spacing: f64) -> Self {
         Self {
             max,
@@ -45,7 +44,6 @@ impl Axis {
     }
 
     /// An axis graded toward `focus`.
-    #[must_use]
     pub fn graded(max: f64, spacing: f64, focus: f64, focus_spacing: f64, growth: f64) -> Self {
         Self {
             focus: Some(focus),
@@ -56,7 +54,6 @@ impl Axis {
     }
 
     /// The nodes, ascending from 0 to `max`, the focus among them, rounded to multiples of 2^-16; then the extension.
-    #[must_use]
     pub fn nodes(&self) -> Vec<f64> {
         self.padded(0)
     }
@@ -99,7 +96,6 @@ impl Axis {
     }
 
     /// [`Self::nodes`] and `count` more beyond `max`, at the last spacing.
-    #[must_use]
     pub fn padded(&self, count: usize) -> Vec<f64> {
         let mut nodes = self.inner();
         let step = last_step(&nodes);
@@ -109,7 +105,6 @@ impl Axis {
     }
 
     /// The last node served.
-    #[must_use]
     pub fn end(&self) -> f64 {
         self.nodes().last().copied().unwrap_or(self.max)
     }

@@ -116,7 +116,6 @@ impl Grid {
     }
 
     /// Nodes in r and z, with those beyond the largest values served that the stencils there need.
-    #[must_use]
     pub fn nodes(&self) -> [Vec<f64>; 2] {
         let beyond = self.stencil_points / 2 - 1;
         [self.r.padded(beyond), self.z.padded(beyond)]
@@ -133,7 +132,6 @@ impl Grid {
     }
 
     /// Poisson ratios of all slices, ascending, with their roles.
-    #[must_use]
     pub fn slices(&self) -> Vec<(f64, Role)> {
         let grid = self.poisson_ratios.iter().map(|&nu| (nu, Role::Grid));
         let exact = self.exact_ratios.iter().map(|&nu| (nu, Role::Exact));

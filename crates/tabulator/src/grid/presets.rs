@@ -12,7 +12,6 @@ const RATIOS: [f64; 11] = [
 
 impl Grid {
     /// One slice at nu = 0.30, r and z to 6 r0: built in seconds.
-    #[must_use]
     pub fn demo() -> Self {
         Self {
             poisson_ratios: vec![0.3],
@@ -29,7 +28,6 @@ impl Grid {
     }
 
     /// Every Poisson ratio from 0 to 0.45, r and z to 6 r0: minutes.
-    #[must_use]
     pub fn standard() -> Self {
         Self {
             poisson_ratios: RATIOS.to_vec(),
@@ -41,7 +39,6 @@ impl Grid {
     }
 
     /// [`Self::standard`] to 12 r0, with fewer nodes to a length.
-    #[must_use]
     pub fn wide() -> Self {
         Self {
             r: Axis::graded(12.0, 0.15, 1.0, 0.04, 0.12),
@@ -51,7 +48,6 @@ impl Grid {
     }
 
     /// The preset called `name`.
-    #[must_use]
     pub fn preset(name: &str) -> Option<Self> {
         match name {
             "demo" => Some(Self::demo()),

@@ -24,7 +24,6 @@ pub struct CheckReport {
 
 impl CheckReport {
     /// Whether nothing is wrong.
-    #[must_use]
     pub fn is_good(&self) -> bool {
         self.hash_right && self.bad.is_empty() && self.damaged.is_empty()
     }

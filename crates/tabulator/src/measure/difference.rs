@@ -3,7 +3,6 @@
 use lookup::{Content, Slice};
 
 /// Everything in which `first` and `second` differ, a line each, apart from creation time and software version.
-#[must_use]
 pub fn differences<'a>(first: &'a Content, second: &'a Content) -> Vec<String> {
     let mut found = Vec::new();
     for (name, same) in [

@@ -55,13 +55,11 @@ impl Block {
     }
 
     /// How many rows.
-    #[must_use]
     pub fn len(&self) -> usize {
         self.models.len()
     }
 
     /// Whether there are none.
-    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.models.is_empty()
     }
@@ -106,7 +104,6 @@ impl Block {
     }
 
     /// Rows whose fields were looked up in a table.
-    #[must_use]
     pub fn looked_up(&self) -> usize {
         let first_of_probes = |row: &&[f64]| row.get(QUANTITIES.len()) == Some(&1.0);
         self.rows().filter(first_of_probes).count()

@@ -74,7 +74,6 @@ pub(super) fn described(key: &Key) -> Described {
 }
 
 /// Names of the columns of a part.
-#[must_use]
 pub fn column_names(spec: &Spec) -> Vec<String> {
     let columns = columns(spec).into_iter();
     columns.map(|column| column.described.name).collect()
@@ -168,7 +167,6 @@ pub(super) fn each_of(
 }
 
 /// The unit that a scene key carries in its name, and the ending that says so; `1` and nothing without one.
-#[must_use]
 pub fn key_unit(key: &str) -> (&'static str, &'static str) {
     // the longest first
     const UNITS: [(&str, &str); 7] = [

@@ -65,7 +65,6 @@ fn finish(file: hdf5::File, failed: usize, reasons: &[String]) -> Result<(), hdf
 }
 
 /// Bytes that a row takes in a part, and in the journal while it is computed.
-#[must_use]
 pub fn row_bytes(spec: &Spec) -> (usize, usize) {
     let fields = &spec.fields;
     let cells = columns(spec).into_iter();
