@@ -90,4 +90,4 @@ pub use numeric::gauss;
 pub use numeric::polynomial::{chebyshev, lagrange};
 pub use profile::Profile;
 pub use surface::{Deflection, LoadedDisc, SurfaceResponse, surface_measure};
-pub use trace::Trace;
+pub use trace::{Series, Trace};

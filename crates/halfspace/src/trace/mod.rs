@@ -18,6 +18,8 @@ use crate::kernel::Kernel;
 use crate::trace::interpolation::segments;
 use crate::trace::segment::Segment;
 
+pub use segment::Series;
+
 /// What is left of a polynomial is of either sign, and so is the rate of the force times it.
 const OSCILLATES: f64 = 0.22;
 
@@ -126,10 +128,17 @@ impl Trace {
 
     /// R at a time; after the end of the trace, its value there.
     pub fn at(&self, t: f64) -> Six {
+        self.at_each([t]).map(|[value]| value)
+    }
+
+    /// R at times between the same two breaks.
+    #[must_use]
+    pub fn at_each<const N: usize>(&self, times: [f64; N]) -> [[f64; N]; 6] {
+        let t = times[N / 2];
         let after = self.segments.partition_point(|s| s.times[1] < t);
         match self.segments.get(after).or(self.segments.last()) {
-            Some(segment) if t > self.first_arrival => segment.at(t),
-            Some(_) | None => self.static_field.map(|v| -v),
+            Some(segment) if t > self.first_arrival => segment.at(times),
+            Some(_) | None => self.static_field.map(|v| [-v; N]),
         }
     }
 

@@ -15,6 +15,8 @@
 use crate::error::DomainError;
 use crate::field::{Estimate, Six};
 use crate::numeric::gauss;
+use crate::numeric::lanes::dispatch;
+use pulp::{Simd, WithSimd};
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::LazyLock;
 
@@ -274,22 +276,15 @@ impl Segment {
         &self.values[0]
     }
 
-    fn value(&self, x: f64) -> Six {
-        let (mut b1, mut b2) = (Six::default(), Six::default());
-        for c in self.series[1..].iter().rev() {
-            let mut b0 = Six::default();
-            for f in 0..6 {
-                b0[f] = 2.0 * x * b1[f] - b2[f] + c[f];
-            }
-            (b1, b2) = (b0, b1);
-        }
-        std::array::from_fn(|f| x * b1[f] - b2[f] + self.series[0][f])
+    /// R at some s.
+    fn values<const N: usize>(&self, s: [f64; N]) -> [[f64; N]; 6] {
+        let (middle, half) = self.piece.middle();
+        dispatch(Series(&self.series, s.map(|s| (s - middle) / half)))
     }
 
-    /// R at a time of the segment.
-    pub(crate) fn at(&self, t: f64) -> Six {
-        let (middle, half) = self.piece.middle();
-        self.value((self.piece.place(t) - middle) / half)
+    /// R at times of the segment.
+    pub(crate) fn at<const N: usize>(&self, times: [f64; N]) -> [[f64; N]; 6] {
+        self.values(times.map(|t| self.piece.place(t)))
     }
 
     /// Adds int R dt, int (t - centre) R dt and int (t - centre)^2 R dt over a part of the segment.
@@ -300,8 +295,10 @@ impl Segment {
         const SQUARE: usize = 3;
         const WAVE: f64 = 11.0;
         const LEAST: f64 = 5.0;
+        /// Nodes side by side.
+        const FEW: usize = 4;
         let [low, high] = [from, to].map(|t| self.piece.place(t));
-        let (middle, half) = self.piece.middle();
+        let (_, half) = self.piece.middle();
         let part = (high - low) / (2.0 * half);
         let terms = self.series.len();
         let nodes = if part < SHORT {
@@ -313,17 +310,53 @@ impl Segment {
             let whole = 0.5 * terms as f64 + WAVE;
             (LEAST + part.sqrt() * (whole - LEAST)).ceil() as usize
         };
-        let [area, moment, second] = sums;
-        for (s, weight) in gauss::rule(nodes).on(low, high) {
-            let value = self.value((s - middle) / half);
-            let (arm, slope) = self.piece.time(s, centre);
-            let weight = weight * slope;
-            for (f, value) in value.into_iter().enumerate() {
-                let value = weight * value;
-                area[f] += value;
-                moment[f] += arm * value;
-                second[f] += arm * arm * value;
+        let mut rule = gauss::rule(nodes).on(low, high);
+        for _ in 0..nodes.div_ceil(FEW) {
+            // a group that is not full is filled with nodes that weigh nothing
+            let group: [_; FEW] = std::array::from_fn(|_| rule.next().unwrap_or((high, 0.0)));
+            let values = self.values(group.map(|(s, _)| s));
+            for (i, (s, weight)) in group.into_iter().enumerate() {
+                let (arm, slope) = self.piece.time(s, centre);
+                for (f, values) in values.iter().enumerate() {
+                    let value = weight * slope * values[i];
+                    sums[0][f] += value;
+                    sums[1][f] += arm * value;
+                    sums[2][f] += arm * arm * value;
+                }
             }
         }
+    }
+}
+
+/// Chebyshev series, the coefficients of several quantities term by term, at places in [-1, 1] side by side: work for vector
+/// registers, which find the same bits on every machine.
+pub struct Series<'a, const F: usize, const N: usize>(pub &'a [[f64; F]], pub [f64; N]);
+
+impl<const F: usize, const N: usize> WithSimd for Series<'_, F, N> {
+    type Output = [[f64; N]; F];
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
+        let Self(series, x) = self;
+        let mut values = [[0.0; N]; F];
+        for from in (0..N).step_by(S::F64_LANES) {
+            let own = from..N.min(from + S::F64_LANES);
+            let x = simd.partial_load_f64s(&x[own.clone()]);
+            let twice = simd.add_f64s(x, x);
+            let (mut term, mut next) = (simd.splat_f64s(1.0), x);
+            let mut sums = [simd.splat_f64s(0.0); F];
+            for coefficients in series {
+                for (sum, coefficient) in sums.iter_mut().zip(coefficients) {
+                    let product = simd.mul_f64s(simd.splat_f64s(*coefficient), term);
+                    *sum = simd.add_f64s(*sum, product);
+                }
+                let after = simd.sub_f64s(simd.mul_f64s(twice, next), term);
+                (term, next) = (next, after);
+            }
+            for (values, sum) in values.iter_mut().zip(sums) {
+                simd.partial_store_f64s(&mut values[own.clone()], sum);
+            }
+        }
+        values
     }
 }

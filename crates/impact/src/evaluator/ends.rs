@@ -12,8 +12,9 @@
 //! Theory: `docs/theory.md` (T24).
 
 use super::projection::Projection;
-use halfspace::{Six, Trace, chebyshev, gauss};
+use halfspace::{Series, Six, Trace, gauss};
 use lookup::Moments;
+use pulp::Arch;
 use std::f64::consts::PI;
 use std::ops::Range;
 use std::sync::LazyLock;
@@ -23,6 +24,9 @@ const SMOOTH: f64 = 0.02;
 
 /// Terms of the force in the root of time.
 const DEGREE: usize = 12;
+
+/// Nodes of the rule, side by side.
+const NODES: usize = 10;
 
 /// Cells that are replaced together.
 pub(crate) struct Zone {
@@ -39,7 +43,7 @@ struct Part {
     /// Roots of the times in s from the origin between which it lies.
     roots: [f64; 2],
     /// dF/dx as Chebyshev series in x between them, of each of a pair of forces.
-    series: [[f64; DEGREE]; 2],
+    series: [[f64; 2]; DEGREE],
 }
 
 /// The zones of a force during a run, with those of another beside it; `steepest` is its largest rise over a step, in
@@ -114,14 +118,13 @@ impl Part {
             return;
         }
         // the derivative of each series, by its recurrence
-        let series = [0, 1].map(|k| {
-            let mut slopes = [0.0; DEGREE + 1];
-            for j in (1..DEGREE).rev() {
-                slopes[j - 1] = slopes[(j + 1).min(DEGREE)] + 2.0 * j as f64 * term(k, j);
-            }
-            slopes[0] *= 0.5;
-            std::array::from_fn(|j| sign * slopes[j] / half)
-        });
+        let mut series = [[0.0; 2]; DEGREE];
+        for j in (1..DEGREE).rev() {
+            let above = series.get(j + 1).copied().unwrap_or_default();
+            let scale = 2.0 * j as f64 * sign / half;
+            series[j - 1] = [0, 1].map(|k| above[k] + scale * term(k, j));
+        }
+        series[0] = series[0].map(|slope| 0.5 * slope);
         parts.push(Self {
             origin_s,
             sign,
@@ -131,10 +134,10 @@ impl Part {
     }
 
     /// dF/dx, in the sense of time.
-    fn slopes(&self, x: f64) -> [f64; 2] {
+    fn slopes(&self, x: [f64; NODES]) -> [[f64; NODES]; 2] {
         let [low, high] = self.roots;
-        let y = (2.0 * x - low - high) / (high - low);
-        self.series.each_ref().map(|series| chebyshev(series, y))
+        let y = x.map(|x| (2.0 * x - low - high) / (high - low));
+        Arch::new().dispatch(Series(&self.series, y))
     }
 
     /// Adds the integrals over some of the past at a time; the trace has its times in `unit_s`.
@@ -162,13 +165,13 @@ impl Part {
         cuts.sort_by(f64::total_cmp);
         for pair in cuts.windows(2) {
             let (middle, half) = (0.5 * (pair[0] + pair[1]), 0.5 * (pair[1] - pair[0]));
-            for &(y, weight) in RULE.iter() {
-                let x = middle + half * y;
-                let value = trace.at((since_s - self.sign * x * x) / unit_s);
-                for (sum, slope) in sums.iter_mut().zip(self.slopes(x)) {
-                    for (sum, value) in sum.iter_mut().zip(value) {
-                        *sum += half * weight * slope * value;
-                    }
+            let x = RULE.map(|[y, _]| middle + half * y);
+            let values = trace.at_each(x.map(|x| (since_s - self.sign * x * x) / unit_s));
+            for (sum, slopes) in sums.iter_mut().zip(self.slopes(x)) {
+                let weights: [f64; NODES] = std::array::from_fn(|n| half * RULE[n][1] * slopes[n]);
+                for (sum, values) in sum.iter_mut().zip(&values) {
+                    let terms = weights.iter().zip(values);
+                    *sum += terms.map(|(weight, value)| weight * value).sum::<f64>();
                 }
             }
         }
@@ -182,11 +185,12 @@ static COSINES: LazyLock<[[f64; DEGREE]; DEGREE]> = LazyLock::new(|| {
 });
 
 /// Gauss's rule on [-1, 1] in the angle: exact beside roots at both ends.
-static RULE: LazyLock<Vec<(f64, f64)>> = LazyLock::new(|| {
-    const NODES: usize = 10;
-    let angles = gauss::rule(NODES).on(0.0, PI);
-    let nodes = angles.map(|(angle, weight)| (-angle.cos(), weight * angle.sin()));
-    nodes.collect()
+static RULE: LazyLock<[[f64; 2]; NODES]> = LazyLock::new(|| {
+    let mut angles = gauss::rule(NODES).on(0.0, PI);
+    std::array::from_fn(|_| {
+        let (angle, weight) = angles.next().unwrap_or_default();
+        [-angle.cos(), weight * angle.sin()]
+    })
 });
 
 impl Zone {
