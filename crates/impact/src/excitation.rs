@@ -329,7 +329,7 @@ impl Excitation {
     fn contact_nodes(&self, from_s: f64, step_s: f64, nodes: &mut Vec<Node>) {
         /// A force that changes by more than this over a cell is near an end of contact.
         const STEEP: f64 = 0.5;
-        const PLAIN: usize = 6;
+        const PLAIN: usize = 4;
         const GRADED: usize = 12;
         let at = |x: f64| self.force_n(from_s + (x + 0.5) * step_s);
         let ends = [at(-0.5), at(0.5)];
