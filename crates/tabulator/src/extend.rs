@@ -80,14 +80,11 @@ fn apply(grid: &mut Grid, known: &Known, extension: &Extension) -> Result<(), Bu
     Ok(())
 }
 
-fn grows(key: &'static str, value: f64, present: f64) -> Result<(), BuildError> {
+fn grows(key: &str, value: f64, present: f64) -> Result<(), BuildError> {
     if value >= present {
-        Ok(())
-    } else {
-        Err(BuildError::Shrinks {
-            key,
-            value,
-            present,
-        })
+        return Ok(());
     }
+    let sentence =
+        format!("{key} = {value} is less than the {present} that the table has: tables only grow");
+    Err(BuildError::of_key(key, value, None, sentence))
 }

@@ -18,8 +18,8 @@ const MOST_TRIALS: usize = 8;
 /// the whole slice with the largest Poisson ratio, whose waves are the shortest, measured as the table will be.
 ///
 /// # Errors
-/// [`BuildError::Setting`] for a tolerance outside [1e-7, 0.1] or a length outside [0.5, 1000],
-/// [`BuildError::Refused`] when no spacing allowed is fine enough, or what the exact kernels say.
+/// [`BuildError::Refused`] for a tolerance outside [1e-7, 0.1] or a length outside [0.5, 1000], or when no spacing
+/// allowed is fine enough, or what the exact kernels say.
 pub fn refine(
     grid: &Grid,
     tolerance: f64,
