@@ -7,6 +7,7 @@ use crate::grid::Grid;
 use crate::journal::title;
 use crate::known::Known;
 use crate::progress::Progress;
+use crate::rows::Work;
 use lookup::Table;
 use output::{Existing, Output};
 use std::path::Path;
@@ -51,8 +52,8 @@ pub fn extend(
     let title = title(&grid.to_toml()?, Some(&base));
     // one that became the table which is there may go
     let drops = |settings: &str| settings == present;
-    let known = Some(&known);
-    compute(&grid, &output, &title, drops, known, progress, started)
+    let work = Work::new(&grid, Some(&known), progress)?;
+    compute(&work, &output, &title, drops, started)
 }
 
 fn apply(grid: &mut Grid, known: &Known, extension: &Extension) -> Result<(), BuildError> {

@@ -1,11 +1,10 @@
 //! Chooses the spacing of a grid so that errors off it stay below a tolerance.
 
 use crate::assemble::assemble;
-use crate::block;
 use crate::error::BuildError;
 use crate::grid::{Grid, within};
 use crate::progress::Progress;
-use crate::rows::rows;
+use crate::rows::Work;
 use std::collections::HashMap;
 
 /// Trials at most.
@@ -71,9 +70,8 @@ fn measure(grid: &Grid, pulse_length: f64, progress: &dyn Progress) -> Result<f6
         exact_ratios: Vec::new(),
         ..grid.clone()
     };
-    let work = block::all(&slice);
-    let rows = rows(&slice, &work, HashMap::new(), None, None, progress)?;
-    let content = assemble(&slice, &work, rows, None, progress)?;
+    let work = Work::new(&slice, None, progress)?;
+    let content = assemble(&work, work.rows(HashMap::new(), None)?)?;
     let index = content
         .pulse_lengths
         .iter()
