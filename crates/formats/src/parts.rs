@@ -6,8 +6,7 @@ use crate::sweep::{
     Block, Blocks, Shard, Spec, SweepError, Unfinished, grain, stage_hdf5, stage_rows,
 };
 use ledger::gaps;
-use output::{Fault, HDF5, Output, ROWS, Staged, folder};
-use std::ffi::OsStr;
+use output::{Fault, HDF5, Output, ROWS, Staged, folder, is_hidden};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
@@ -268,8 +267,7 @@ fn files(folder: &Path, named: impl Fn(&Path) -> bool) -> Result<Vec<PathBuf>, S
         entries.map(|entry| Ok(entry?.path())).collect()
     };
     let mut found = paths().map_err(|reason| SceneError::unreadable(folder, reason))?;
-    let hidden = |name: &OsStr| name.as_encoded_bytes().starts_with(b".");
-    found.retain(|path| named(path) && !path.file_name().is_some_and(hidden));
+    found.retain(|path| named(path) && !is_hidden(path));
     found.sort();
     Ok(found)
 }

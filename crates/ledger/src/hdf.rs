@@ -53,7 +53,10 @@ impl HdfFile {
                 bytes.length
             )));
         }
-        let root = Group(file.root_group()?);
+        let root = Group {
+            group: file.root_group()?,
+            path: String::new(),
+        };
         Ok(Self { bytes, root })
     }
 
@@ -78,18 +81,27 @@ impl HdfFile {
 
 /// A group of a file.
 #[derive(Clone)]
-pub struct Group(hdf5_reader::group::Group);
+pub struct Group {
+    group: hdf5_reader::group::Group,
+    /// Where it is in the file; nothing for the root.
+    pub path: String,
+}
 
 impl fmt::Debug for Group {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_tuple("Group").field(&self.0.name()).finish()
+        f.debug_tuple("Group").field(&self.path).finish()
     }
 }
 
 impl Group {
+    /// Where something in it is in the file.
+    pub fn item(&self, name: &str) -> String {
+        format!("{}/{name}", self.path)
+    }
+
     /// Names of the groups and datasets in it, ascending.
     pub fn members(&self) -> Result<Vec<String>, HdfError> {
-        let (mut names, datasets) = self.0.member_names()?;
+        let (mut names, datasets) = self.group.member_names()?;
         names.extend(datasets);
         names.sort();
         Ok(names)
@@ -98,26 +110,29 @@ impl Group {
     /// A group in it, by its path from here.
     pub fn group(&self, path: &str) -> Result<Self, HdfError> {
         let mut names = path.split('/').filter(|name| !name.is_empty());
-        let group = names.try_fold(self.0.clone(), |group, name| group.group(name));
-        Ok(Self(group?))
+        let group = names.try_fold(self.group.clone(), |group, name| group.group(name));
+        Ok(Self {
+            group: group?,
+            path: self.item(path),
+        })
     }
 
     /// A dataset in it, by its path from here.
     pub fn dataset(&self, path: &str) -> Result<Dataset, HdfError> {
         let (group, name) = path.rsplit_once('/').unwrap_or(("", path));
-        let data = self.group(group)?.0.dataset(name)?;
+        let data = self.group(group)?.group.dataset(name)?;
         let shape = data.shape().iter().map(|&n| n as usize).collect();
         Ok(Dataset { data, shape })
     }
 
     /// The text of an attribute.
     pub fn text(&self, name: &str) -> Result<String, HdfError> {
-        text(&self.0.attribute(name)?)
+        text(&self.group.attribute(name)?)
     }
 
     /// The number of an attribute.
     pub fn number<T: H5Type>(&self, name: &str) -> Result<T, HdfError> {
-        let attribute = self.0.attribute(name)?;
+        let attribute = self.group.attribute(name)?;
         same_type::<T>(&attribute.datatype)?;
         if !attribute.shape.is_empty() {
             return refused("it is a list, needed one number");
@@ -127,7 +142,7 @@ impl Group {
 
     /// The list of numbers of an attribute.
     pub fn numbers<T: H5Type>(&self, name: &str) -> Result<Vec<T>, HdfError> {
-        let attribute = self.0.attribute(name)?;
+        let attribute = self.group.attribute(name)?;
         same_type::<T>(&attribute.datatype)?;
         if attribute.shape.len() != 1 {
             return refused("it is no list of numbers");

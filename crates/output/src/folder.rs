@@ -28,7 +28,7 @@ impl Folder {
         let claim = Output::claim(&path.join("folder.lock"), Existing::Replace)?;
         let entries = std::fs::read_dir(path).map_err(|error| OutputError::place(path, error))?;
         let names = entries.filter_map(|entry| Some(entry.ok()?.path()));
-        match names.filter(|path| !hidden(path)).min() {
+        match names.filter(|path| !is_hidden(path)).min() {
             Some(path) if existing != Existing::Replace => Err(OutputError::Exists(path)),
             Some(_) | None => Ok(Self {
                 path: path.to_owned(),
@@ -67,8 +67,8 @@ impl Folder {
     }
 }
 
-/// What a killed run has left is hidden, and nothing that somebody would miss.
-fn hidden(path: &Path) -> bool {
+/// Whether a name begins with a dot: what a killed run has left is hidden, and nothing that somebody would miss.
+pub fn is_hidden(path: &Path) -> bool {
     path.file_name()
         .is_some_and(|name| name.as_encoded_bytes().starts_with(b"."))
 }

@@ -163,6 +163,20 @@ impl Journal {
     }
 }
 
+/// Whole numbers as they stand at the beginning of what a record keeps: eight bytes each.
+pub fn packed<const N: usize>(numbers: [usize; N]) -> Vec<u8> {
+    let bytes = numbers.map(|number| (number as u64).to_le_bytes());
+    bytes.concat()
+}
+
+/// The whole numbers that what a record keeps begins with, and what follows them.
+pub fn unpacked<const N: usize>(kept: &[u8]) -> Option<([usize; N], &[u8])> {
+    let (numbers, rest) = kept.split_at_checked(8 * N)?;
+    let (words, _) = numbers.as_chunks();
+    let number = |i: usize| u64::from_le_bytes(words[i]) as usize;
+    Some((std::array::from_fn(number), rest))
+}
+
 /// A file of somebody else, or of another version.
 fn strange(path: &Path) -> OutputError {
     let what =
@@ -260,7 +274,7 @@ fn next(reader: &mut impl Read, left: u64, kept: &mut Vec<u8>) -> io::Result<boo
 
 /// Fowler, Noll and Vo's hash over words of eight bytes and the length: rows are read back several times, a million and more
 /// a second.
-fn sum(kept: &[u8]) -> [u8; 8] {
+pub(crate) fn sum(kept: &[u8]) -> [u8; 8] {
     let (words, rest) = kept.as_chunks::<8>();
     let mut last = [0; 8];
     last[..rest.len()].copy_from_slice(rest);

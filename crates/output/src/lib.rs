@@ -31,8 +31,8 @@ mod temporary;
 
 pub use claim::{Existing, Output, Staged, write_whole};
 pub use error::{Fault, OutputError};
-pub use folder::Folder;
-pub use journal::{Journal, Record, Records, Title};
+pub use folder::{Folder, is_hidden};
+pub use journal::{Journal, Record, Records, Title, packed, unpacked};
 pub use place::{
     CSV, Ending, HDF5, PARQUET, ROWS, Role, SHARD, TABLE, apart, behind, folder, is_standard,
 };

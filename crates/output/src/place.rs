@@ -1,6 +1,7 @@
 //! The file behind a name, and outputs that are inputs, or each other.
 
 use crate::error::{Fault, OutputError};
+use crate::journal::sum;
 use std::ffi::{OsStr, OsString};
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
@@ -102,17 +103,11 @@ fn regular(kind: &std::fs::FileType) -> Result<(), Fault> {
 pub(crate) fn beside(path: &Path, before: &str, after: &str) -> PathBuf {
     let mut name = path.file_name().unwrap_or_default().to_owned();
     if name.len() > 180 {
-        name = format!("{:016x}", hash(name.as_encoded_bytes())).into();
+        let hash = u64::from_le_bytes(sum(name.as_encoded_bytes()));
+        name = format!("{hash:016x}").into();
     }
     let whole = [OsStr::new(before), &name, OsStr::new(after)];
     folder(path).join(whole.into_iter().collect::<OsString>())
-}
-
-/// Fowler, Noll and Vo's hash.
-fn hash(bytes: &[u8]) -> u64 {
-    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, &byte| {
-        (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
-    })
 }
 
 /// What a file that a command reads is to it, such as "the scene", and where it is.

@@ -6,10 +6,10 @@ use crate::table::{Opened, Table};
 use crate::values::{from_json, frozen, vector};
 use crate::work::run;
 use contact::{Choice, Unknown};
-use formats::quantities::{Kind, Labels, QUANTITIES, labels_of};
-use formats::results::schema;
+use formats::quantities::{Described, Kind, Labels, QUANTITIES, labels_of};
+use formats::results::{beside, peaks_of, schema};
 use formats::{Existing, Output, json_report, stage_results, stage_results_csv};
-use impact::{Allowance, KernelChoice, Outcome as Computed, Peaks, Scene, simulate_within};
+use impact::{Allowance, KernelChoice, Outcome as Computed, Scene, simulate_within};
 use output::{CSV, HDF5};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -148,17 +148,11 @@ impl Outcome {
         found.set_item(schema::ARRIVALS.0, frozen(py, arrivals, &shape)?)?;
         let valid = vector(py, fields.valid_until_s.clone())?;
         found.set_item(schema::VALID_UNTIL.0, valid)?;
-        for ((name, ..), values, errors) in schema::histories(fields) {
+        for (row, values, errors) in schema::histories(fields) {
             let shape = [values.len(), values.first().map_or(0, Vec::len)];
-            found.set_item(name, frozen(py, values.concat(), &shape)?)?;
-            found.set_item(error_of(name), vector(py, errors.clone())?)?;
-            if scene.peaks {
-                let mut largest = Peaks::default();
-                for samples in values {
-                    largest.push(&computed.series.time_s, samples);
-                }
-                put_peaks(&found, name, largest, &shape[..1])?;
-            }
+            found.set_item(row.0, frozen(py, values.concat(), &shape)?)?;
+            let peaks = peaks_of(scene, &computed.series.time_s, values);
+            put_beside(&found, beside(row, errors, peaks.as_ref()), &shape[..1])?;
         }
         Ok(Some(found))
     }
@@ -176,13 +170,10 @@ impl Outcome {
         let arrivals = section.arrival_s.concat();
         found.set_item(schema::ARRIVALS.0, frozen(py, arrivals, &waves)?)?;
         let values = section.values.iter().zip(&section.errors);
-        let names: Vec<_> = labels_of(&section.quantities).map(|row| row.0).collect();
-        for (&name, (values, errors)) in names.iter().zip(values) {
-            found.set_item(name, frozen(py, values.clone(), &frames)?)?;
-            found.set_item(error_of(name), frozen(py, errors.clone(), &place)?)?;
-        }
-        for (name, largest) in names.into_iter().zip(section.peaks.iter().flatten()) {
-            put_peaks(&found, name, largest.clone(), &place)?;
+        for (i, (row, (values, errors))) in labels_of(&section.quantities).zip(values).enumerate() {
+            found.set_item(row.0, frozen(py, values.clone(), &frames)?)?;
+            let peaks = section.peaks.as_ref().map(|peaks| &peaks[i]);
+            put_beside(&found, beside(row, errors, peaks), &place)?;
         }
         Ok(Some(found))
     }
@@ -228,22 +219,15 @@ fn columns_of<'py, 'a, 'b>(
     Ok(found)
 }
 
-/// A name with the suffix of its error.
-fn error_of(name: &str) -> String {
-    format!("{name}{}", schema::ERROR_SUFFIX)
-}
-
-/// The largest values over time and their instants.
-fn put_peaks(
+/// What stands beside a quantity: its errors and, where they are asked for, its largest values over time and their instants.
+fn put_beside(
     found: &Bound<'_, PyDict>,
-    name: &str,
-    largest: Peaks,
+    beside: Vec<(Described, &[f64])>,
     shape: &[usize],
 ) -> PyResult<()> {
-    let columns = [largest.values, largest.time_s];
-    for (suffix, column) in schema::PEAK_SUFFIXES.iter().zip(columns) {
-        let column = frozen(found.py(), column, shape)?;
-        found.set_item(format!("{name}{suffix}"), column)?;
+    for (described, column) in beside {
+        let column = frozen(found.py(), column.to_vec(), shape)?;
+        found.set_item(described.name, column)?;
     }
     Ok(())
 }

@@ -1,17 +1,16 @@
 //! From rows to a table: numbers in their places, errors measured off the grid, the file under its name.
 
-use crate::block::{self, Block, Kind, Row};
+use crate::block::{Kind, Row};
 use crate::error::BuildError;
-use crate::grid::Grid;
 use crate::known::Known;
 use crate::measure::verify;
 use crate::numbers::NUMBERS_REVISION;
-use crate::progress::Progress;
+use crate::rows::Work;
 use lookup::{Accuracy, BadTable, Between, Content, Origin, Slice, Table, Verification, schema};
 use output::{Fault, Output};
 use rayon::prelude::*;
 use std::path::Path;
-use std::time::{SystemTime, UNIX_EPOCH};
+use std::time::{Instant, SystemTime, UNIX_EPOCH};
 
 /// What a build did.
 #[derive(Debug, Clone, PartialEq)]
@@ -38,21 +37,19 @@ pub struct Summary {
 
 /// From all rows to the file under its name.
 pub(crate) fn complete(
-    grid: &Grid,
-    work: &[Block],
+    work: &Work<'_>,
     rows: Vec<Row>,
     output: &Output,
-    known: Option<&Known>,
-    progress: &dyn Progress,
+    started: Instant,
 ) -> Result<Summary, BuildError> {
-    let content = assemble(grid, work, rows, known, progress)?;
+    let content = assemble(work, rows)?;
     let bytes = output.write(|part| write_checked(&content, part))?;
     Ok(Summary {
         id: lookup::settings_id(&content.origin.grid),
         content_sha256: lookup::stated_hash(&output.real)?,
         points: content.r.len() * content.z.len() * content.slices.len(),
         bytes,
-        wall_s: 0.0,
+        wall_s: started.elapsed().as_secs_f64(),
         resumed_blocks: 0,
         accuracy: content.accuracy(),
         pulse_lengths: content.pulse_lengths,
@@ -77,41 +74,34 @@ fn write_checked(content: &Content, part: &Path) -> Result<(), Fault> {
 ///
 /// # Errors
 /// [`BuildError`] when the numbers are no table or a probe cannot be looked up.
-pub(crate) fn assemble(
-    grid: &Grid,
-    work: &[Block],
-    rows: Vec<Row>,
-    known: Option<&Known>,
-    progress: &dyn Progress,
-) -> Result<Content, BuildError> {
-    let (slices, exact) = sorted(grid, work, rows)?;
-    let table = Table::new(unmeasured(grid, slices, known)?)?;
-    let steps = exact.probes.len() + exact.between.len();
-    progress.total("verification", steps as u64);
-    let measure = |kind: Kind, poisson_ratio: f64, rows: &[Row]| {
-        let places = block::positions(kind, grid);
-        let measured = verify::verify(&table, poisson_ratio, kind, &places, rows, known)?;
-        progress.slice(poisson_ratio);
-        progress.advance(1);
-        Ok::<_, BuildError>(measured)
-    };
-    let ratios = table.poisson_ratios().iter();
-    let measured = ratios
-        .zip(&exact.probes)
-        .map(|(&nu, rows)| measure(Kind::Probes, nu, rows))
-        .collect::<Result<Vec<_>, _>>()?;
-    let mut between = Vec::new();
-    for (interval, rows) in exact.between.iter().enumerate() {
-        let poisson_ratio = grid.between(interval)?;
-        between.push(Between {
-            poisson_ratio,
-            verification: measure(Kind::Between, poisson_ratio, rows)?,
-        });
+pub(crate) fn assemble(work: &Work<'_>, rows: Vec<Row>) -> Result<Content, BuildError> {
+    let mut of_kind = Kind::ALL.map(|kind| vec![Vec::new(); work.points[kind as usize].0.len()]);
+    for (block, row) in work.blocks.iter().zip(rows) {
+        of_kind[block.kind as usize][block.slice].push(row);
     }
+    let [nodes, probes, between] = of_kind;
+    let table = Table::new(unmeasured(work, nodes)?)?;
+    let steps = probes.len() + between.len();
+    work.progress.total("verification", steps as u64);
+    let measure = |kind: Kind, rows: &[Vec<Row>]| {
+        let ratios = work.points[kind as usize].0.iter();
+        let each = ratios.zip(rows).map(|(&poisson_ratio, rows)| {
+            let verification = verify::verify(&table, work, kind, poisson_ratio, rows)?;
+            work.progress.slice(poisson_ratio);
+            work.progress.advance(1);
+            Ok(Between {
+                poisson_ratio,
+                verification,
+            })
+        });
+        each.collect::<Result<Vec<_>, BuildError>>()
+    };
+    let on = measure(Kind::Probes, &probes)?;
+    let between = measure(Kind::Between, &between)?;
     let mut content = table.into_content();
     content.between = between;
-    for (slice, verification) in content.slices.iter_mut().zip(measured) {
-        slice.verification = verification;
+    for (slice, measured) in content.slices.iter_mut().zip(on) {
+        slice.verification = measured.verification;
     }
     let accuracy = content.accuracy();
     let worst = accuracy.iter().map(|errors| errors.worst_on_slices().1.p99);
@@ -119,42 +109,24 @@ pub(crate) fn assemble(
     Ok(content)
 }
 
-/// Exact numbers off the grid, row by row.
-struct Exact {
-    /// For each slice.
-    probes: Vec<Vec<Row>>,
-    /// For each interval between slices.
-    between: Vec<Vec<Row>>,
-}
-
-/// The slices, not measured yet, and the rows to measure them by.
-fn sorted(grid: &Grid, work: &[Block], rows: Vec<Row>) -> Result<(Vec<Slice>, Exact), BuildError> {
-    let places: usize = block::positions(Kind::Probes, grid)
-        .iter()
-        .map(Vec::len)
-        .product();
-    let zeros = vec![0.0; places * grid.pulse_lengths.len() * 6];
-    let cells = grid.cells()?;
-    let mut nodes = vec![Vec::new(); grid.slices().len()];
-    let mut exact = Exact {
-        probes: vec![Vec::new(); nodes.len()],
-        between: vec![Vec::new(); grid.intervals()],
+/// The content before anything is measured, from the rows of nodes of each slice.
+fn unmeasured(work: &Work<'_>, nodes: Vec<Vec<Row>>) -> Result<Content, BuildError> {
+    let Work { grid, known, .. } = *work;
+    let [(_, [r, z]), (_, probes), (ratios, between)] = work.points.clone();
+    let [between_r, between_z] = if ratios.is_empty() {
+        Default::default()
+    } else {
+        between
     };
-    for (block, row) in work.iter().zip(rows) {
-        let of_kind = match block.kind {
-            Kind::Nodes => &mut nodes,
-            Kind::Probes => &mut exact.probes,
-            Kind::Between => &mut exact.between,
-        };
-        of_kind[block.slice].push(row);
-    }
+    let places: usize = probes.iter().map(Vec::len).product();
+    let zeros = vec![0.0; places * grid.pulse_lengths.len() * 6];
     let slices = nodes.into_par_iter().zip(grid.slices());
     let slice = |(rows, (poisson_ratio, role)): (Vec<Row>, _)| {
         let joined = |i: usize| rows.iter().map(|row| &row[i][..]).collect::<Vec<_>>();
         Slice {
             poisson_ratio,
             role,
-            cells,
+            cells: work.cells,
             remainder: joined(0).concat(),
             moment: joined(1).concat(),
             curvature: joined(2).concat(),
@@ -165,21 +137,6 @@ fn sorted(grid: &Grid, work: &[Block], rows: Vec<Row>) -> Result<(Vec<Slice>, Ex
                 error: zeros.clone(),
             },
         }
-    };
-    Ok((slices.map(slice).collect(), exact))
-}
-
-/// The content before anything is measured.
-fn unmeasured(
-    grid: &Grid,
-    slices: Vec<Slice>,
-    known: Option<&Known>,
-) -> Result<Content, BuildError> {
-    let [r, z] = grid.nodes();
-    let [between_r, between_z] = if grid.intervals() > 0 {
-        block::positions(Kind::Between, grid)
-    } else {
-        Default::default()
     };
     Ok(Content {
         origin: Origin {
@@ -199,7 +156,7 @@ fn unmeasured(
         cell_width: grid.cell_width,
         stencil_points: grid.stencil_points,
         pulse_lengths: grid.pulse_lengths.clone(),
-        slices,
+        slices: slices.map(slice).collect(),
         between_r,
         between_z,
         between: Vec::new(),

@@ -1,6 +1,5 @@
 //! The units of work: one row of points of one slice.
 
-use crate::error::BuildError;
 use crate::grid::Grid;
 
 /// Which points a block holds.
@@ -35,35 +34,6 @@ pub(crate) struct Block {
 ///
 /// Points that were not computed because their errors are known are NaN.
 pub(crate) type Row = [Vec<f32>; 4];
-
-/// All blocks of a grid, in the order in which they are stored.
-pub(crate) fn all(grid: &Grid) -> Vec<Block> {
-    let rows = |kind| positions(kind, grid)[0].len();
-    let mut blocks = Vec::new();
-    for slice in 0..grid.slices().len() {
-        for kind in [Kind::Nodes, Kind::Probes] {
-            blocks.extend((0..rows(kind)).map(|row| Block { slice, kind, row }));
-        }
-    }
-    for slice in 0..grid.intervals() {
-        let kind = Kind::Between;
-        blocks.extend((0..rows(kind)).map(|row| Block { slice, kind, row }));
-    }
-    blocks
-}
-
-impl Grid {
-    /// Poisson's ratio of the points of a block of this grid.
-    ///
-    /// # Errors
-    /// [`BuildError::Domain`], which no valid grid causes.
-    pub(crate) fn ratio_of(&self, block: Block) -> Result<f64, BuildError> {
-        match block.kind {
-            Kind::Nodes | Kind::Probes => Ok(self.slices()[block.slice].0),
-            Kind::Between => self.between(block.slice),
-        }
-    }
-}
 
 /// Radii and depths of the points of a kind: nodes, centres of meshes, or some of these.
 pub(crate) fn positions(kind: Kind, grid: &Grid) -> [Vec<f64>; 2] {

@@ -1,17 +1,15 @@
 //! From a grid to a complete, verified file.
 
 use crate::assemble::{Summary, complete};
-use crate::block;
 use crate::error::BuildError;
 use crate::grid::Grid;
-use crate::journal::{self, journal_of, title};
-use crate::known::Known;
+use crate::journal::{journal_of, records, title};
 use crate::progress::Progress;
-use crate::rows::{rows, usable};
-use output::Title;
-use output::{Existing, Output, OutputError};
+use crate::rows::Work;
+use output::{Existing, Output, OutputError, Title};
+use std::collections::HashMap;
 use std::path::Path;
-use std::sync::{Mutex, PoisonError};
+use std::sync::PoisonError;
 use std::time::Instant;
 
 /// Builds the table of `grid` at `path`, which must not exist.
@@ -32,62 +30,52 @@ pub fn build_over(
     let started = Instant::now();
     grid.validate()?;
     let text = grid.to_toml()?;
+    let work = Work::new(grid, None, progress)?;
     let output = match Output::claim(path, existing) {
         Err(exists @ OutputError::Exists { .. }) => {
-            clear(grid, path, &text)?;
+            clear(&work, path, &text)?;
             return Err(exists.into());
         }
         claimed => claimed?,
     };
     let drops = |_: &str| existing == Existing::Replace;
-    let title = title(&text, None);
-    compute(grid, &output, &title, drops, None, progress, started)
+    compute(&work, &output, &title(&text, None), drops, started)
 }
 
 /// Computes what neither a journal nor a known table has, and writes the table; the journal goes when it is there.
 pub(crate) fn compute(
-    grid: &Grid,
+    work: &Work<'_>,
     output: &Output,
     title: &Title,
     drops: impl Fn(&str) -> bool,
-    known: Option<&Known>,
-    progress: &dyn Progress,
     started: Instant,
 ) -> Result<Summary, BuildError> {
-    let work = block::all(grid);
-    let (journal, found) = journal::open(&journal_of(output), title, drops)?;
-    let mut finished = usable(grid, &work, found, known)?;
+    let (journal, mut finished) = work.open(&journal_of(output), title, drops)?;
     let resumed_blocks = finished.len();
-    if let Some(known) = known {
-        for &block in &work {
-            if let Some(row) = known.row(grid, block)? {
-                finished.insert(block, row);
-            }
-        }
-    }
-    let journal = Mutex::new(journal);
-    let rows = rows(grid, &work, finished, Some(&journal), known, progress)?;
-    let summary = complete(grid, &work, rows, output, known, progress)?;
+    work.add_known(&mut finished);
+    let rows = work.rows(finished, Some(&journal))?;
+    let summary = complete(work, rows, output, started)?;
     journal
         .into_inner()
         .unwrap_or_else(PoisonError::into_inner)
         .remove();
     Ok(Summary {
-        wall_s: started.elapsed().as_secs_f64(),
         resumed_blocks,
         ..summary
     })
 }
 
 /// Removes the journal of a finished table: a run that was killed after it had named the table has left it.
-fn clear(grid: &Grid, path: &Path, settings: &str) -> Result<(), BuildError> {
-    let output = Output::claim(path, Existing::Replace)?;
-    let journal = journal_of(&output);
-    let Ok((found, rows)) = journal::read(&journal) else {
+fn clear(work: &Work<'_>, path: &Path, settings: &str) -> Result<(), BuildError> {
+    let journal = journal_of(&Output::claim(path, Existing::Replace)?);
+    let Ok(mut records) = records(&journal) else {
         return Ok(());
     };
-    let work = block::all(grid);
-    let whole = found == settings && usable(grid, &work, rows, None)?.len() == work.len();
+    let mut found = HashMap::new();
+    records
+        .by_ref()
+        .all(|(_, kept)| work.take(&mut found, &kept));
+    let whole = records.title.about == settings && found.len() == work.blocks.len();
     if whole && lookup::read(path).is_ok_and(|content| content.origin.grid == settings) {
         let _ = std::fs::remove_file(&journal);
     }

@@ -7,6 +7,7 @@ use crate::grid::Grid;
 use crate::journal::title;
 use crate::known::Known;
 use crate::progress::Progress;
+use crate::rows::Work;
 use lookup::Table;
 use output::{Existing, Output};
 use std::path::Path;
@@ -51,8 +52,8 @@ pub fn extend(
     let title = title(&grid.to_toml()?, Some(&base));
     // one that became the table which is there may go
     let drops = |settings: &str| settings == present;
-    let known = Some(&known);
-    compute(&grid, &output, &title, drops, known, progress, started)
+    let work = Work::new(&grid, Some(&known), progress)?;
+    compute(&work, &output, &title, drops, started)
 }
 
 fn apply(grid: &mut Grid, known: &Known, extension: &Extension) -> Result<(), BuildError> {
@@ -80,14 +81,11 @@ fn apply(grid: &mut Grid, known: &Known, extension: &Extension) -> Result<(), Bu
     Ok(())
 }
 
-fn grows(key: &'static str, value: f64, present: f64) -> Result<(), BuildError> {
+fn grows(key: &str, value: f64, present: f64) -> Result<(), BuildError> {
     if value >= present {
-        Ok(())
-    } else {
-        Err(BuildError::Shrinks {
-            key,
-            value,
-            present,
-        })
+        return Ok(());
     }
+    let sentence =
+        format!("{key} = {value} is less than the {present} that the table has: tables only grow");
+    Err(BuildError::of_key(key, value, None, sentence))
 }

@@ -1,10 +1,9 @@
 //! A finished table from which another takes the numbers that it already has.
 
-use crate::block::{Block, Kind, Row, positions};
-use crate::error::BuildError;
-use crate::grid::Grid;
+use crate::block::{Kind, Row};
 use crate::numbers::NUMBERS_REVISION;
 use lookup::{Content, Numbers, Slice, Verification};
+use std::ops::Range;
 
 /// The content of the older table, which is valid.
 pub(crate) struct Known {
@@ -22,29 +21,14 @@ impl Known {
         slices.find(|slice| slice.poisson_ratio == poisson_ratio)
     }
 
-    /// The row of a block of `grid` of which nothing needs to be computed: that of nodes that are there as a whole, or an
-    /// empty one for probes whose errors are all known.
-    pub(crate) fn row(&self, grid: &Grid, block: Block) -> Result<Option<Row>, BuildError> {
-        let ratio = grid.ratio_of(block)?;
-        match block.kind {
-            Kind::Nodes => Ok(self.nodes(grid, grid.cells()?, ratio, block.row)),
-            Kind::Probes | Kind::Between => {
-                let [r, z] = positions(block.kind, grid);
-                let measured = |&z: &f64| self.measured(block.kind, ratio, [r[block.row], z]);
-                Ok(z.iter().all(measured).then(Row::default))
-            }
-        }
-    }
-
-    /// The row of nodes of `grid`, if it is there as a whole.
-    fn nodes(&self, grid: &Grid, cells: usize, poisson_ratio: f64, row: usize) -> Option<Row> {
+    /// The row of the nodes at a radius and these depths, if it is there as a whole.
+    pub(crate) fn nodes(&self, poisson_ratio: f64, cells: usize, r: f64, z: &[f64]) -> Option<Row> {
         let content = &self.content;
-        let [r, z] = grid.nodes();
         let slice = self.slice(poisson_ratio)?;
-        if z != content.z || slice.cells != cells {
+        if *z != content.z || slice.cells != cells {
             return None;
         }
-        let index = content.r.iter().position(|&x| x == r[row])?;
+        let index = content.r.iter().position(|&x| x == r)?;
         let part = |values: &[f32]| {
             let size = values.len() / content.r.len();
             values[index * size..(index + 1) * size].to_vec()
@@ -72,36 +56,15 @@ impl Known {
         }
     }
 
-    /// Whether errors were measured at a probe of a slice or between slices.
+    /// What holds the errors that were measured at a probe of a slice or between slices, and where in its lists.
     ///
     /// Its stencil is that of the new table: nodes are only ever added beyond the old ones.
-    pub(crate) fn measured(&self, kind: Kind, poisson_ratio: f64, place: [f64; 2]) -> bool {
-        self.probe(kind, poisson_ratio, place).is_some()
-    }
-
-    /// Appends what was measured at a probe to `out`; whether there is such a probe.
-    pub(crate) fn copy(
-        &self,
-        kind: Kind,
-        poisson_ratio: f64,
-        place: [f64; 2],
-        out: &mut Verification,
-    ) -> bool {
-        let Some((verification, start)) = self.probe(kind, poisson_ratio, place) else {
-            return false;
-        };
-        let size = self.content.pulse_lengths.len() * 6;
-        out.extend(verification, start..start + size);
-        true
-    }
-
-    /// What holds a probe, and where in its lists.
-    fn probe(
+    pub(crate) fn probe(
         &self,
         kind: Kind,
         poisson_ratio: f64,
         [r, z]: [f64; 2],
-    ) -> Option<(&Verification, usize)> {
+    ) -> Option<(&Verification, Range<usize>)> {
         let content = &self.content;
         let (places, verification) = match kind {
             Kind::Nodes => return None,
@@ -119,6 +82,7 @@ impl Known {
         let i = places[0].iter().position(|&x| x == r)?;
         let k = places[1].iter().position(|&x| x == z)?;
         let size = content.pulse_lengths.len() * 6;
-        Some((verification, (i * places[1].len() + k) * size))
+        let start = (i * places[1].len() + k) * size;
+        Some((verification, start..start + size))
     }
 }

@@ -123,17 +123,6 @@ impl PointPlan {
         Ok(tail)
     }
 
-    /// A point that is not computed: no number can be taken for one.
-    pub(crate) fn blank(&self) -> Numbers {
-        let blanks = vec![[f64::NAN; 6]; self.cells];
-        Numbers {
-            averages: blanks.clone(),
-            moments: blanks.clone(),
-            curvatures: blanks,
-            tail: vec![[f64::NAN; 6]; self.tail_terms],
-        }
-    }
-
     fn check(&self, r: f64, z: f64, point: &Numbers) -> Result<(), BuildError> {
         let quantities = ["cell average", "moment", "curvature", "tail"];
         for (quantity, values) in quantities.into_iter().zip(point.lists()) {

@@ -3,127 +3,233 @@
 use crate::block::{Block, Kind, Row, positions};
 use crate::error::BuildError;
 use crate::grid::Grid;
-use crate::journal::kept;
+use crate::journal::{kept, parsed};
 use crate::known::Known;
-use crate::point::PointPlan;
 use crate::progress::Progress;
-use output::Journal;
+use output::{Journal, Title};
 use rayon::prelude::*;
 use std::collections::HashMap;
+use std::path::Path;
 use std::sync::{Mutex, PoisonError};
 
-/// All rows in the order of `work`: those finished before, and the others computed and, with a journal, recorded now.
-///
-/// # Errors
-/// [`BuildError`] when the exact kernels refuse a point or the journal cannot be written.
-pub(crate) fn rows(
-    grid: &Grid,
-    work: &[Block],
-    mut finished: HashMap<Block, Row>,
-    journal: Option<&Mutex<Journal>>,
-    known: Option<&Known>,
-    progress: &dyn Progress,
-) -> Result<Vec<Row>, BuildError> {
-    let places = Kind::ALL.map(|kind| positions(kind, grid));
-    let missing: Vec<Block> = work
-        .iter()
-        .filter(|block| !finished.contains_key(block))
-        .copied()
-        .collect();
-    progress.total("kernels", missing.len() as u64);
-    let computed: Vec<(Block, Row)> = missing
-        .par_iter()
-        .with_max_len(1)
-        .map(|&block| {
-            let [r, z] = &places[block.kind as usize];
-            let ratio = grid.ratio_of(block)?;
-            let plan = match block.kind {
-                Kind::Nodes => grid.point(ratio)?,
-                Kind::Probes | Kind::Between => grid.probe(ratio)?,
+/// A table that is to be made of a grid.
+pub(crate) struct Work<'a> {
+    pub(crate) grid: &'a Grid,
+    /// A smaller table that has some of the numbers.
+    pub(crate) known: Option<&'a Known>,
+    pub(crate) progress: &'a dyn Progress,
+    /// Cells of a slice.
+    pub(crate) cells: usize,
+    /// Of each kind of points: Poisson's ratios, then radii and depths.
+    pub(crate) points: [(Vec<f64>, [Vec<f64>; 2]); 3],
+    /// The blocks in the order in which they are stored.
+    pub(crate) blocks: Vec<Block>,
+}
+
+impl<'a> Work<'a> {
+    /// All blocks of a grid.
+    ///
+    /// # Errors
+    /// [`BuildError::Domain`], which no valid grid causes.
+    pub(crate) fn new(
+        grid: &'a Grid,
+        known: Option<&'a Known>,
+        progress: &'a dyn Progress,
+    ) -> Result<Self, BuildError> {
+        let slices: Vec<f64> = grid.slices().iter().map(|slice| slice.0).collect();
+        let between = (0..grid.intervals()).map(|interval| grid.between(interval));
+        let between: Vec<f64> = between.collect::<Result<_, _>>()?;
+        let points = Kind::ALL.map(|kind| {
+            let ratios = match kind {
+                Kind::Nodes | Kind::Probes => &slices,
+                Kind::Between => &between,
             };
-            progress.slice(ratio);
-            let row = row(&plan, block.kind, r[block.row], z, known)?;
-            if let Some(journal) = journal {
-                let kept = kept(block, &row);
-                let mut journal = journal.lock().unwrap_or_else(PoisonError::into_inner);
-                journal.append(&kept)?;
-            }
-            progress.advance(1);
-            Ok((block, row))
+            (ratios.clone(), positions(kind, grid))
+        });
+        let of = |slice, kind: Kind| {
+            let rows = 0..points[kind as usize].1[0].len();
+            rows.map(move |row| Block { slice, kind, row })
+        };
+        let on = |slice| of(slice, Kind::Nodes).chain(of(slice, Kind::Probes));
+        let on = (0..slices.len()).flat_map(on);
+        let between = (0..between.len()).flat_map(|slice| of(slice, Kind::Between));
+        let blocks = on.chain(between).collect();
+        Ok(Self {
+            grid,
+            known,
+            progress,
+            cells: grid.cells()?,
+            points,
+            blocks,
         })
-        .collect::<Result<_, BuildError>>()?;
-    finished.extend(computed);
-    Ok(work
-        .iter()
-        .filter_map(|block| finished.remove(block))
-        .collect())
-}
-
-/// Computes one row of points (`r`, `depths`), of which known cells keep their numbers.
-///
-/// Probes whose errors are known are left blank.
-fn row(
-    plan: &PointPlan,
-    kind: Kind,
-    r: f64,
-    depths: &[f64],
-    known: Option<&Known>,
-) -> Result<Row, BuildError> {
-    let nu = plan.kernel().medium().poisson_ratio();
-    let mut row = Row::default();
-    for &z in depths {
-        let is_known = known.is_some_and(|known| known.measured(kind, nu, [r, z]));
-        let mut point = if is_known {
-            plan.blank()
-        } else {
-            plan.compute(r, z)?
-        };
-        point.round();
-        if let (Kind::Nodes, Some(known)) = (kind, known) {
-            known.keep(nu, [r, z], &mut point);
-        }
-        for field in 0..6 {
-            for (list, values) in row.iter_mut().zip(point.lists()) {
-                list.extend(values.iter().map(|six| six[field] as f32));
-            }
-        }
     }
-    Ok(row)
-}
 
-/// Those of the rows found in a journal or in shards that this work can use.
-///
-/// Left out are blocks that the grid does not have, rows of another length, and rows with blanks: an extension leaves
-/// probes blank whose errors it knows, and without that knowledge they are not there.
-///
-/// # Errors
-/// [`BuildError::Domain`], which no valid grid causes.
-pub(crate) fn usable(
-    grid: &Grid,
-    work: &[Block],
-    mut found: HashMap<Block, Row>,
-    known: Option<&Known>,
-) -> Result<HashMap<Block, Row>, BuildError> {
-    let places = Kind::ALL.map(|kind| positions(kind, grid));
-    let each = [grid.cells()?, grid.cells()?, grid.cells()?, grid.tail_terms].map(|n| 6 * n);
-    let mut usable = HashMap::new();
-    for &block in work {
-        let Some(row) = found.remove(&block) else {
-            continue;
+    /// Poisson's ratio, radius and depths of the points of a block.
+    pub(crate) fn place(&self, block: Block) -> (f64, f64, &[f64]) {
+        let (ratios, [r, z]) = &self.points[block.kind as usize];
+        (ratios[block.slice], r[block.row], z)
+    }
+
+    /// Numbers of a point in each list of a row.
+    fn each(&self) -> [usize; 4] {
+        [self.cells, self.cells, self.cells, self.grid.tail_terms].map(|n| 6 * n)
+    }
+
+    /// Opens a journal, or begins it, and gives the finished rows; one that is of something else is replaced where `drops`
+    /// says so of its settings.
+    pub(crate) fn open(
+        &self,
+        path: &Path,
+        title: &Title,
+        drops: impl Fn(&str) -> bool,
+    ) -> Result<(Mutex<Journal>, HashMap<Block, Row>), BuildError> {
+        let mut found = HashMap::new();
+        let drops = |other: &Title| drops(&other.about);
+        let take = |_, kept: &[u8]| self.take(&mut found, kept);
+        let journal = Journal::open(path, title, drops, take)?;
+        Ok((Mutex::new(journal), found))
+    }
+
+    /// Takes the row that a record keeps, if this work can use it; false where the record has none.
+    ///
+    /// Left out are blocks that the grid does not have, rows of another length, and rows with blanks: an extension leaves
+    /// probes blank whose errors it knows, and without that knowledge they are not there.
+    pub(crate) fn take(&self, found: &mut HashMap<Block, Row>, kept: &[u8]) -> bool {
+        let Some((block, row)) = parsed(kept) else {
+            return false;
         };
-        let [r, z] = &places[block.kind as usize];
+        let (ratios, [r, z]) = &self.points[block.kind as usize];
+        let each = self.each();
         let mut sized = row.iter().zip(each);
-        let whole = sized.all(|(array, each)| array.len() == each * z.len());
-        let ratio = grid.ratio_of(block)?;
+        let whole = block.slice < ratios.len()
+            && block.row < r.len()
+            && sized.all(|(array, each)| array.len() == each * z.len());
         let there = |(k, &z): (usize, &f64)| {
             let arrays = row.iter().zip(each);
             let mut parts = arrays.map(|(array, each)| &array[k * each..(k + 1) * each]);
-            parts.all(|part| part.iter().all(|x| x.is_finite()))
-                || known.is_some_and(|known| known.measured(block.kind, ratio, [r[block.row], z]))
+            parts.all(|part| part.iter().all(|x| x.is_finite())) || self.measured(block, z)
         };
         if whole && z.iter().enumerate().all(there) {
-            usable.insert(block, row);
+            found.insert(block, row);
+        }
+        true
+    }
+
+    /// Whether the errors at a point of a block are known.
+    fn measured(&self, block: Block, z: f64) -> bool {
+        let (ratio, r, _) = self.place(block);
+        let known = self.known;
+        known.is_some_and(|known| known.probe(block.kind, ratio, [r, z]).is_some())
+    }
+
+    /// Adds the rows of which nothing needs to be computed: those of nodes that are known as a whole, and empty ones for
+    /// probes whose errors are all known.
+    pub(crate) fn add_known(&self, finished: &mut HashMap<Block, Row>) {
+        for &block in &self.blocks {
+            let (ratio, r, z) = self.place(block);
+            let row = match (block.kind, self.known) {
+                (Kind::Nodes, Some(known)) => known.nodes(ratio, self.cells, r, z),
+                (_, _) => (z.iter().all(|&z| self.measured(block, z))).then(Row::default),
+            };
+            finished.extend(row.map(|row| (block, row)));
         }
     }
-    Ok(usable)
+
+    /// All rows in the order of the blocks: those finished before, and the others computed and, with a journal, recorded
+    /// now.
+    ///
+    /// # Errors
+    /// [`BuildError`] when the exact kernels refuse a point or the journal cannot be written.
+    pub(crate) fn rows(
+        &self,
+        mut finished: HashMap<Block, Row>,
+        journal: Option<&Mutex<Journal>>,
+    ) -> Result<Vec<Row>, BuildError> {
+        let mut missing = self.blocks.clone();
+        missing.retain(|block| !finished.contains_key(block));
+        self.progress.total("kernels", missing.len() as u64);
+        let computed: Vec<(Block, Row)> = missing
+            .par_iter()
+            .with_max_len(1)
+            .map(|&block| {
+                let row = self.row(block)?;
+                if let Some(journal) = journal {
+                    let kept = kept(block, &row);
+                    let mut journal = journal.lock().unwrap_or_else(PoisonError::into_inner);
+                    journal.append(&kept)?;
+                }
+                self.progress.advance(1);
+                Ok((block, row))
+            })
+            .collect::<Result<_, BuildError>>()?;
+        finished.extend(computed);
+        let blocks = self.blocks.iter();
+        Ok(blocks.filter_map(|block| finished.remove(block)).collect())
+    }
+
+    /// Computes a row, of which known cells keep their numbers; probes whose errors are known are left blank.
+    fn row(&self, block: Block) -> Result<Row, BuildError> {
+        let (ratio, r, depths) = self.place(block);
+        let plan = match block.kind {
+            Kind::Nodes => self.grid.point(ratio)?,
+            Kind::Probes | Kind::Between => self.grid.probe(ratio)?,
+        };
+        self.progress.slice(ratio);
+        let mut row = Row::default();
+        for &z in depths {
+            if self.measured(block, z) {
+                for (list, each) in row.iter_mut().zip(self.each()) {
+                    list.resize(list.len() + each, f32::NAN);
+                }
+                continue;
+            }
+            let mut point = plan.compute(r, z)?;
+            point.round();
+            if let (Kind::Nodes, Some(known)) = (block.kind, self.known) {
+                known.keep(ratio, [r, z], &mut point);
+            }
+            for field in 0..6 {
+                for (list, values) in row.iter_mut().zip(point.lists()) {
+                    list.extend(values.iter().map(|six| six[field] as f32));
+                }
+            }
+        }
+        Ok(row)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::journal::title;
+    use crate::progress::Silent;
+    use output::OutputError;
+
+    #[test]
+    fn what_is_unfinished_is_kept_until_it_may_go() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("t.journal");
+        let small = Grid::demo();
+        let work = Work::new(&small, None, &Silent).unwrap();
+        let grid = small.to_toml().unwrap();
+        let other = grid.replace("0.3", "0.25");
+        let (block, (.., z)) = (work.blocks[0], work.place(work.blocks[0]));
+        let row = work.each().map(|each| vec![0.0; each * z.len()]);
+        let of = |there: &Title, wanted: &Title, goes: &str| {
+            let _ = std::fs::remove_file(&path);
+            let (mut journal, _) = work.open(&path, there, |_| false).unwrap();
+            let journal = journal.get_mut().unwrap();
+            journal.append(&kept(block, &row)).unwrap();
+            let opened = work.open(&path, wanted, |settings| settings == goes);
+            opened.map(|(_, rows)| rows.len())
+        };
+        let kept = |found| matches!(found, Err(BuildError::Output(OutputError::Begun(..))));
+        let (build, extension) = (title(&grid, None), title(&grid, Some("1")));
+        assert_eq!(of(&build, &build, "").unwrap(), 1);
+        assert!(kept(of(&build, &title(&other, None), "")));
+        assert!(kept(of(&extension, &build, "")));
+        assert!(kept(of(&extension, &title(&grid, Some("2")), &other)));
+        assert_eq!(of(&extension, &build, &grid).unwrap(), 0);
+        assert_eq!(of(&build, &title(&other, Some("1")), &grid).unwrap(), 0);
+    }
 }

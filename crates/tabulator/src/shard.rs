@@ -1,17 +1,16 @@
 //! A table in parts: shards computed apart, joined into one.
 
 use crate::assemble::{Summary, complete};
-use crate::block::{self, Block, Row};
+use crate::block::Block;
 use crate::error::BuildError;
 use crate::grid::Grid;
-use crate::journal::{self, title};
+use crate::journal::{records, title};
 use crate::progress::Progress;
-use crate::rows::{rows, usable};
+use crate::rows::Work;
 use ledger::Shard;
 use output::{Existing, Output, Role, apart};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
-use std::sync::Mutex;
 use std::time::Instant;
 
 /// Computes a part of the blocks of `grid` into the file `path`, to be joined by [`merge`].
@@ -27,18 +26,14 @@ pub fn build_shard(
     progress: &dyn Progress,
 ) -> Result<usize, BuildError> {
     grid.validate()?;
-    let work: Vec<Block> = block::all(grid)
-        .into_iter()
-        .skip(shard.index - 1)
-        .step_by(shard.count)
-        .collect();
+    let mut work = Work::new(grid, None, progress)?;
+    let own = work.blocks.into_iter().skip(shard.index - 1);
+    work.blocks = own.step_by(shard.count).collect();
     let text = grid.to_toml()?;
     let output = Output::claim(path, Existing::Replace)?;
-    let (journal, finished) = journal::open(&output.real, &title(&text, None), |_| false)?;
-    let finished = usable(grid, &work, finished, None)?;
-    let journal = Mutex::new(journal);
-    rows(grid, &work, finished, Some(&journal), None, progress)?;
-    Ok(work.len())
+    let (journal, finished) = work.open(&output.real, &title(&text, None), |_| false)?;
+    work.rows(finished, Some(&journal))?;
+    Ok(work.blocks.len())
 }
 
 /// Joins the shards at `parts` into a table at `path`.
@@ -57,56 +52,40 @@ pub fn merge(
         .collect();
     apart(&[path], &inputs)?;
     let output = Output::claim(path, existing)?;
-    let (grid, found) = read_all(parts)?;
-    let work = block::all(&grid);
-    let mut found = usable(&grid, &work, found, None)?;
-    let missing: Vec<&Block> = work
+    let Some(first) = parts.first() else {
+        let none = "a table is joined from one shard or more";
+        return Err(BuildError::refused(None, none.to_owned()));
+    };
+    let settings = records(first)?.title.about;
+    let grid = Grid::parse(&settings).map_err(|error| error.in_file(first))?;
+    let work = Work::new(&grid, None, progress)?;
+    let mut found = HashMap::new();
+    for part in parts {
+        let mut records = records(part)?;
+        if records.title.about != settings {
+            let sentence = format!(
+                "{} was made with other settings than {}: shards of one table have the same grid",
+                part.display(),
+                first.display()
+            );
+            return Err(BuildError::refused(Some(part), sentence));
+        }
+        records.all(|(_, kept)| work.take(&mut found, &kept));
+    }
+    let missing = work
+        .blocks
         .iter()
-        .filter(|block| !found.contains_key(block))
-        .collect();
-    if let Some(first) = missing.first() {
-        let (missing, total, row) = (missing.len(), work.len(), first.row);
-        let poisson_ratio = grid.ratio_of(**first)?;
+        .filter(|block| !found.contains_key(block));
+    let missing: Vec<&Block> = missing.collect();
+    if let Some(&&first) = missing.first() {
+        let (missing, total, row) = (missing.len(), work.blocks.len(), first.row);
+        let (poisson_ratio, ..) = work.place(first);
         let sentence = format!(
             "{missing} of {total} blocks are missing, the first for poisson_ratio = {poisson_ratio}, row {row}: all shards are needed, each finished"
         );
         return Err(BuildError::refused(None, sentence));
     }
-    let rows = work
-        .iter()
-        .filter_map(|block| found.remove(block))
-        .collect();
-    let summary = complete(&grid, &work, rows, &output, None, progress)?;
-    Ok(Summary {
-        wall_s: started.elapsed().as_secs_f64(),
-        ..summary
-    })
-}
-
-/// The settings that all shards share, valid, and all their blocks.
-fn read_all(parts: &[PathBuf]) -> Result<(Grid, HashMap<Block, Row>), BuildError> {
-    let mut settings: Option<(String, Grid)> = None;
-    let mut found = HashMap::new();
-    for part in parts {
-        let (text, rows) = journal::read(part)?;
-        match &settings {
-            Some((first, _)) if *first != text => {
-                let sentence = format!(
-                    "{} was made with other settings than {}: shards of one table have the same grid",
-                    part.display(),
-                    parts[0].display()
-                );
-                return Err(BuildError::refused(Some(part), sentence));
-            }
-            Some(_) => {}
-            None => {
-                let grid = Grid::parse(&text).map_err(|error| error.in_file(part))?;
-                settings = Some((text, grid));
-            }
-        }
-        found.extend(rows);
-    }
-    let none = || "a table is joined from one shard or more".to_owned();
-    let (_, grid) = settings.ok_or_else(|| BuildError::refused(None, none()))?;
-    Ok((grid, found))
+    let blocks = work.blocks.iter();
+    let rows = blocks.filter_map(|block| found.remove(block)).collect();
+    complete(&work, rows, &output, started)
 }

@@ -340,8 +340,8 @@ fn shards_make_the_same_table_and_gaps_are_named() {
     let mixed = [shards[0].clone(), stranger];
     assert!(matches!(
         merge(&mixed, &joined, Existing::Replace, &Silent),
-        Err(BuildError::Refused { file: Some(file), sentence })
-            if file == mixed[1] && sentence.contains("other settings")
+        Err(BuildError::Refused { culprit, sentence })
+            if culprit.file.as_deref() == Some(&mixed[1]) && sentence.contains("other settings")
     ));
     assert!(matches!(
         merge(&[whole], &joined, Existing::Replace, &Silent),

@@ -51,7 +51,7 @@ pub(super) fn write_section(file: &File, map: &SectionFields) -> Result<(), hdf5
 
 /// What stands beside a quantity, one number a place: the estimate of its error and, where they are known, its largest
 /// value over time and when it is reached.
-pub(super) fn beside<'v>(
+pub fn beside<'v>(
     row: Labels<'_>,
     errors: &'v [f64],
     peaks: Option<&'v Peaks>,

@@ -3,9 +3,7 @@
 use super::identity::scene_sha256;
 use super::schema;
 use super::section::{beside, waves, write_section};
-use crate::hdf::{
-    attach_scales, new_file, numbers, reason, scalar, scale, set_scale, text, vector,
-};
+use crate::hdf::{attach_scales, new_file, numbers, reason, scalar, scale, text, vector};
 use crate::quantities::QUANTITIES;
 use crate::report::{choices, kernel_name, treatment};
 use crate::scene::resolved;
@@ -43,27 +41,21 @@ fn write_file(path: &Path, scene: &Scene, outcome: &Outcome) -> Result<(), hdf5:
     let file = new_file().create(path)?;
     write_attributes(&file, scene, outcome)?;
     let series = &outcome.series;
-    let mut time: Option<Dataset> = None;
-    for (described, samples) in schema::samples(series) {
+    let time = scale(&file, &schema::SERIES[0], &series.time_s)?;
+    for (described, samples) in schema::samples(series).skip(1) {
         let dataset = vector(&file, described, samples)?;
         if described.0 == schema::FORCE {
             for (name, value) in treatment(scene) {
                 value.map_or(Ok(()), |value| scalar(&dataset, name, value))?;
             }
         }
-        match &time {
-            None => {
-                set_scale(&dataset, described.0)?;
-                time = Some(dataset);
-            }
-            Some(time) => attach_scales(&dataset, &[time])?,
-        }
+        attach_scales(&dataset, &[&time])?;
     }
     if let Some(energy) = &series.energy {
         write_energy(&file, energy, &series.time_s)?;
     }
     if let Some(fields) = &outcome.probes {
-        write_probes(&file, fields, &series.time_s, scene.peaks)?;
+        write_probes(&file, fields, &series.time_s, scene)?;
     }
     if let Some(section) = &outcome.section {
         write_section(&file, section)?;
@@ -85,7 +77,7 @@ fn write_probes(
     file: &File,
     fields: &ProbeFields,
     time_s: &[f64],
-    peaks: bool,
+    scene: &Scene,
 ) -> Result<(), hdf5::Error> {
     let group = file.create_group(schema::PROBES)?;
     let rows = fields.r_m.len();
@@ -112,16 +104,21 @@ fn write_probes(
         let samples: Vec<f64> = values.iter().flatten().copied().collect();
         let dataset = numbers(&group, &row, &[rows, columns], &samples)?;
         placed(&dataset, &[&probe, &time])?;
-        let found = peaks.then(|| {
-            let mut found = Peaks::default();
-            (values.iter()).for_each(|samples| found.push(time_s, samples));
-            found
-        });
-        for (row, numbers) in beside(row, errors, found.as_ref()) {
+        let peaks = peaks_of(scene, time_s, values);
+        for (row, numbers) in beside(row, errors, peaks.as_ref()) {
             placed(&vector(&group, &row.labels(), numbers)?, &[&probe])?;
         }
     }
     Ok(())
+}
+
+/// The largest values over time at each probe, where a scene asks for them.
+pub fn peaks_of(scene: &Scene, time_s: &[f64], values: &[Vec<f64>]) -> Option<Peaks> {
+    scene.peaks.then(|| {
+        let mut found = Peaks::default();
+        (values.iter()).for_each(|samples| found.push(time_s, samples));
+        found
+    })
 }
 
 fn write_attributes(file: &File, scene: &Scene, outcome: &Outcome) -> Result<(), hdf5::Error> {

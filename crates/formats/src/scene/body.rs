@@ -38,9 +38,7 @@ pub fn parse_materials(text: &str) -> Result<Library, SceneError> {
         let section = root.subsection(name, "a section")?;
         let allowed = keys_of("body").map(|key| key.name);
         section.allow(allowed.chain(["group", "source"]))?;
-        let source = section
-            .text("source")?
-            .ok_or_else(|| section.missing("source", "say where the numbers come from"))?;
+        let source = section.needed_text("source", "say where the numbers come from")?;
         Ok(Material {
             name: section.name.to_owned(),
             group: section.text("group")?.unwrap_or("other").to_owned(),

@@ -128,9 +128,7 @@ fn read_library(root: &Section<'_>, directory: &Path) -> Result<Library, SceneEr
         return Ok(Library::built_in().clone());
     };
     section.allow_keys_of("materials")?;
-    let file = section
-        .text("file")?
-        .ok_or_else(|| section.missing("file", "name a TOML file of materials"))?;
+    let file = section.needed_text("file", "name a TOML file of materials")?;
     let own = read_materials(&directory.join(file))?;
     Ok(Library::built_in().extended(&own))
 }
@@ -209,9 +207,9 @@ fn read_load(
         (Some(striker), None) => read_strike(&striker, library).map(Load::Strike),
         (None, Some(force)) => {
             force.allow_keys_of("force")?;
-            let file = force.text("file")?.ok_or_else(|| {
-                force.missing("file", "name a CSV file with columns time_s,force_n or an HDF5 file with /time and /force")
-            })?;
+            let hint =
+                "name a CSV file with columns time_s,force_n or an HDF5 file with /time and /force";
+            let file = force.needed_text("file", hint)?;
             if settings.disc_radius_m.is_none() {
                 let hint = "a prescribed force needs the radius of the disc that it loads";
                 return Err(SceneError::missing("contact.disc_radius_m", hint));

@@ -151,6 +151,11 @@ impl<'a> Section<'a> {
         self.typed(key, "a string", Value::as_str)
     }
 
+    /// A string that is needed.
+    pub(crate) fn needed_text(&self, key: &str, hint: &str) -> Result<&'a str, SceneError> {
+        self.text(key)?.ok_or_else(|| self.missing(key, hint))
+    }
+
     /// A whole number in a range.
     pub(crate) fn count(
         &self,

@@ -12,14 +12,12 @@ use super::shard::BLOCK;
 use super::spec::Spec;
 use crate::quantities::QUANTITIES;
 use ledger::Identity;
-use output::{Fault, Journal, OutputError, Record, Records, Title};
+use output::{Fault, Journal, OutputError, Record, Records, Title, packed, unpacked};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 /// What is done.
 const KIND: &str = "sweep";
-/// Bytes before the numbers of a block: five integers.
-const HEADER: usize = 5 * 8;
 
 /// The journal of the rows of a sweep that are asked for.
 fn title(spec: &Spec) -> Title {
@@ -177,11 +175,8 @@ fn kept(block: &Block, results: u64) -> Vec<u8> {
     let (rows, places) = (block.len(), places(results, block.width));
     let probed = block.width - QUANTITIES.len();
     let numbers = rows * places.len();
-    let mut bytes = Vec::with_capacity(HEADER + 8 * numbers + rows + text.len());
-    let [start, rows, probed, length] = [block.start, rows, probed, text.len()].map(|n| n as u64);
-    for number in [start, rows, results, probed, length] {
-        bytes.extend(number.to_le_bytes());
-    }
+    let mut bytes = packed([block.start, rows, results as usize, probed, text.len()]);
+    bytes.reserve(8 * numbers + rows + text.len());
     for row in block.rows() {
         for &place in &places {
             bytes.extend(row[place].to_le_bytes());
@@ -194,13 +189,8 @@ fn kept(block: &Block, results: u64) -> Vec<u8> {
 
 /// A block that can have been computed, NaN where a result was not kept, and the results that were.
 fn parsed(kept: &[u8]) -> Option<(Block, u64)> {
-    let (header, rest) = kept.split_at_checked(HEADER)?;
-    let &[start, rows, results, probed, text] = header.as_chunks().0 else {
-        return None;
-    };
-    let results = u64::from_le_bytes(results);
-    let [start, rows, probed, text] =
-        [start, rows, probed, text].map(|count| u64::from_le_bytes(count) as usize);
+    let ([start, rows, results, probed, text], rest) = unpacked(kept)?;
+    let results = results as u64;
     start
         .checked_add(rows)
         .filter(|_| (1..=BLOCK).contains(&rows) && probed <= rest.len())?;

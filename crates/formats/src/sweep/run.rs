@@ -219,12 +219,7 @@ pub fn compute_rows(
     }
     let computer = Computer::new(spec)?;
     let row_of = |index: usize| start + index * step;
-    let mut block = Block {
-        width: spec.fields.width(),
-        numbers: vec![0.0; count * spec.fields.width()],
-        models: vec![NO_MODEL; count],
-        ..Block::default()
-    };
+    let mut block = Block::blank(0, count, spec.fields.width());
     let (mut done, mut size) = (0, computer.first_block());
     while done < count {
         let end = (done + size).min(count);

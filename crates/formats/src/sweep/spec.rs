@@ -357,9 +357,8 @@ fn base(
     if let Some(Value::Table(scene)) = table.get("scene") {
         return Ok((scene.clone(), directory.to_owned(), None));
     }
-    let file = root
-        .text("scene")?
-        .ok_or_else(|| root.missing("scene", "name a scene file, or give a section [scene]"))?;
+    let hint = "name a scene file, or give a section [scene]";
+    let file = root.needed_text("scene", hint)?;
     let path = directory.join(file);
     let scene = parse(&read_text(&path)?).map_err(|error| error.in_file(&path))?;
     let directory = path.parent().unwrap_or(Path::new(".")).to_owned();

@@ -8,6 +8,7 @@ use hdf5_sys::h5p::H5P_DEFAULT;
 use miniz_oxide::deflate::compress_to_vec_zlib;
 use ndarray::{Array4, ArrayView4, s};
 use rayon::prelude::*;
+use std::ops::Range;
 
 /// Chunks in memory at a time.
 const TOGETHER: usize = 64;
@@ -23,22 +24,17 @@ pub(super) fn write_chunks(
     level: u8,
 ) -> Result<(), hdf5::Error> {
     let (rows, columns, third, fourth) = values.dim();
-    let patch = |row: usize, column: usize| {
-        let [last, right] = [rows.min(row + high), columns.min(column + wide)];
+    let pack = |[across, down]: &[Range<usize>; 2]| {
         let mut numbers = Array4::zeros((high, wide, third, fourth));
         numbers
-            .slice_mut(s![..last - row, ..right - column, .., ..])
-            .assign(&values.slice(s![row..last, column..right, .., ..]));
+            .slice_mut(s![..across.len(), ..down.len(), .., ..])
+            .assign(&values.slice(s![across.clone(), down.clone(), .., ..]));
         packed(&numbers, level)
     };
-    let across = (0..rows).step_by(high);
-    let places: Vec<[usize; 2]> = across
-        .flat_map(|row| (0..columns).step_by(wide).map(move |column| [row, column]))
-        .collect();
-    for places in places.chunks(TOGETHER) {
-        let patches = places.par_iter().map(|&[row, column]| patch(row, column));
-        for (place, bytes) in places.iter().zip(patches.collect::<Vec<_>>()) {
-            let offset = [place[0] as u64, place[1] as u64, 0, 0];
+    for some in patches([rows, columns], [high, wide]).chunks(TOGETHER) {
+        let packed = some.par_iter().map(pack).collect::<Vec<_>>();
+        for ([across, down], bytes) in some.iter().zip(packed) {
+            let offset = [across.start as u64, down.start as u64, 0, 0];
             // SAFETY: the dataset is open and has four dimensions, the bytes outlive the call, the lock is held.
             #[allow(unsafe_code)]
             hdf5::sync::sync(|| {
@@ -50,6 +46,20 @@ pub(super) fn write_chunks(
         }
     }
     Ok(())
+}
+
+/// Rows and columns of each chunk of so many, each so high and wide but for the last.
+pub(super) fn patches(
+    [rows, columns]: [usize; 2],
+    [high, wide]: [usize; 2],
+) -> Vec<[Range<usize>; 2]> {
+    let along = |count: usize, size: usize| {
+        let starts = (0..count).step_by(size);
+        starts.map(move |start| start..count.min(start + size))
+    };
+    let across = along(rows, high);
+    let down = |across: Range<usize>| along(columns, wide).map(move |down| [across.clone(), down]);
+    across.flat_map(down).collect()
 }
 
 fn packed(numbers: &Array4<f32>, level: u8) -> Vec<u8> {

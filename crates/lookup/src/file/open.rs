@@ -23,12 +23,12 @@ pub(super) fn open(path: &Path) -> Result<Source, TableError> {
         what.of(path)
     })?;
     let source = Source::new(path, file);
-    let root = source.root();
-    let found = source.text(&root, schema::FILE_TYPE).unwrap_or_default();
+    let root = &source.file.root;
+    let found = source.text(root, schema::FILE_TYPE).unwrap_or_default();
     if found != schema::FILE_TYPE_VALUE {
         return Err(BadTable::Foreign(found).of(path));
     }
-    let found = source.text(&root, schema::FORMAT_VERSION)?;
+    let found = source.text(root, schema::FORMAT_VERSION)?;
     match version(&found) {
         Some((schema::MAJOR_READ, minor))
             if (minor >= schema::SEALED_FROM) == source.file.is_sealed() =>

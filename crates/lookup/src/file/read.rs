@@ -2,12 +2,12 @@
 
 use super::error::TableError;
 use super::open::open;
-use super::source::{Place, Source};
-use super::write::PATCH;
+use super::source::Source;
 use crate::content::{Between, Content, FIELDS, Origin, Role, Slice, Verification};
 use crate::hash::content_hash;
 use crate::table::Table;
 use crate::{schema, validate};
+use ledger::Group;
 use std::ops::Range;
 use std::path::Path;
 
@@ -22,11 +22,7 @@ impl Table {
     /// holds values that cannot be right.
     pub fn open(path: &Path) -> Result<Self, TableError> {
         let source = open(path)?;
-        let content = source.everything()?;
-        if !source.file.is_sealed() {
-            source.same_hash(&content)?;
-        }
-        Self::new(content).map_err(|error| source.wrong(error))
+        Self::new(source.proven()?).map_err(|error| source.wrong(error))
     }
 }
 
@@ -39,10 +35,7 @@ pub fn read(path: &Path) -> Result<Content, TableError> {
     open(path)?.everything()
 }
 
-/// Radii that [`holds`] reads together: what every thread has chunks of.
-const TOGETHER: usize = 4 * PATCH;
-
-/// Whether the table at `path` holds just this content; no second one is in memory.
+/// Whether the table at `path` holds just this content; no more than a slice of a second one is in memory.
 ///
 /// # Errors
 /// As [`read`].
@@ -58,23 +51,9 @@ pub fn holds(path: &Path, content: &Content) -> Result<bool, TableError> {
         && [&head.between_r, &head.between_z] == [&content.between_r, &content.between_z]
         && head.between == content.between
         && listed.len() == content.slices.len();
-    let (whole, rows) = (Window::all(&head), head.r.len());
+    let whole = Window::all(&head);
     for (listed, slice) in listed.iter().zip(&content.slices) {
-        same &= (listed.ratio, listed.role) == (slice.poisson_ratio, slice.role)
-            && source.errors(&head, listed, &whole)? == slice.verification;
-        for from in (0..rows).step_by(TOGETHER) {
-            let mut wanted = whole.clone();
-            wanted.nodes[0] = from..rows.min(from + TOGETHER);
-            let part = source.sum(&head, &[(listed, 1.0)], &wanted)?;
-            same &= part
-                .lists()
-                .into_iter()
-                .zip(slice.lists())
-                .all(|((_, part), (_, all))| {
-                    let start = all.len() / rows * from;
-                    all.get(start..start + part.len()) == Some(part)
-                });
-        }
+        same &= source.slice(&head, listed, &whole)? == *slice;
     }
     Ok(same)
 }
@@ -90,9 +69,7 @@ pub fn check_whole(path: &Path) -> Result<Origin, TableError> {
         source.check_seal()?;
         return Ok(source.head()?.0.origin);
     }
-    let content = source.everything()?;
-    source.same_hash(&content)?;
-    Ok(content.origin)
+    Ok(source.proven()?.origin)
 }
 
 /// The hash of `content`, read from the table at `path`, which is the one that the file states.
@@ -106,7 +83,7 @@ pub fn same_hash(path: &Path, content: &Content) -> Result<String, TableError> {
 /// The SHA-256 that the file at `path` states.
 pub fn stated_hash(path: &Path) -> Result<String, TableError> {
     let source = open(path)?;
-    source.text(&source.root(), schema::CONTENT_SHA256)
+    source.text(&source.file.root, schema::CONTENT_SHA256)
 }
 
 /// The nodes that are read and the meshes of which probes tell the error, along r and z.
@@ -130,7 +107,7 @@ impl Window {
 pub(super) struct Listed {
     pub(super) ratio: f64,
     pub(super) role: Role,
-    pub(super) place: Place,
+    pub(super) place: Group,
 }
 
 impl Source {
@@ -146,9 +123,18 @@ impl Source {
         Ok(content)
     }
 
+    /// The same, and where there is no seal the content compared with the hash that the file states.
+    pub(super) fn proven(&self) -> Result<Content, TableError> {
+        let content = self.everything()?;
+        if !self.file.is_sealed() {
+            self.same_hash(&content)?;
+        }
+        Ok(content)
+    }
+
     /// The hash of the content, which is the one that the file states.
     pub(super) fn same_hash(&self, content: &Content) -> Result<String, TableError> {
-        let stated = self.text(&self.root(), schema::CONTENT_SHA256)?;
+        let stated = self.text(&self.file.root, schema::CONTENT_SHA256)?;
         let found = content_hash(content);
         if stated == found {
             return Ok(found);
@@ -159,35 +145,36 @@ impl Source {
 
     /// Everything but the slices, valid, and their list by ascending ratio.
     pub(super) fn head(&self) -> Result<(Content, Vec<Listed>), TableError> {
-        let root = self.root();
+        let root = &self.file.root;
         let mut content = Content {
-            origin: self.origin(&root)?,
-            r: self.list(&root, schema::R)?,
-            z: self.list(&root, schema::Z)?,
-            r_max: self.number(&root, schema::R_MAX)?,
-            z_max: self.number(&root, schema::Z_MAX)?,
-            cell_width: self.number(&root, schema::CELL_WIDTH)?,
-            stencil_points: self.number::<u64>(&root, schema::STENCIL_POINTS)? as usize,
-            pulse_lengths: self.list(&root, schema::PULSE_LENGTH)?,
+            origin: self.origin()?,
+            r: self.list(root, schema::R)?,
+            z: self.list(root, schema::Z)?,
+            r_max: self.number(root, schema::R_MAX)?,
+            z_max: self.number(root, schema::Z_MAX)?,
+            cell_width: self.number(root, schema::CELL_WIDTH)?,
+            stencil_points: self.number::<u64>(root, schema::STENCIL_POINTS)? as usize,
+            pulse_lengths: self.list(root, schema::PULSE_LENGTH)?,
             slices: Vec::new(),
-            between_r: self.list(&root, schema::BETWEEN_R)?,
-            between_z: self.list(&root, schema::BETWEEN_Z)?,
+            between_r: self.list(root, schema::BETWEEN_R)?,
+            between_z: self.list(root, schema::BETWEEN_Z)?,
             between: Vec::new(),
         };
-        content.between = self.between(&root, &content)?;
+        content.between = self.between(&content)?;
         validate::frame(&content).map_err(|error| self.wrong(error))?;
         let reached = &content.origin.accuracy_reached;
         if reached.len() != content.pulse_lengths.len() || reached.iter().any(|x| !x.is_finite()) {
             let item = root.item(schema::ACCURACY_REACHED);
             return Err(self.item(&item, "it is no list of numbers, one for each pulse length"));
         }
-        let listed = self.listed(&root)?;
+        let listed = self.listed()?;
         let ratios: Vec<f64> = listed.iter().map(|slice| slice.ratio).collect();
         validate::ascending("poisson_ratio", &ratios).map_err(|error| self.wrong(error))?;
         Ok((content, listed))
     }
 
-    fn origin(&self, root: &Place) -> Result<Origin, TableError> {
+    fn origin(&self) -> Result<Origin, TableError> {
+        let root = &self.file.root;
         Ok(Origin {
             grid: self.text(root, schema::GRID)?,
             format_version: self.text(root, schema::FORMAT_VERSION)?,
@@ -201,11 +188,11 @@ impl Source {
     }
 
     /// What was measured between slices, by ascending ratio.
-    fn between(&self, root: &Place, content: &Content) -> Result<Vec<Between>, TableError> {
+    fn between(&self, content: &Content) -> Result<Vec<Between>, TableError> {
         let places = [content.between_r.len(), content.between_z.len()];
         let all = places.map(|count| 0..count);
         let mut between = Vec::new();
-        for place in self.groups(&self.group(root, schema::BETWEEN)?)? {
+        for place in self.groups(&self.group(&self.file.root, schema::BETWEEN)?)? {
             between.push(Between {
                 poisson_ratio: self.number(&place, schema::POISSON_RATIO)?,
                 verification: self.verification(&place, content, places, &all)?,
@@ -216,8 +203,8 @@ impl Source {
     }
 
     /// The slices by ascending ratio.
-    pub(super) fn listed(&self, root: &Place) -> Result<Vec<Listed>, TableError> {
-        let all = self.group(root, schema::SLICES)?;
+    pub(super) fn listed(&self) -> Result<Vec<Listed>, TableError> {
+        let all = self.group(&self.file.root, schema::SLICES)?;
         let mut listed = Vec::new();
         for place in self.groups(&all)? {
             let role = self.text(&place, schema::ROLE)?;
@@ -311,7 +298,7 @@ impl Source {
     /// What was measured at some of a grid of places.
     fn verification(
         &self,
-        place: &Place,
+        place: &Group,
         content: &Content,
         [across, down]: [usize; 2],
         wanted: &[Range<usize>; 2],

@@ -21,20 +21,6 @@ pub(super) struct Source {
     pub(super) decoded: Cell<u64>,
 }
 
-/// A group of the file, with its path inside it for messages.
-#[derive(Debug, Clone)]
-pub(super) struct Place {
-    group: Group,
-    name: String,
-}
-
-impl Place {
-    /// Path of an item of the group.
-    pub(super) fn item(&self, name: &str) -> String {
-        format!("{}/{name}", self.name)
-    }
-}
-
 impl Source {
     pub(super) fn new(path: &Path, file: HdfFile) -> Self {
         Self {
@@ -51,40 +37,28 @@ impl Source {
         checked.map_err(|error| BadTable::Damaged(error.to_string()).of(&self.path))
     }
 
-    /// The root.
-    pub(super) fn root(&self) -> Place {
-        Place {
-            group: self.file.root.clone(),
-            name: String::new(),
-        }
-    }
-
     /// The groups that a group holds.
-    pub(super) fn groups(&self, parent: &Place) -> Result<Vec<Place>, TableError> {
-        let names = parent.group.members();
-        let names = names.map_err(|error| self.item(&parent.name, error))?;
+    pub(super) fn groups(&self, parent: &Group) -> Result<Vec<Group>, TableError> {
+        let names = parent.members();
+        let names = names.map_err(|error| self.item(&parent.path, error))?;
         let groups = names.iter().map(|name| self.group(parent, name));
         groups.collect()
     }
 
     /// The group `name` in `parent`.
-    pub(super) fn group(&self, parent: &Place, name: &str) -> Result<Place, TableError> {
-        let name_in_file = parent.item(name);
-        let group = parent.group.group(name);
-        Ok(Place {
-            group: group.map_err(|error| self.item(&name_in_file, error))?,
-            name: name_in_file,
-        })
+    pub(super) fn group(&self, parent: &Group, name: &str) -> Result<Group, TableError> {
+        let group = parent.group(name);
+        group.map_err(|error| self.item(&parent.item(name), error))
     }
 
     /// The dataset `name` of a group, with its `RANK` dimensions.
     pub(super) fn dataset<const RANK: usize>(
         &self,
-        place: &Place,
+        place: &Group,
         name: &str,
     ) -> Result<(Dataset, [usize; RANK]), TableError> {
         let item = place.item(name);
-        let data = place.group.dataset(name);
+        let data = place.dataset(name);
         let data = data.map_err(|error| self.item(&item, error))?;
         let Ok(shape) = data.shape().try_into() else {
             let found = data.shape().len();
@@ -95,7 +69,7 @@ impl Source {
     }
 
     /// A list of numbers.
-    pub(super) fn list<T: H5Type>(&self, place: &Place, name: &str) -> Result<Vec<T>, TableError> {
+    pub(super) fn list<T: H5Type>(&self, place: &Group, name: &str) -> Result<Vec<T>, TableError> {
         let (data, [count]) = self.dataset(place, name)?;
         self.admit(&place.item(name), count, size_of::<T>())?;
         data.numbers(u64::MAX)
@@ -105,7 +79,7 @@ impl Source {
     /// The entries `wanted` along the first two dimensions of a dataset, which has the dimensions `needed`.
     pub(super) fn block(
         &self,
-        place: &Place,
+        place: &Group,
         name: &str,
         needed: [usize; 4],
         wanted: &[Range<usize>; 2],
@@ -132,20 +106,20 @@ impl Source {
     }
 
     /// A text that is an attribute.
-    pub(super) fn text(&self, place: &Place, name: &str) -> Result<String, TableError> {
-        let text = place.group.text(name);
+    pub(super) fn text(&self, place: &Group, name: &str) -> Result<String, TableError> {
+        let text = place.text(name);
         text.map_err(|error| self.item(&place.item(name), error))
     }
 
     /// A number that is an attribute.
-    pub(super) fn number<T: H5Type>(&self, place: &Place, name: &str) -> Result<T, TableError> {
-        let number = place.group.number(name);
+    pub(super) fn number<T: H5Type>(&self, place: &Group, name: &str) -> Result<T, TableError> {
+        let number = place.number(name);
         number.map_err(|error| self.item(&place.item(name), error))
     }
 
     /// A list of numbers that is an attribute.
-    pub(super) fn numbers(&self, place: &Place, name: &str) -> Result<Vec<f64>, TableError> {
-        let numbers = place.group.numbers(name);
+    pub(super) fn numbers(&self, place: &Group, name: &str) -> Result<Vec<f64>, TableError> {
+        let numbers = place.numbers(name);
         numbers.map_err(|error| self.item(&place.item(name), error))
     }
 

@@ -37,7 +37,7 @@ impl TableFile {
         let source = open(path)?;
         let (content, _) = source.head()?;
         if !source.file.is_sealed() {
-            source.same_hash(&source.everything()?)?;
+            source.proven()?;
         }
         Ok(Self {
             path: path.to_owned(),

@@ -15,7 +15,7 @@ use std::path::Path;
 /// Compression level: higher ones gain a few per cent and cost several times the time.
 const DEFLATE: u8 = 2;
 /// Nodes in r and in z that share a chunk, all their times and fields with them.
-pub(super) const PATCH: usize = 8;
+const PATCH: usize = 8;
 
 /// Writes `content` to `path`, replacing what is there, and seals it.
 ///

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 /// ```
 ///
 /// Without `focus_spacing` the axis is uniform. All lengths are in r0.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Axis {
     /// Last node.
@@ -36,10 +36,7 @@ impl Axis {
         Self {
             max,
             spacing,
-            focus: None,
-            focus_spacing: None,
-            growth: None,
-            extended_to: None,
+            ..Self::default()
         }
     }
 

@@ -13,7 +13,7 @@ impl Grid {
     /// Checks every setting, and that the numbers of the table fit into 64 GB of memory.
     ///
     /// # Errors
-    /// [`BuildError::Setting`] naming the first key outside its range.
+    /// [`BuildError::Refused`] naming the first key outside its range.
     pub fn validate(&self) -> Result<(), BuildError> {
         within("cell_width", self.cell_width, [0.005, 1.0], "[0.005, 1]")?;
         within("time_factor", self.time_factor, [1.1, 10.0], "[1.1, 10]")?;
@@ -124,9 +124,6 @@ fn setting(key: &str, value: f64, good: bool, range: &'static str) -> Result<(),
     if good {
         return Ok(());
     }
-    Err(BuildError::Setting {
-        key: key.to_owned(),
-        value,
-        range,
-    })
+    let sentence = format!("grid: {key} = {value} is outside {range}");
+    Err(BuildError::of_key(key, value, Some(range), sentence))
 }

@@ -63,18 +63,16 @@ impl Grid {
     /// # Errors
     /// [`BuildError`] when the file cannot be read, has unknown keys or values outside their ranges.
     pub fn from_file(path: &Path) -> Result<Self, BuildError> {
-        let text = read(path).map_err(|source| BuildError::File {
-            path: path.to_owned(),
-            source,
-        })?;
+        let unreadable = |error| format!("cannot read {}: {error}", path.display());
+        let refused = |error| BuildError::refused(Some(path), unreadable(error));
+        let text = read(path).map_err(refused)?;
         Self::parse(&text).map_err(|error| error.in_file(path))
     }
 
     /// Reads a grid from TOML.
     ///
     /// # Errors
-    /// [`BuildError::Refused`] for text that is no grid, with its line, [`BuildError::Setting`] for a value outside its
-    /// range.
+    /// [`BuildError::Refused`] for text that is no grid, with its line, or a value outside its range.
     pub fn parse(text: &str) -> Result<Self, BuildError> {
         let grid: Self = toml::from_str(text).map_err(|error| {
             let before = error.span().map_or(0, |span| span.start).min(text.len());

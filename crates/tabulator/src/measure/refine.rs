@@ -1,11 +1,10 @@
 //! Chooses the spacing of a grid so that errors off it stay below a tolerance.
 
 use crate::assemble::assemble;
-use crate::block;
 use crate::error::BuildError;
 use crate::grid::{Grid, within};
 use crate::progress::Progress;
-use crate::rows::rows;
+use crate::rows::Work;
 use std::collections::HashMap;
 
 /// Trials at most.
@@ -18,8 +17,8 @@ const MOST_TRIALS: usize = 8;
 /// the whole slice with the largest Poisson ratio, whose waves are the shortest, measured as the table will be.
 ///
 /// # Errors
-/// [`BuildError::Setting`] for a tolerance outside [1e-7, 0.1] or a length outside [0.5, 1000],
-/// [`BuildError::Refused`] when no spacing allowed is fine enough, or what the exact kernels say.
+/// [`BuildError::Refused`] for a tolerance outside [1e-7, 0.1] or a length outside [0.5, 1000], or when no spacing
+/// allowed is fine enough, or what the exact kernels say.
 pub fn refine(
     grid: &Grid,
     tolerance: f64,
@@ -71,9 +70,8 @@ fn measure(grid: &Grid, pulse_length: f64, progress: &dyn Progress) -> Result<f6
         exact_ratios: Vec::new(),
         ..grid.clone()
     };
-    let work = block::all(&slice);
-    let rows = rows(&slice, &work, HashMap::new(), None, None, progress)?;
-    let content = assemble(&slice, &work, rows, None, progress)?;
+    let work = Work::new(&slice, None, progress)?;
+    let content = assemble(&work, work.rows(HashMap::new(), None)?)?;
     let index = content
         .pulse_lengths
         .iter()

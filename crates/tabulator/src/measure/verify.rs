@@ -3,6 +3,7 @@
 use crate::block::{Kind, Row};
 use crate::error::BuildError;
 use crate::known::Known;
+use crate::rows::Work;
 use halfspace::{Medium, Profile, Six};
 use lookup::{Content, Numbers, PulseSum, Series, Smoothness, Table, Verification};
 use rayon::prelude::*;
@@ -10,15 +11,15 @@ use rayon::prelude::*;
 /// A pulse is sampled by at least this many cells where the table has them.
 const SAMPLES: f64 = 250.0;
 
-/// Measures errors at one Poisson ratio: `rows[i]` holds the exact numbers at radius `r[i]` and all depths `z`.
-pub(crate) fn verify(
+/// Measures errors at one Poisson ratio at the places of a kind: a row holds the exact numbers at a radius and all depths.
+pub(crate) fn verify<'a>(
     table: &Table,
-    poisson_ratio: f64,
+    work: &Work<'a>,
     kind: Kind,
-    [r, z]: &[Vec<f64>; 2],
+    poisson_ratio: f64,
     rows: &[Row],
-    known: Option<&Known>,
 ) -> Result<Verification, BuildError> {
+    let (_, [r, z]) = &work.points[kind as usize];
     let width = table.cell_width(poisson_ratio)?;
     // Until a pulse has passed the last arrival at the farthest point, and the smooth rest is small.
     let arrived = table.content().slices[0].cells as f64 * width / 1.5;
@@ -29,8 +30,9 @@ pub(crate) fn verify(
         .map(|(row, &r)| {
             let mut part = Verification::default();
             for (k, &z) in z.iter().enumerate() {
-                let place = [r, z];
-                if known.is_some_and(|known| known.copy(kind, poisson_ratio, place, &mut part)) {
+                let probe_of = |known: &'a Known| known.probe(kind, poisson_ratio, [r, z]);
+                if let Some((measured, entries)) = work.known.and_then(probe_of) {
+                    part.extend(measured, entries);
                     continue;
                 }
                 let exact = exact(table.content(), width, row, k);
