@@ -12,8 +12,7 @@
 //! let (collision, settings) = (Collision::new(&block, &ball, 1.0), Settings::default());
 //! let mut solver = Solver::new(&Exact);
 //! let solved = solver.solve(&collision, &settings)?;
-//! let radiated = solver.radiated(&collision, &settings, &solved)?;
-//! let results = Results::new(&collision, &settings, &solved, radiated);
+//! let results = Results::new(&collision, &settings, &solved);
 //! // 0.66 % of the kinetic energy leaves as waves
 //! assert!((results.loss - 0.00663).abs() < 1e-5, "{}", results.loss);
 //! # Ok::<(), Box<dyn std::error::Error>>(())

@@ -44,19 +44,27 @@ pub struct Solved {
     pub error: f64,
     /// Step of the finest march; none without a march.
     pub step: Option<f64>,
+    /// Work left in the half-space as waves, relative to the kinetic energy before.
+    ///
+    /// Where the contact was marched or followed it comes from the force and the half-space's waves, not from the momentum:
+    /// on a disc the work on the mean deflection, in a growing contact that on its punches. Within 1e-3 of itself at a
+    /// tolerance of 1e-4, 2e-5 at 1e-6; only a growing contact with a uniform step has the work of its march, of the
+    /// march's order. A closed form has its loss, a series of outcomes that of its marches.
+    pub radiated: f64,
     /// What has flowed; none of a contact that has not yielded.
     pub flow: Option<Flow>,
 }
 
 impl Plan {
-    fn solved(self, scheme: Option<Scheme>, found: Found, flow: Option<Flow>) -> Solved {
+    fn solved(self, scheme: Option<Scheme>, found: Found, radiated: f64) -> Solved {
         Solved {
             plan: self,
             scheme,
             summary: found.summary,
             error: found.error,
             step: found.step,
-            flow,
+            radiated,
+            flow: None,
         }
     }
 }
@@ -72,8 +80,6 @@ pub struct Solver<'a, S: Responses> {
     waves: Option<(u64, Arc<Arc<PunchWaves>>)>,
     /// The contact solved last, where it was one that follows the load and was not marched.
     growing: Option<SolvedContact>,
-    /// What the contact solved last radiates, where it was taken from a series.
-    radiated: Option<f64>,
 }
 
 /// Samples over a contact of a history that was not marched, and of one that has its pieces too.
@@ -93,7 +99,6 @@ impl<'a, S: Responses> Solver<'a, S> {
             disc: None,
             waves: None,
             growing: None,
-            radiated: None,
         }
     }
 
@@ -177,46 +182,6 @@ impl<'a, S: Responses> Solver<'a, S> {
         Ok((solved, history))
     }
 
-    /// Work that the contact solved last has left in the half-space as waves, relative to the kinetic energy before.
-    ///
-    /// Where it was marched or followed it comes from the force and the half-space's waves, not from the momentum:
-    /// on a disc the work on the mean deflection, in a growing contact that on its punches. Within 1e-3 of itself at a
-    /// tolerance of 1e-4, 2e-5 at 1e-6; only a growing contact with a uniform step has the work of its march, of the
-    /// march's order. A closed form has its loss, a series of outcomes that of its marches.
-    ///
-    /// # Errors
-    /// [`DomainError`] for a Poisson's ratio outside the physics.
-    pub fn radiated(
-        &mut self,
-        collision: &Collision,
-        settings: &Settings,
-        solved: &Solved,
-    ) -> Result<f64, DomainError> {
-        if let Some(flow) = &solved.flow {
-            return Ok(flow.radiated);
-        }
-        Ok(match (solved.plan.model.row(), solved.scheme) {
-            (_, None) => self.radiated.unwrap_or(solved.summary.loss),
-            ((_, false), Some(_)) => {
-                let waves = self.waves(collision.target_poisson_ratio)?;
-                let contact = collision.growing_contact(&waves);
-                let history = &self.workspace.history;
-                match &self.growing {
-                    Some(growing) => work_on_half_space(&contact, growing, settings.tolerance),
-                    None => work(&history.force, &history.deflection),
-                }
-            }
-            ((_, true), Some(_)) => {
-                let ratio = collision.target_poisson_ratio;
-                let mean = self.responses.disc(ratio, Deflection::Mean)?;
-                let own = self.disc(ratio, settings.deflection)?;
-                let impact = disc_of(collision, settings, &**own);
-                let history = &self.workspace.history;
-                radiated(&impact, &*mean, history, solved.summary.contact_time)
-            }
-        })
-    }
-
     fn solve_to(
         &mut self,
         collision: &Collision,
@@ -227,7 +192,7 @@ impl<'a, S: Responses> Solver<'a, S> {
         let ratio = collision.target_poisson_ratio;
         let disc = self.disc(ratio, settings.deflection)?;
         self.growing = None;
-        self.radiated = None;
+        let impact = || disc_of(collision, settings, &**disc);
         if let Some(yielding) = collision.yielding(settings)?.filter(Yielding::begins) {
             let plan = plan(settings, collision, &**disc, true);
             if let Some(solved) = self.yielded(collision, settings, &yielding, plan, &asked)? {
@@ -239,38 +204,41 @@ impl<'a, S: Responses> Solver<'a, S> {
             && let Some(place) = Place::of(&plan, collision, settings, &**disc)
             && let Some((summary, radiated, error)) = outcomes.at(&place, self.responses)
         {
-            self.radiated = Some(radiated);
-            return Ok(plan.solved(None, Found::unmarched(summary, error), None));
+            return Ok(plan.solved(None, Found::unmarched(summary, error), radiated));
         }
         let in_times = |step_s: f64| step_s / collision.units().time_s;
         let step = settings.step_s.map(in_times);
         let is_disc = matches!(plan.groups.family, Family::Full | Family::Dynamic);
         let is_wave = matches!(settings.model, Model::Wave | Model::Auto);
         if is_disc && is_wave && settings.scheme == Scheme::Implicit {
-            let impact = disc_of(collision, settings, &**disc);
-            stability::check(&impact, &mut self.workspace)?;
+            stability::check(&impact(), &mut self.workspace)?;
         }
-        let (scheme, found) = match (plan.model.row(), settings.scheme) {
-            ((Rung::QuasiStatic | Rung::Radiation, _), _) => (None, plan.closed_form()?),
-            ((Rung::AreaDashpot, _), _) => (None, plan.dashpot(&self.dashpot(collision)?)?),
+        let (scheme, found, work) = match (plan.model.row(), settings.scheme) {
+            ((Rung::QuasiStatic | Rung::Radiation, _), _) => (None, plan.closed_form()?, None),
+            ((Rung::AreaDashpot, _), _) => (None, plan.dashpot(&self.dashpot(collision)?)?, None),
             ((Rung::FullMemory, false), _) => {
-                (Some(Scheme::Implicit), self.grow(collision, step, asked)?)
+                let (found, work) = self.grow(collision, step, asked)?;
+                (Some(Scheme::Implicit), found, Some(work))
             }
-            ((Rung::FullMemory, true), Scheme::Implicit) => {
-                let impact = disc_of(collision, settings, &**disc);
-                let found = solve_disc(&mut self.workspace, &impact, step, asked)?;
-                (Some(Scheme::Implicit), found)
-            }
-            ((Rung::FullMemory, true), Scheme::Explicit) => {
-                let response = SurfaceResponse::new(&Medium::new(ratio)?, settings.deflection);
-                let impact = disc_of(collision, settings, &response);
-                let found = explicit(&mut self.workspace, &impact, step)?;
-                (Some(Scheme::Explicit), found)
+            ((Rung::FullMemory, true), scheme) => {
+                let room = &mut self.workspace;
+                let found = match scheme {
+                    Scheme::Implicit => solve_disc(room, &impact(), step, asked)?,
+                    Scheme::Explicit => {
+                        let medium = Medium::new(ratio)?;
+                        let response = SurfaceResponse::new(&medium, settings.deflection);
+                        explicit(room, &disc_of(collision, settings, &response), step)?
+                    }
+                };
+                let mean = self.responses.disc(ratio, Deflection::Mean)?;
+                let duration = found.summary.contact_time;
+                let work = radiated(&impact(), &*mean, &self.workspace.history, duration);
+                (Some(scheme), found, Some(work))
             }
         };
-        Ok(plan.solved(scheme, found, None))
+        let radiated = work.unwrap_or(found.summary.loss);
+        Ok(plan.solved(scheme, found, radiated))
     }
-
     /// A contact that yields; nothing where waves keep it from doing so.
     fn yielded(
         &mut self,
@@ -325,7 +293,10 @@ impl<'a, S: Responses> Solver<'a, S> {
         };
         let found = Found::unmarched(summary, error.min(1.0));
         let scheme = memory.then_some(Scheme::Implicit);
-        Ok(Some(plan.solved(scheme, found, Some(flow))))
+        Ok(Some(Solved {
+            flow: Some(flow),
+            ..plan.solved(scheme, found, flow.radiated)
+        }))
     }
 
     fn disc(
@@ -352,21 +323,22 @@ impl<'a, S: Responses> Solver<'a, S> {
     }
 
     /// A contact that follows the load: by polynomial pieces, and with a uniform step where one is given or they do not
-    /// serve, with a memory as long as the contact, or a second contact.
+    /// serve, with a memory as long as the contact, or a second contact. With it what it radiates.
     fn grow(
         &mut self,
         collision: &Collision,
         step: Option<f64>,
         asked: Accuracy,
-    ) -> Result<Found, ContactError> {
+    ) -> Result<(Found, f64), ContactError> {
         let waves = self.waves(collision.target_poisson_ratio)?;
         let contact = collision.growing_contact(&waves);
         if step.is_none() {
             match solve_growing(&contact, &asked) {
                 Ok(solved) => {
                     let found = Found::unmarched(solved.summary, solved.estimates.contact());
+                    let radiated = work_on_half_space(&contact, &solved, asked.tolerance);
                     self.growing = Some(solved);
-                    return Ok(found);
+                    return Ok((found, radiated));
                 }
                 // the march has other limits: a memory far shorter than the contact is one to it
                 Err(
@@ -382,7 +354,8 @@ impl<'a, S: Responses> Solver<'a, S> {
             Ok(())
         };
         let (room, begin) = (&mut self.workspace, (hertz::CONTACT_TIME, 1.0));
-        Ok(stepped(room, step, begin, asked, march)?)
+        let found = stepped(room, step, begin, asked, march)?;
+        Ok((found, work(&room.history.force, &room.history.deflection)))
     }
 }
 

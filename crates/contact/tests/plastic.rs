@@ -50,8 +50,7 @@ impl Row<'_> {
 fn solved(collision: &Collision, settings: &Settings) -> (Solved, Results) {
     let mut solver = Solver::new(&Exact);
     let found = solver.solve(collision, settings).unwrap();
-    let radiated = solver.radiated(collision, settings, &found).unwrap();
-    let results = Results::new(collision, settings, &found, radiated);
+    let results = Results::new(collision, settings, &found);
     (found, results)
 }
 
