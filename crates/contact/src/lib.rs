@@ -51,7 +51,7 @@ pub use bodies::{GRAVITY_M_S2, HalfSpace, Striker, fall_velocity_m_s};
 pub use collision::{CONSTRAINT, Collision};
 pub use disc::explicit::march_explicit;
 pub use disc::history::History;
-pub use disc::implicit::{Workspace, march_implicit};
+pub use disc::implicit::march_implicit;
 pub use disc::refine::{Accuracy, Found, refine, solve_disc};
 pub use disc::response::{DiscResponse, ResponseTable};
 pub use disc::weights::Weights;

@@ -5,7 +5,6 @@
 
 use crate::collision::Collision;
 use crate::disc::history::History;
-use crate::disc::implicit::Workspace;
 use crate::disc::refine::{Accuracy, Found, explicit, march_finely, solve_disc, stepped};
 use crate::disc::response::DiscResponse;
 use crate::disc::{FixedDisc, stability};
@@ -74,7 +73,8 @@ impl Plan {
 pub struct Solver<'a, S: Responses> {
     responses: &'a S,
     outcomes: Option<&'a Outcomes>,
-    workspace: Workspace,
+    /// Of the latest march.
+    history: History,
     /// What was made last, with the bits of its Poisson's ratio.
     disc: Option<(u64, Arc<Arc<S::Disc>>)>,
     waves: Option<(u64, Arc<Arc<PunchWaves>>)>,
@@ -95,7 +95,7 @@ impl<'a, S: Responses> Solver<'a, S> {
         Self {
             responses,
             outcomes: None,
-            workspace: Workspace::default(),
+            history: History::default(),
             disc: None,
             waves: None,
             growing: None,
@@ -165,9 +165,9 @@ impl<'a, S: Responses> Solver<'a, S> {
                 march_finely(&impact, duration, settings.tolerance)
                     .ok()
                     .filter(|fine| fine.error <= solved.error.max(settings.tolerance))
-                    .unwrap_or_else(|| self.workspace.history.clone())
+                    .unwrap_or_else(|| self.history.clone())
             }
-            (None, Some(_)) => self.workspace.history.clone(),
+            (None, Some(_)) => self.history.clone(),
             (None, None) if solved.plan.model == Model::AreaDashpot => {
                 self.dashpot(collision)?.history(duration / SAMPLES)
             }
@@ -211,7 +211,7 @@ impl<'a, S: Responses> Solver<'a, S> {
         let is_disc = matches!(plan.groups.family, Family::Full | Family::Dynamic);
         let is_wave = matches!(settings.model, Model::Wave | Model::Auto);
         if is_disc && is_wave && settings.scheme == Scheme::Implicit {
-            stability::check(&impact(), &mut self.workspace)?;
+            stability::check(&impact(), &mut self.history)?;
         }
         let (scheme, found, work) = match (plan.model.row(), settings.scheme) {
             ((Rung::QuasiStatic | Rung::Radiation, _), _) => (None, plan.closed_form()?, None),
@@ -221,7 +221,7 @@ impl<'a, S: Responses> Solver<'a, S> {
                 (Some(Scheme::Implicit), found, Some(work))
             }
             ((Rung::FullMemory, true), scheme) => {
-                let room = &mut self.workspace;
+                let room = &mut self.history;
                 let found = match scheme {
                     Scheme::Implicit => solve_disc(room, &impact(), step, asked)?,
                     Scheme::Explicit => {
@@ -232,7 +232,7 @@ impl<'a, S: Responses> Solver<'a, S> {
                 };
                 let mean = self.responses.disc(ratio, Deflection::Mean)?;
                 let duration = found.summary.contact_time;
-                let work = radiated(&impact(), &*mean, &self.workspace.history, duration);
+                let work = radiated(&impact(), &*mean, &self.history, duration);
                 (Some(scheme), found, Some(work))
             }
         };
@@ -349,13 +349,13 @@ impl<'a, S: Responses> Solver<'a, S> {
                 Err(error) => return Err(error.into()),
             }
         }
-        let march = |step, room: &mut Workspace| {
-            room.history = march_growing(&contact, step)?;
+        let march = |step, room: &mut History| {
+            *room = march_growing(&contact, step)?;
             Ok(())
         };
-        let (room, begin) = (&mut self.workspace, (hertz::CONTACT_TIME, 1.0));
+        let (room, begin) = (&mut self.history, (hertz::CONTACT_TIME, 1.0));
         let found = stepped(room, step, begin, asked, march)?;
-        Ok((found, work(&room.history.force, &room.history.deflection)))
+        Ok((found, work(&room.force, &room.deflection)))
     }
 }
 
