@@ -237,13 +237,7 @@ impl Excitation {
 
     /// The force at a time, in N.
     pub fn force_n(&self, time_s: f64) -> f64 {
-        match &self.force {
-            Force::Contact(contact) => {
-                let units = &contact.units;
-                contact.samples.force_alone(time_s / units.time_s) * units.force_n
-            }
-            Force::Record(record) => record.at(time_s),
-        }
+        self.force_and_rate(time_s)[0]
     }
 
     /// Hertz's pressures that together stand for the one at a time: two under a contact that yields and whose pressure is
@@ -303,6 +297,7 @@ impl Excitation {
     }
 
     /// The force in N and its rate in N/s at a time; NaN for that of a record, which jumps.
+    #[inline]
     pub(crate) fn force_and_rate(&self, time_s: f64) -> [f64; 2] {
         match &self.force {
             Force::Contact(contact) => {
@@ -411,10 +406,8 @@ impl Excitation {
 
     /// Length in s of a pulse that is as steep as the force: its duration for a contact.
     pub(crate) fn pulse_s(&self) -> f64 {
-        match &self.force {
-            Force::Contact(contact) => contact.duration_s,
-            Force::Record(record) => record.pulse_s(),
-        }
+        self.record()
+            .map_or_else(|| self.end_s(), ForceRecord::pulse_s)
     }
 
     /// What a table's error depends on, with times in r0/c1 of discs of a radius `over` the largest.
