@@ -198,7 +198,7 @@ pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Picture>
     advance();
     let implicit = implicit(&map, &columns, &paper);
     advance();
-    let dynamic = dynamic_share(&disc, effort);
+    let dynamic = dynamic_share(&paper.disc, effort);
     advance();
     Ok(vec![explicit, implicit, dynamic])
 }
@@ -357,7 +357,7 @@ fn dynamic_share(paper: &FixedDisc<'_>, effort: Effort) -> Picture {
     let map = map([0.05, 5.0], coupling, &DYNAMIC, effort);
     let column = |coupling| {
         let disc = dynamic(paper, coupling);
-        (disc, Converged::new(disc).ok())
+        (disc.clone(), Converged::new(disc).ok())
     };
     let columns: Vec<_> = map.columns().into_iter().map(column).collect();
     let title = "Dynamic share (static part of the deflection taken out)";
