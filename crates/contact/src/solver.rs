@@ -318,8 +318,7 @@ impl<'a, S: Responses> Solver<'a, S> {
     /// The terms of the expansion in the memory of a contact that follows the load.
     fn dashpot(&mut self, collision: &Collision) -> Result<AreaDashpot, DomainError> {
         let waves = self.waves(collision.target_poisson_ratio)?;
-        let (target_share, wave_time) = (collision.target_share(), collision.contact_wave_time());
-        Ok(AreaDashpot::new(target_share, wave_time, &waves))
+        Ok(AreaDashpot::new(&collision.growing_contact(&waves)))
     }
 
     /// A contact that follows the load: by polynomial pieces, and with a uniform step where one is given or they do not

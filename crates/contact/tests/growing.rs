@@ -24,17 +24,19 @@ struct Case {
     wave_time: f64,
 }
 
+impl Case {
+    fn contact<'a>(&self, waves: &'a PunchWaves) -> GrowingContact<'a> {
+        GrowingContact {
+            waves,
+            target_share: self.target_share,
+            wave_time: self.wave_time,
+        }
+    }
+}
+
 fn solve(case: &Case, accuracy: &Accuracy) -> Result<SolvedContact, MarchError> {
     let waves = PunchWaves::new(&Medium::new(case.poisson_ratio).unwrap());
-    let (target_share, wave_time) = (case.target_share, case.wave_time);
-    solve_growing(
-        &GrowingContact {
-            waves: &waves,
-            target_share,
-            wave_time,
-        },
-        accuracy,
-    )
+    solve_growing(&case.contact(&waves), accuracy)
 }
 
 /// Peak force, its time, contact time, restitution, loss, displacement, deflection, impulse.
@@ -291,7 +293,7 @@ fn the_area_dashpot_keeps_its_bounds() {
         .map(|index| {
             let case = random_scene(5000 + index);
             let waves = PunchWaves::new(&Medium::new(case.poisson_ratio).unwrap());
-            let terms = AreaDashpot::new(case.target_share, case.wave_time, &waves);
+            let terms = AreaDashpot::new(&case.contact(&waves));
             let bounds = left_out(terms.lag, waves.memory * case.wave_time);
             let exact = solve(&case, &Accuracy::of_contact(3e-9, None)).unwrap();
             let (a, b) = (terms.summary(), exact.summary);

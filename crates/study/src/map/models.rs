@@ -181,7 +181,7 @@ impl Plane {
         }
         let exact = found?;
         let coarse = summary(2.0 * step);
-        let dashpot = AreaDashpot::new(deflection, growing.wave_time, &self.waves);
+        let dashpot = AreaDashpot::new(&growing);
         let is_allowed = left_out(dashpot.lag, groups.memory).contact() < 1.0;
         Ok(ModelErrors {
             quasi_static: error(true, &radiation(0.0), &exact),

@@ -228,7 +228,7 @@ fn following(
     growing: &GrowingContact<'_>,
     lag: f64,
 ) -> Result<(), AnyError> {
-    let terms = AreaDashpot::new(growing.target_share, growing.wave_time, growing.waves);
+    let terms = AreaDashpot::new(growing);
     let hertz = || radiation(black_box(0.0));
     closed(scene, "hertz", "closed form", hertz)?.default_path = true;
     let first = || radiation(black_box(lag));
