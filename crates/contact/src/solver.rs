@@ -82,9 +82,8 @@ pub struct Solver<'a, S: Responses> {
     growing: Option<SolvedContact>,
 }
 
-/// Samples over a contact of a history that was not marched, and of one that has its pieces too.
+/// Samples over a contact of a history that was not marched.
 const SAMPLES: f64 = 4096.0;
-const GROWING_SAMPLES: f64 = 256.0;
 
 /// Error of a contact with memory that yields over the estimate of one that does not: 1.3 at most on 80 random pairs of metals.
 const YIELDS: f64 = 2.0;
@@ -156,7 +155,7 @@ impl<'a, S: Responses> Solver<'a, S> {
         let solved = self.solve_to(collision, settings, asked)?;
         let duration = solved.summary.contact_time;
         let mut history = match (&self.growing, solved.scheme) {
-            (Some(growing), _) => History::of_pieces(growing, duration / GROWING_SAMPLES),
+            (Some(growing), _) => History::of_pieces(growing),
             (None, Some(Scheme::Implicit))
                 if solved.plan.model == Model::Wave && settings.step_s.is_none() =>
             {

@@ -8,8 +8,8 @@ mod support;
 
 use contact::law::area_dashpot::{AreaDashpot, left_out};
 use contact::{
-    Accuracy, GrowingContact, History, MarchError, PunchWaves, SolvedContact, solve_growing,
-    work_on_half_space,
+    Accuracy, GrowingContact, History, MarchError, PunchWaves, Resampler, SolvedContact,
+    solve_growing, work_on_half_space,
 };
 use halfspace::Medium;
 use rayon::prelude::*;
@@ -199,9 +199,9 @@ fn the_history_is_as_accurate_as_the_results() {
         }
         assert!(solved.radius(0.0).powi(3) < 1e-30 && solved.force(0.0) == [0.0; 3]);
         assert!(solved.radius(-1e-9) == 0.0 && solved.radius(1.01 * end) == 0.0);
-        let samples = History::of_pieces(&solved, 0.01);
-        assert!((samples.force[100] - exact.state(1.0).force).abs() < 3.0 * tolerance);
-        assert_eq!(*samples.force.last().unwrap(), 0.0);
+        let read = Resampler::new(History::of_pieces(&solved));
+        assert!((read.force(1.0)[0] - exact.state(1.0).force).abs() < 3.0 * tolerance);
+        assert_eq!(read.force(end)[0], 0.0);
     }
 }
 
