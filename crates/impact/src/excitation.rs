@@ -12,7 +12,7 @@ use contact::{
     CollisionUnits, HalfSpace, History, KernelUnits, Resampler, SolvedContact, StaticShare,
     WaveSpeeds, Weights,
 };
-use halfspace::{Deflection, DomainError, Medium, SurfaceResponse, gauss};
+use halfspace::{Deflection, DomainError, Medium, SurfaceResponse, bisected, gauss};
 
 /// Consecutive samples.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -343,16 +343,9 @@ impl Excitation {
         }
         // from where the force is zero, or from the lower end
         let rising = ends[0] < ends[1];
-        let [mut zero, mut full] = if rising { [-0.5, 0.5] } else { [0.5, -0.5] };
-        let end = full;
+        let [mut zero, end] = if rising { [-0.5, 0.5] } else { [0.5, -0.5] };
         if low <= 0.0 {
-            for _ in 0..60 {
-                let middle = 0.5 * (zero + full);
-                match at(middle) > 0.0 {
-                    true => full = middle,
-                    false => zero = middle,
-                }
-            }
+            zero = bisected(zero, end, |x| at(x) <= 0.0);
         }
         let (length, first) = (end - zero, nodes.len());
         for (u, weight) in gauss::rule(GRADED).on(0.0, 1.0) {

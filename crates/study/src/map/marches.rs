@@ -25,6 +25,7 @@ use contact::{
 };
 use fault::AnyError;
 use figure::{Interval, Layer, Style};
+use halfspace::bisected;
 use paper::PRINTED_PA;
 
 /// What a march made of an impact.
@@ -313,19 +314,6 @@ fn dynamic<'a>(disc: &FixedDisc<'a>, coupling: f64) -> FixedDisc<'a> {
 pub(super) fn dynamic_is_solved(disc: &FixedDisc<'_>, step: f64) -> bool {
     let march = march_implicit(&dynamic(disc, disc.coupling), step);
     !matches!(march, Err(MarchError::NoSolution { .. }))
-}
-
-/// The largest argument that a condition allows, which it does below and not above; relative to 1e-9.
-pub(super) fn bisected(mut low: f64, mut high: f64, allows: impl Fn(f64) -> bool) -> f64 {
-    for _ in 0..60 {
-        let middle = 0.5 * (low + high);
-        if allows(middle) {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    low
 }
 
 /// Largest coupling for which the `dynamic` share has a solution at a step, up to a force of Hertz's peak.
