@@ -75,8 +75,8 @@ pub struct Solver<'a, S: Responses> {
     outcomes: Option<&'a Outcomes>,
     /// Of the latest march.
     history: History,
-    /// What was made last, with the bits of its Poisson's ratio.
-    disc: Option<(u64, Arc<Arc<S::Disc>>)>,
+    /// What was made last, with the bits of its Poisson's ratio and the deflection.
+    disc: Option<((u64, Deflection), Arc<Arc<S::Disc>>)>,
     waves: Option<(u64, Arc<Arc<PunchWaves>>)>,
     /// The contact solved last, where it was one that follows the load and was not marched.
     growing: Option<SolvedContact>,
@@ -303,15 +303,13 @@ impl<'a, S: Responses> Solver<'a, S> {
         ratio: f64,
         deflection: Deflection,
     ) -> Result<Arc<Arc<S::Disc>>, DomainError> {
-        self.disc
-            .take_if(|(_, disc)| disc.disc().deflection != deflection);
-        remembered(&mut self.disc, ratio, || {
-            self.responses.disc(ratio, deflection)
-        })
+        let make = || self.responses.disc(ratio, deflection);
+        remembered(&mut self.disc, (ratio.to_bits(), deflection), make)
     }
 
     fn waves(&mut self, ratio: f64) -> Result<Arc<Arc<PunchWaves>>, DomainError> {
-        remembered(&mut self.waves, ratio, || self.responses.waves(ratio))
+        let bits = ratio.to_bits();
+        remembered(&mut self.waves, bits, || self.responses.waves(ratio))
     }
 
     /// The terms of the expansion in the memory of a contact that follows the load.
@@ -358,15 +356,15 @@ impl<'a, S: Responses> Solver<'a, S> {
 }
 
 /// What belongs to a Poisson's ratio, made where the latest is another's.
-fn remembered<T>(
-    latest: &mut Option<(u64, Arc<T>)>,
-    ratio: f64,
+fn remembered<K: PartialEq, T>(
+    latest: &mut Option<(K, Arc<T>)>,
+    of: K,
     make: impl FnOnce() -> Result<T, DomainError>,
 ) -> Result<Arc<T>, DomainError> {
     match latest {
-        Some((bits, made)) if *bits == ratio.to_bits() => Ok(Arc::clone(made)),
+        Some((known, made)) if *known == of => Ok(Arc::clone(made)),
         Some(_) | None => {
-            let (_, made) = latest.insert((ratio.to_bits(), Arc::new(make()?)));
+            let (_, made) = latest.insert((of, Arc::new(make()?)));
             Ok(Arc::clone(made))
         }
     }
