@@ -26,7 +26,7 @@ use crate::disc::{FixedDisc, stability};
 use crate::energy;
 use crate::growing::solve_growing;
 use crate::growing::waves::GrowingContact;
-use crate::model::choose::{Family, Plan, disc_radius_m};
+use crate::model::choose::{Family, Plan, disc_of};
 use crate::model::{Plasticity, Rung, Scheme, Settings, StaticShare};
 use crate::numeric::series::Series;
 use crate::plastic::Yielding;
@@ -104,9 +104,8 @@ impl Place {
         }
         let (nu, memory) = (collision.target_poisson_ratio, plan.groups.memory);
         let (fixed, groups) = if on_disc {
-            let radius_m = disc_radius_m(settings, collision);
-            let (coupling, _) = collision.disc_groups(response.disc().static_compliance, radius_m);
-            ([nu, 0.0], [memory / response.disc().memory, coupling])
+            let disc = disc_of(settings, collision, response);
+            ([nu, 0.0], [memory / response.disc().memory, disc.coupling])
         } else {
             let fixed = [nu, collision.target_share()];
             (fixed, [memory / response.punch_memory(), 1.0])

@@ -6,8 +6,7 @@
 use crate::collision::Collision;
 use crate::disc::history::History;
 use crate::disc::refine::{Accuracy, Found, explicit, march_finely, solve_disc, stepped};
-use crate::disc::response::DiscResponse;
-use crate::disc::{FixedDisc, stability};
+use crate::disc::stability;
 use crate::energy::{radiated, work};
 use crate::error::{ContactError, MarchError};
 use crate::growing::equations::March;
@@ -20,7 +19,7 @@ use crate::law::area_dashpot::AreaDashpot;
 use crate::law::hertz;
 use crate::law::pulse::pulse;
 use crate::law::radiation::damped_force;
-use crate::model::choose::{Family, Plan, accuracy, disc_radius_m, plan};
+use crate::model::choose::{Family, Plan, accuracy, disc_of, plan};
 use crate::model::{Model, Rung, Scheme, Settings};
 use crate::outcome::{Outcomes, Place};
 use crate::plastic::quick::quick;
@@ -160,7 +159,7 @@ impl<'a, S: Responses> Solver<'a, S> {
                 if solved.plan.model == Model::Wave && settings.step_s.is_none() =>
             {
                 let disc = self.disc(collision.target_poisson_ratio, settings.deflection)?;
-                let impact = disc_of(collision, settings, &**disc);
+                let impact = disc_of(settings, collision, &**disc);
                 march_finely(&impact, duration, settings.tolerance)
                     .ok()
                     .filter(|fine| fine.error <= solved.error.max(settings.tolerance))
@@ -191,7 +190,7 @@ impl<'a, S: Responses> Solver<'a, S> {
         let ratio = collision.target_poisson_ratio;
         let disc = self.disc(ratio, settings.deflection)?;
         self.growing = None;
-        let impact = || disc_of(collision, settings, &**disc);
+        let impact = || disc_of(settings, collision, &**disc);
         if let Some(yielding) = collision.yielding(settings)?.filter(Yielding::begins) {
             let plan = plan(settings, collision, &**disc, true);
             if let Some(solved) = self.yielded(collision, settings, &yielding, plan, &asked)? {
@@ -226,7 +225,7 @@ impl<'a, S: Responses> Solver<'a, S> {
                     Scheme::Explicit => {
                         let medium = Medium::new(ratio)?;
                         let response = SurfaceResponse::new(&medium, settings.deflection);
-                        explicit(room, &disc_of(collision, settings, &response), step)?
+                        explicit(room, &disc_of(settings, collision, &response), step)?
                     }
                 };
                 let mean = self.responses.disc(ratio, Deflection::Mean)?;
@@ -368,13 +367,4 @@ fn remembered<K: PartialEq, T>(
             Ok(Arc::clone(made))
         }
     }
-}
-
-fn disc_of<'r, R: DiscResponse>(
-    collision: &Collision,
-    settings: &Settings,
-    response: &'r R,
-) -> FixedDisc<'r, R> {
-    let radius_m = disc_radius_m(settings, collision);
-    collision.fixed_disc(response, radius_m, settings.static_share)
 }

@@ -419,7 +419,8 @@ fn rows_of_jackson_and_green() {
         // the lag in units of the critical velocity goes with V^0.6
         let response = SurfaceResponse::new(&Medium::new(nu).unwrap(), Deflection::Centre);
         let wanted = if lag > 0.0 { lag } else { 1e-6 } * ratio.powf(0.6);
-        collision.target_longitudinal_speed_m_s *= collision.lag(&response) / wanted;
+        collision.target_longitudinal_speed_m_s *=
+            collision.lag(collision.contact_wave_time(), &response) / wanted;
         settings.tolerance = 1e-6;
         let (_, r) = solved(&collision, &settings);
         let allowed = 1e-6;

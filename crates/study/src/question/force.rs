@@ -62,7 +62,8 @@ pub(crate) fn measure(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Record>,
     scene.name = BALL;
     scene.errors = &against_growing;
     let response = SurfaceResponse::new(&medium, Deflection::Centre);
-    following(&mut scene, &growing, collision.lag(&response))?;
+    let lag = collision.lag(growing.wave_time, &response);
+    following(&mut scene, &growing, lag)?;
     from_series(&mut scene, &ball)?;
     advance();
     Ok(records)
