@@ -327,18 +327,18 @@ impl Excitation {
         const PLAIN: usize = 6;
         const GRADED: usize = 12;
         let at = |x: f64| self.force_n(from_s + (x + 0.5) * step_s);
+        let node = |(x, weight)| Node {
+            x,
+            weight,
+            force: at(x),
+        };
         let ends = [at(-0.5), at(0.5)];
         let [low, high] = [ends[0].min(ends[1]), ends[0].max(ends[1])];
         if high <= 0.0 && at(0.0) <= 0.0 {
             return;
         }
         if low > STEEP * high {
-            let plain = gauss::rule(PLAIN).on(-0.5, 0.5);
-            nodes.extend(plain.map(|(x, weight)| Node {
-                x,
-                weight,
-                force: at(x),
-            }));
+            nodes.extend(gauss::rule(PLAIN).on(-0.5, 0.5).map(node));
             return;
         }
         // from where the force is zero, or from the lower end
@@ -348,14 +348,9 @@ impl Excitation {
             zero = bisected(zero, end, |x| at(x) <= 0.0);
         }
         let (length, first) = (end - zero, nodes.len());
-        for (u, weight) in gauss::rule(GRADED).on(0.0, 1.0) {
-            let x = zero + length * u * u;
-            nodes.push(Node {
-                x,
-                weight: 2.0 * u * weight * length.abs(),
-                force: at(x),
-            });
-        }
+        let graded = gauss::rule(GRADED).on(0.0, 1.0);
+        let graded = graded.map(|(u, w)| (zero + length * u * u, 2.0 * u * w * length.abs()));
+        nodes.extend(graded.map(node));
         if length < 0.0 {
             nodes[first..].reverse();
         }
