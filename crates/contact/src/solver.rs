@@ -237,6 +237,7 @@ impl<'a, S: Responses> Solver<'a, S> {
         let radiated = work.unwrap_or(found.summary.loss);
         Ok(plan.solved(scheme, found, radiated))
     }
+
     /// A contact that yields; nothing where waves keep it from doing so.
     fn yielded(
         &mut self,
@@ -263,25 +264,23 @@ impl<'a, S: Responses> Solver<'a, S> {
             Rung::Radiation | Rung::AreaDashpot | Rung::FullMemory => plan.groups.lag,
         };
         // the history of a single impact has its results too
-        let mut results = None;
-        if !memory && asked.deflection.is_none() {
-            let quickly = || quick(yielding, lag).map(|found| (found, 0.0));
-            let series = Place::of_fit(&plan, yielding, settings)
-                .and_then(|place| self.outcomes?.at(&place, self.responses));
-            let fitted = series.map(|(summary, radiated, error)| {
-                let works = [summary.loss - radiated, radiated];
-                let flow = Flow::new(yielding, summary.peak_displacement.sqrt(), works);
-                ((summary, flow), error)
-            });
-            results = fitted.or_else(quickly);
-        }
+        let alone = !memory && asked.deflection.is_none();
+        let series = || {
+            let place = Place::of_fit(&plan, yielding, settings)?;
+            let (summary, radiated, error) = self.outcomes?.at(&place, self.responses)?;
+            let works = [summary.loss - radiated, radiated];
+            let flow = Flow::new(yielding, summary.peak_displacement.sqrt(), works);
+            Some((summary, flow, error))
+        };
+        let quickly = || quick(yielding, lag).map(|(summary, flow)| (summary, flow, 0.0));
+        let results = alone.then(|| series().or_else(quickly)).flatten();
         if !memory && results.is_none() {
             let lost = |_| ContactError::NotFollowed;
             self.growing = March::damped(lag).follow(yielding).map_err(lost)?;
         }
         let followed = self.growing.as_ref();
-        let pieces = followed.and_then(|one| Some(((one.summary, one.flow?), 0.0)));
-        let Some(((summary, flow), of_series)) = results.or(pieces) else {
+        let pieces = followed.and_then(|one| Some((one.summary, one.flow?, 0.0)));
+        let Some((summary, flow, of_series)) = results.or(pieces) else {
             return Ok(None);
         };
         let error = match rung {
