@@ -17,7 +17,6 @@ use crate::disc::history::History;
 use crate::numeric::quadrature::peak;
 use crate::summary::Summary;
 use crate::units::INVERSE_MASS;
-use halfspace::bisected;
 
 /// Samples of a contact with a force law and the results that they have to give.
 ///
@@ -132,11 +131,18 @@ impl Course {
             state = next;
             forces.push(force(state[0], state[1]).max(0.0));
         }
-        let rest = bisected(0.0, step, |rest| inside(advance(force, state, rest, false)));
+        let (mut low, mut high) = (0.0, step);
+        for _ in 0..50 {
+            let middle = 0.5 * (low + high);
+            match inside(advance(force, state, middle, false)) {
+                true => low = middle,
+                false => high = middle,
+            }
+        }
         let (place, peak_force) = peak(&forces);
         Self {
             step,
-            contact_time: (forces.len() - 1) as f64 * step + rest,
+            contact_time: (forces.len() - 1) as f64 * step + low,
             peak_force,
             peak_force_time: place * step,
             force: forces,
