@@ -201,7 +201,7 @@ fn the_history_is_as_accurate_as_the_results() {
         assert!(solved.radius(-1e-9) == 0.0 && solved.radius(1.01 * end) == 0.0);
         let read = Resampler::new(History::of_pieces(&solved));
         assert!((read.force(1.0)[0] - exact.state(1.0).force).abs() < 3.0 * tolerance);
-        assert_eq!(read.force(end)[0], 0.0);
+        assert_eq!(read.force(read.end())[0], 0.0);
     }
 }
 
