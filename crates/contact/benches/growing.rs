@@ -81,7 +81,13 @@ fn growing(c: &mut Criterion) {
     }
     let terms: Vec<AreaDashpot> = scenes
         .iter()
-        .map(|(waves, target_share, wave_time)| AreaDashpot::new(*target_share, *wave_time, waves))
+        .map(|&(ref waves, target_share, wave_time)| {
+            AreaDashpot::new(&GrowingContact {
+                waves,
+                target_share,
+                wave_time,
+            })
+        })
         .collect();
     let mut i = 0;
     c.bench_function("area dashpot", |b| {

@@ -201,8 +201,7 @@ fn contracted(c: &mut Criterion) {
                 let (mut sum, mut largest) = (0.0, 0.0_f64);
                 for (collision, settings) in black_box(&rows) {
                     let solved = solver.solve(collision, settings).unwrap();
-                    let radiated = solver.radiated(collision, settings, &solved).unwrap();
-                    let results = Results::new(collision, settings, &solved, radiated);
+                    let results = Results::new(collision, settings, &solved);
                     sum += results.restitution;
                     largest = largest.max(results.peak_force_n);
                 }

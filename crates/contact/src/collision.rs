@@ -204,22 +204,14 @@ impl Collision {
         disc_radius_m: f64,
         share: StaticShare,
     ) -> FixedDisc<'a, R> {
-        let (coupling, wave_time) =
-            self.disc_groups(response.disc().static_compliance, disc_radius_m);
+        let (units, kernel) = (self.units(), self.kernel_units(disc_radius_m));
+        let compliance = response.disc().static_compliance * kernel.displacement_m_per_n();
         FixedDisc {
             response,
-            coupling,
-            wave_time,
+            coupling: compliance * units.force_n / units.length_m,
+            wave_time: kernel.time_s() / units.time_s,
             share,
         }
-    }
-
-    /// Static compliance of a disc over Hertz's, and r0/c1, in collision units.
-    pub fn disc_groups(&self, static_compliance: f64, disc_radius_m: f64) -> (f64, f64) {
-        let (units, kernel) = (self.units(), self.kernel_units(disc_radius_m));
-        let compliance = static_compliance * kernel.displacement_m_per_n();
-        let coupling = compliance * units.force_n / units.length_m;
-        (coupling, kernel.time_s() / units.time_s)
     }
 
     /// The groups of an impact whose contact radius follows the load.
@@ -238,13 +230,8 @@ impl Collision {
         radius / self.target_longitudinal_speed_m_s / units.time_s
     }
 
-    /// c of the radiation model in collision units: w = -c p' to first order, for any load.
-    pub fn lag(&self, response: &impl DiscResponse) -> f64 {
-        self.lag_of(self.contact_wave_time(), response)
-    }
-
-    /// The same with a/c1 at hand.
-    pub(crate) fn lag_of(&self, contact_wave_time: f64, response: &impl DiscResponse) -> f64 {
+    /// c of the radiation model in collision units: w = -c p' to first order, for any load; with a/c1 at hand.
+    pub fn lag(&self, contact_wave_time: f64, response: &impl DiscResponse) -> f64 {
         // phi (2/3) a J_p with the punch's J, which is the same for any disc
         // (the Hertz disc's mean deflection has another static part and another relaxation, the same product)
         let centre = response.disc().static_compliance * response.disc().relaxation_time

@@ -12,8 +12,7 @@
 //! let (collision, settings) = (Collision::new(&block, &ball, 1.0), Settings::default());
 //! let mut solver = Solver::new(&Exact);
 //! let solved = solver.solve(&collision, &settings)?;
-//! let radiated = solver.radiated(&collision, &settings, &solved)?;
-//! let results = Results::new(&collision, &settings, &solved, radiated);
+//! let results = Results::new(&collision, &settings, &solved);
 //! // 0.66 % of the kinetic energy leaves as waves
 //! assert!((results.loss - 0.00663).abs() < 1e-5, "{}", results.loss);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
@@ -52,7 +51,7 @@ pub use bodies::{GRAVITY_M_S2, HalfSpace, Striker, fall_velocity_m_s};
 pub use collision::{CONSTRAINT, Collision};
 pub use disc::explicit::march_explicit;
 pub use disc::history::History;
-pub use disc::implicit::{Workspace, march_implicit};
+pub use disc::implicit::march_implicit;
 pub use disc::refine::{Accuracy, Found, refine, solve_disc};
 pub use disc::response::{DiscResponse, ResponseTable};
 pub use disc::weights::Weights;

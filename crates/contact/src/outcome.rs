@@ -19,14 +19,14 @@
 //! So the numbers of a row depend neither on the order of rows nor on shards, threads and interruptions.
 
 use crate::collision::Collision;
-use crate::disc::implicit::Workspace;
+use crate::disc::history::History;
 use crate::disc::refine::{Accuracy, solve_disc};
 use crate::disc::response::DiscResponse;
 use crate::disc::{FixedDisc, stability};
 use crate::energy;
 use crate::growing::solve_growing;
 use crate::growing::waves::GrowingContact;
-use crate::model::choose::{Family, Plan, disc_radius_m};
+use crate::model::choose::{Family, Plan, disc_of};
 use crate::model::{Plasticity, Rung, Scheme, Settings, StaticShare};
 use crate::numeric::series::Series;
 use crate::plastic::Yielding;
@@ -104,9 +104,8 @@ impl Place {
         }
         let (nu, memory) = (collision.target_poisson_ratio, plan.groups.memory);
         let (fixed, groups) = if on_disc {
-            let radius_m = disc_radius_m(settings, collision);
-            let (coupling, _) = collision.disc_groups(response.disc().static_compliance, radius_m);
-            ([nu, 0.0], [memory / response.disc().memory, coupling])
+            let disc = disc_of(settings, collision, response);
+            ([nu, 0.0], [memory / response.disc().memory, disc.coupling])
         } else {
             let fixed = [nu, collision.target_share()];
             (fixed, [memory / response.punch_memory(), 1.0])
@@ -215,11 +214,10 @@ impl Cell {
         let [tolerance, of_loss] = self.tolerances.map(f64::from_bits);
         let of_loss = Some(of_loss).filter(|&asked| asked > 0.0);
         let asked = Accuracy::of_contact(FINER * tolerance, of_loss.map(|asked| FINER * asked));
-        let (mut workspace, mut left) = (Workspace::default(), 0.0_f64);
+        let (mut history, mut left) = (History::default(), 0.0_f64);
         let mut march = |inside: [f64; 2]| {
             let groups = self.groups(inside);
-            let (summary, radiated, error) =
-                self.march(groups, asked, responses, &mut workspace)?;
+            let (summary, radiated, error) = self.march(groups, asked, responses, &mut history)?;
             left = left.max(error);
             Some((summary, radiated, groups))
         };
@@ -253,7 +251,7 @@ impl Cell {
         [first, second]: [f64; 2],
         asked: Accuracy,
         responses: &S,
-        workspace: &mut Workspace,
+        history: &mut History,
     ) -> Option<(Summary, f64, f64)> {
         let fixed = self.fixed.map(f64::from_bits);
         let share = match self.family {
@@ -291,11 +289,10 @@ impl Cell {
             wave_time: first,
             share,
         };
-        stability::check(&impact, workspace).ok()?;
-        let found = solve_disc(workspace, &impact, None, asked).ok()?;
+        stability::check(&impact, history).ok()?;
+        let found = solve_disc(history, &impact, None, asked).ok()?;
         let summary = found.summary;
-        let radiated =
-            || energy::radiated(&impact, &*of_mean, &workspace.history, summary.contact_time);
+        let radiated = || energy::radiated(&impact, &*of_mean, history, summary.contact_time);
         (summary.contacts == 1).then(|| (summary, radiated(), found.error))
     }
 }

@@ -104,8 +104,8 @@ impl Plastic {
 }
 
 impl Results {
-    /// Of a contact solved; `radiated` is relative to the kinetic energy before.
-    pub fn new(collision: &Collision, settings: &Settings, solved: &Solved, radiated: f64) -> Self {
+    /// Of a contact solved.
+    pub fn new(collision: &Collision, settings: &Settings, solved: &Solved) -> Self {
         let (s, units) = (&solved.summary, collision.units());
         let peak_force_n = s.peak_force * units.force_n;
         let plastic_work = solved.flow.map_or(0.0, |flow| flow.plastic_work);
@@ -132,8 +132,8 @@ impl Results {
             peak_deflection_m: s.peak_deflection * units.length_m,
             impulse_n_s: s.impulse * units.force_n * units.time_s,
             initial_energy_j: collision.energy_j(),
-            radiated_energy_j: radiated * collision.energy_j(),
-            energy_residual: 1.0 - rebound - (radiated + plastic_work),
+            radiated_energy_j: solved.radiated * collision.energy_j(),
+            energy_residual: 1.0 - rebound - (solved.radiated + plastic_work),
             contact_radius_m,
             disc_radius_m,
             loading: Loading::new(

@@ -5,10 +5,8 @@
 
 use crate::collision::Collision;
 use crate::disc::history::History;
-use crate::disc::implicit::Workspace;
 use crate::disc::refine::{Accuracy, Found, explicit, march_finely, solve_disc, stepped};
-use crate::disc::response::DiscResponse;
-use crate::disc::{FixedDisc, stability};
+use crate::disc::stability;
 use crate::energy::{radiated, work};
 use crate::error::{ContactError, MarchError};
 use crate::growing::equations::March;
@@ -21,7 +19,7 @@ use crate::law::area_dashpot::AreaDashpot;
 use crate::law::hertz;
 use crate::law::pulse::pulse;
 use crate::law::radiation::damped_force;
-use crate::model::choose::{Family, Plan, accuracy, disc_radius_m, plan};
+use crate::model::choose::{Family, Plan, accuracy, disc_of, plan};
 use crate::model::{Model, Rung, Scheme, Settings};
 use crate::outcome::{Outcomes, Place};
 use crate::plastic::quick::quick;
@@ -44,19 +42,27 @@ pub struct Solved {
     pub error: f64,
     /// Step of the finest march; none without a march.
     pub step: Option<f64>,
+    /// Work left in the half-space as waves, relative to the kinetic energy before.
+    ///
+    /// Where the contact was marched or followed it comes from the force and the half-space's waves, not from the momentum:
+    /// on a disc the work on the mean deflection, in a growing contact that on its punches. Within 1e-3 of itself at a
+    /// tolerance of 1e-4, 2e-5 at 1e-6; only a growing contact with a uniform step has the work of its march, of the
+    /// march's order. A closed form has its loss, a series of outcomes that of its marches.
+    pub radiated: f64,
     /// What has flowed; none of a contact that has not yielded.
     pub flow: Option<Flow>,
 }
 
 impl Plan {
-    fn solved(self, scheme: Option<Scheme>, found: Found, flow: Option<Flow>) -> Solved {
+    fn solved(self, scheme: Option<Scheme>, found: Found, radiated: f64) -> Solved {
         Solved {
             plan: self,
             scheme,
             summary: found.summary,
             error: found.error,
             step: found.step,
-            flow,
+            radiated,
+            flow: None,
         }
     }
 }
@@ -66,19 +72,17 @@ impl Plan {
 pub struct Solver<'a, S: Responses> {
     responses: &'a S,
     outcomes: Option<&'a Outcomes>,
-    workspace: Workspace,
-    /// What was made last, with the bits of its Poisson's ratio.
-    disc: Option<(u64, Arc<Arc<S::Disc>>)>,
+    /// Of the latest march.
+    history: History,
+    /// What was made last, with the bits of its Poisson's ratio and the deflection.
+    disc: Option<((u64, Deflection), Arc<Arc<S::Disc>>)>,
     waves: Option<(u64, Arc<Arc<PunchWaves>>)>,
     /// The contact solved last, where it was one that follows the load and was not marched.
     growing: Option<SolvedContact>,
-    /// What the contact solved last radiates, where it was taken from a series.
-    radiated: Option<f64>,
 }
 
-/// Samples over a contact of a history that was not marched, and of one that has its pieces too.
+/// Samples over a contact of a history that was not marched.
 const SAMPLES: f64 = 4096.0;
-const GROWING_SAMPLES: f64 = 256.0;
 
 /// Error of a contact with memory that yields over the estimate of one that does not: 1.3 at most on 80 random pairs of metals.
 const YIELDS: f64 = 2.0;
@@ -89,11 +93,10 @@ impl<'a, S: Responses> Solver<'a, S> {
         Self {
             responses,
             outcomes: None,
-            workspace: Workspace::default(),
+            history: History::default(),
             disc: None,
             waves: None,
             growing: None,
-            radiated: None,
         }
     }
 
@@ -151,18 +154,18 @@ impl<'a, S: Responses> Solver<'a, S> {
         let solved = self.solve_to(collision, settings, asked)?;
         let duration = solved.summary.contact_time;
         let mut history = match (&self.growing, solved.scheme) {
-            (Some(growing), _) => History::of_pieces(growing, duration / GROWING_SAMPLES),
+            (Some(growing), _) => History::of_pieces(growing),
             (None, Some(Scheme::Implicit))
                 if solved.plan.model == Model::Wave && settings.step_s.is_none() =>
             {
                 let disc = self.disc(collision.target_poisson_ratio, settings.deflection)?;
-                let impact = disc_of(collision, settings, &**disc);
+                let impact = disc_of(settings, collision, &**disc);
                 march_finely(&impact, duration, settings.tolerance)
                     .ok()
                     .filter(|fine| fine.error <= solved.error.max(settings.tolerance))
-                    .unwrap_or_else(|| self.workspace.history.clone())
+                    .unwrap_or_else(|| self.history.clone())
             }
-            (None, Some(_)) => self.workspace.history.clone(),
+            (None, Some(_)) => self.history.clone(),
             (None, None) if solved.plan.model == Model::AreaDashpot => {
                 self.dashpot(collision)?.history(duration / SAMPLES)
             }
@@ -177,46 +180,6 @@ impl<'a, S: Responses> Solver<'a, S> {
         Ok((solved, history))
     }
 
-    /// Work that the contact solved last has left in the half-space as waves, relative to the kinetic energy before.
-    ///
-    /// Where it was marched or followed it comes from the force and the half-space's waves, not from the momentum:
-    /// on a disc the work on the mean deflection, in a growing contact that on its punches. Within 1e-3 of itself at a
-    /// tolerance of 1e-4, 2e-5 at 1e-6; only a growing contact with a uniform step has the work of its march, of the
-    /// march's order. A closed form has its loss, a series of outcomes that of its marches.
-    ///
-    /// # Errors
-    /// [`DomainError`] for a Poisson's ratio outside the physics.
-    pub fn radiated(
-        &mut self,
-        collision: &Collision,
-        settings: &Settings,
-        solved: &Solved,
-    ) -> Result<f64, DomainError> {
-        if let Some(flow) = &solved.flow {
-            return Ok(flow.radiated);
-        }
-        Ok(match (solved.plan.model.row(), solved.scheme) {
-            (_, None) => self.radiated.unwrap_or(solved.summary.loss),
-            ((_, false), Some(_)) => {
-                let waves = self.waves(collision.target_poisson_ratio)?;
-                let contact = collision.growing_contact(&waves);
-                let history = &self.workspace.history;
-                match &self.growing {
-                    Some(growing) => work_on_half_space(&contact, growing, settings.tolerance),
-                    None => work(&history.force, &history.deflection),
-                }
-            }
-            ((_, true), Some(_)) => {
-                let ratio = collision.target_poisson_ratio;
-                let mean = self.responses.disc(ratio, Deflection::Mean)?;
-                let own = self.disc(ratio, settings.deflection)?;
-                let impact = disc_of(collision, settings, &**own);
-                let history = &self.workspace.history;
-                radiated(&impact, &*mean, history, solved.summary.contact_time)
-            }
-        })
-    }
-
     fn solve_to(
         &mut self,
         collision: &Collision,
@@ -227,7 +190,7 @@ impl<'a, S: Responses> Solver<'a, S> {
         let ratio = collision.target_poisson_ratio;
         let disc = self.disc(ratio, settings.deflection)?;
         self.growing = None;
-        self.radiated = None;
+        let impact = || disc_of(settings, collision, &**disc);
         if let Some(yielding) = collision.yielding(settings)?.filter(Yielding::begins) {
             let plan = plan(settings, collision, &**disc, true);
             if let Some(solved) = self.yielded(collision, settings, &yielding, plan, &asked)? {
@@ -239,36 +202,40 @@ impl<'a, S: Responses> Solver<'a, S> {
             && let Some(place) = Place::of(&plan, collision, settings, &**disc)
             && let Some((summary, radiated, error)) = outcomes.at(&place, self.responses)
         {
-            self.radiated = Some(radiated);
-            return Ok(plan.solved(None, Found::unmarched(summary, error), None));
+            return Ok(plan.solved(None, Found::unmarched(summary, error), radiated));
         }
         let in_times = |step_s: f64| step_s / collision.units().time_s;
         let step = settings.step_s.map(in_times);
         let is_disc = matches!(plan.groups.family, Family::Full | Family::Dynamic);
         let is_wave = matches!(settings.model, Model::Wave | Model::Auto);
         if is_disc && is_wave && settings.scheme == Scheme::Implicit {
-            let impact = disc_of(collision, settings, &**disc);
-            stability::check(&impact, &mut self.workspace)?;
+            stability::check(&impact(), &mut self.history)?;
         }
-        let (scheme, found) = match (plan.model.row(), settings.scheme) {
-            ((Rung::QuasiStatic | Rung::Radiation, _), _) => (None, plan.closed_form()?),
-            ((Rung::AreaDashpot, _), _) => (None, plan.dashpot(&self.dashpot(collision)?)?),
+        let (scheme, found, work) = match (plan.model.row(), settings.scheme) {
+            ((Rung::QuasiStatic | Rung::Radiation, _), _) => (None, plan.closed_form()?, None),
+            ((Rung::AreaDashpot, _), _) => (None, plan.dashpot(&self.dashpot(collision)?)?, None),
             ((Rung::FullMemory, false), _) => {
-                (Some(Scheme::Implicit), self.grow(collision, step, asked)?)
+                let (found, work) = self.grow(collision, step, asked)?;
+                (Some(Scheme::Implicit), found, Some(work))
             }
-            ((Rung::FullMemory, true), Scheme::Implicit) => {
-                let impact = disc_of(collision, settings, &**disc);
-                let found = solve_disc(&mut self.workspace, &impact, step, asked)?;
-                (Some(Scheme::Implicit), found)
-            }
-            ((Rung::FullMemory, true), Scheme::Explicit) => {
-                let response = SurfaceResponse::new(&Medium::new(ratio)?, settings.deflection);
-                let impact = disc_of(collision, settings, &response);
-                let found = explicit(&mut self.workspace, &impact, step)?;
-                (Some(Scheme::Explicit), found)
+            ((Rung::FullMemory, true), scheme) => {
+                let room = &mut self.history;
+                let found = match scheme {
+                    Scheme::Implicit => solve_disc(room, &impact(), step, asked)?,
+                    Scheme::Explicit => {
+                        let medium = Medium::new(ratio)?;
+                        let response = SurfaceResponse::new(&medium, settings.deflection);
+                        explicit(room, &disc_of(settings, collision, &response), step)?
+                    }
+                };
+                let mean = self.responses.disc(ratio, Deflection::Mean)?;
+                let duration = found.summary.contact_time;
+                let work = radiated(&impact(), &*mean, &self.history, duration);
+                (Some(scheme), found, Some(work))
             }
         };
-        Ok(plan.solved(scheme, found, None))
+        let radiated = work.unwrap_or(found.summary.loss);
+        Ok(plan.solved(scheme, found, radiated))
     }
 
     /// A contact that yields; nothing where waves keep it from doing so.
@@ -297,25 +264,23 @@ impl<'a, S: Responses> Solver<'a, S> {
             Rung::Radiation | Rung::AreaDashpot | Rung::FullMemory => plan.groups.lag,
         };
         // the history of a single impact has its results too
-        let mut results = None;
-        if !memory && asked.deflection.is_none() {
-            let quickly = || quick(yielding, lag).map(|found| (found, 0.0));
-            let series = Place::of_fit(&plan, yielding, settings)
-                .and_then(|place| self.outcomes?.at(&place, self.responses));
-            let fitted = series.map(|(summary, radiated, error)| {
-                let works = [summary.loss - radiated, radiated];
-                let flow = Flow::new(yielding, summary.peak_displacement.sqrt(), works);
-                ((summary, flow), error)
-            });
-            results = fitted.or_else(quickly);
-        }
+        let alone = !memory && asked.deflection.is_none();
+        let series = || {
+            let place = Place::of_fit(&plan, yielding, settings)?;
+            let (summary, radiated, error) = self.outcomes?.at(&place, self.responses)?;
+            let works = [summary.loss - radiated, radiated];
+            let flow = Flow::new(yielding, summary.peak_displacement.sqrt(), works);
+            Some((summary, flow, error))
+        };
+        let quickly = || quick(yielding, lag).map(|(summary, flow)| (summary, flow, 0.0));
+        let results = alone.then(|| series().or_else(quickly)).flatten();
         if !memory && results.is_none() {
             let lost = |_| ContactError::NotFollowed;
             self.growing = March::damped(lag).follow(yielding).map_err(lost)?;
         }
         let followed = self.growing.as_ref();
-        let pieces = followed.and_then(|one| Some(((one.summary, one.flow?), 0.0)));
-        let Some(((summary, flow), of_series)) = results.or(pieces) else {
+        let pieces = followed.and_then(|one| Some((one.summary, one.flow?, 0.0)));
+        let Some((summary, flow, of_series)) = results.or(pieces) else {
             return Ok(None);
         };
         let error = match rung {
@@ -325,7 +290,10 @@ impl<'a, S: Responses> Solver<'a, S> {
         };
         let found = Found::unmarched(summary, error.min(1.0));
         let scheme = memory.then_some(Scheme::Implicit);
-        Ok(Some(plan.solved(scheme, found, Some(flow))))
+        Ok(Some(Solved {
+            flow: Some(flow),
+            ..plan.solved(scheme, found, flow.radiated)
+        }))
     }
 
     fn disc(
@@ -333,40 +301,38 @@ impl<'a, S: Responses> Solver<'a, S> {
         ratio: f64,
         deflection: Deflection,
     ) -> Result<Arc<Arc<S::Disc>>, DomainError> {
-        self.disc
-            .take_if(|(_, disc)| disc.disc().deflection != deflection);
-        remembered(&mut self.disc, ratio, || {
-            self.responses.disc(ratio, deflection)
-        })
+        let make = || self.responses.disc(ratio, deflection);
+        remembered(&mut self.disc, (ratio.to_bits(), deflection), make)
     }
 
     fn waves(&mut self, ratio: f64) -> Result<Arc<Arc<PunchWaves>>, DomainError> {
-        remembered(&mut self.waves, ratio, || self.responses.waves(ratio))
+        let bits = ratio.to_bits();
+        remembered(&mut self.waves, bits, || self.responses.waves(ratio))
     }
 
     /// The terms of the expansion in the memory of a contact that follows the load.
     fn dashpot(&mut self, collision: &Collision) -> Result<AreaDashpot, DomainError> {
         let waves = self.waves(collision.target_poisson_ratio)?;
-        let (target_share, wave_time) = (collision.target_share(), collision.contact_wave_time());
-        Ok(AreaDashpot::new(target_share, wave_time, &waves))
+        Ok(AreaDashpot::new(&collision.growing_contact(&waves)))
     }
 
     /// A contact that follows the load: by polynomial pieces, and with a uniform step where one is given or they do not
-    /// serve, with a memory as long as the contact, or a second contact.
+    /// serve, with a memory as long as the contact, or a second contact. With it what it radiates.
     fn grow(
         &mut self,
         collision: &Collision,
         step: Option<f64>,
         asked: Accuracy,
-    ) -> Result<Found, ContactError> {
+    ) -> Result<(Found, f64), ContactError> {
         let waves = self.waves(collision.target_poisson_ratio)?;
         let contact = collision.growing_contact(&waves);
         if step.is_none() {
             match solve_growing(&contact, &asked) {
                 Ok(solved) => {
                     let found = Found::unmarched(solved.summary, solved.estimates.contact());
+                    let radiated = work_on_half_space(&contact, &solved, asked.tolerance);
                     self.growing = Some(solved);
-                    return Ok(found);
+                    return Ok((found, radiated));
                 }
                 // the march has other limits: a memory far shorter than the contact is one to it
                 Err(
@@ -377,35 +343,27 @@ impl<'a, S: Responses> Solver<'a, S> {
                 Err(error) => return Err(error.into()),
             }
         }
-        let march = |step, room: &mut Workspace| {
-            room.history = march_growing(&contact, step)?;
+        let march = |step, room: &mut History| {
+            *room = march_growing(&contact, step)?;
             Ok(())
         };
-        let (room, begin) = (&mut self.workspace, (hertz::CONTACT_TIME, 1.0));
-        Ok(stepped(room, step, begin, asked, march)?)
+        let (room, begin) = (&mut self.history, (hertz::CONTACT_TIME, 1.0));
+        let found = stepped(room, step, begin, asked, march)?;
+        Ok((found, work(&room.force, &room.deflection)))
     }
 }
 
 /// What belongs to a Poisson's ratio, made where the latest is another's.
-fn remembered<T>(
-    latest: &mut Option<(u64, Arc<T>)>,
-    ratio: f64,
+fn remembered<K: PartialEq, T>(
+    latest: &mut Option<(K, Arc<T>)>,
+    of: K,
     make: impl FnOnce() -> Result<T, DomainError>,
 ) -> Result<Arc<T>, DomainError> {
     match latest {
-        Some((bits, made)) if *bits == ratio.to_bits() => Ok(Arc::clone(made)),
+        Some((known, made)) if *known == of => Ok(Arc::clone(made)),
         Some(_) | None => {
-            let (_, made) = latest.insert((ratio.to_bits(), Arc::new(make()?)));
+            let (_, made) = latest.insert((of, Arc::new(make()?)));
             Ok(Arc::clone(made))
         }
     }
-}
-
-fn disc_of<'r, R: DiscResponse>(
-    collision: &Collision,
-    settings: &Settings,
-    response: &'r R,
-) -> FixedDisc<'r, R> {
-    let radius_m = disc_radius_m(settings, collision);
-    collision.fixed_disc(response, radius_m, settings.static_share)
 }

@@ -91,8 +91,7 @@ impl Row {
         let (collision, settings) = (self.collision(), self.settings(tolerance));
         let mut solver = Solver::new(&Exact);
         let (solved, history) = solver.solve_with_history(&collision, &settings).unwrap();
-        let radiated = solver.radiated(&collision, &settings, &solved).unwrap();
-        let results = Results::new(&collision, &settings, &solved, radiated);
+        let results = Results::new(&collision, &settings, &solved);
         (results, history)
     }
 

@@ -23,8 +23,7 @@ fn solve(collision: &Collision, model: Model) -> Result<[f64; 9], ContactError> 
     };
     let mut solver = Solver::new(&Exact);
     let solved = solver.solve(collision, &settings)?;
-    let radiated = solver.radiated(collision, &settings, &solved).unwrap();
-    let r = Results::new(collision, &settings, &solved, radiated);
+    let r = Results::new(collision, &settings, &solved);
     Ok([
         r.peak_force_n,
         r.contact_time_s,

@@ -59,7 +59,7 @@ fn worst(row: &Row) -> f64 {
     let mut solver = Solver::new(&Exact);
     let (collision, settings) = (&row.collision, &row.settings);
     let (solved, _) = solver.solve_with_history(collision, settings).unwrap();
-    let found = Results::new(collision, settings, &solved, 0.0);
+    let found = Results::new(collision, settings, &solved);
     [
         found.peak_force_n / row.peak_force_n,
         found.contact_time_s / row.contact_time_s,

@@ -8,8 +8,8 @@ mod support;
 
 use contact::law::area_dashpot::{AreaDashpot, left_out};
 use contact::{
-    Accuracy, GrowingContact, History, MarchError, PunchWaves, SolvedContact, solve_growing,
-    work_on_half_space,
+    Accuracy, GrowingContact, History, MarchError, PunchWaves, Resampler, SolvedContact,
+    solve_growing, work_on_half_space,
 };
 use halfspace::Medium;
 use rayon::prelude::*;
@@ -24,17 +24,19 @@ struct Case {
     wave_time: f64,
 }
 
+impl Case {
+    fn contact<'a>(&self, waves: &'a PunchWaves) -> GrowingContact<'a> {
+        GrowingContact {
+            waves,
+            target_share: self.target_share,
+            wave_time: self.wave_time,
+        }
+    }
+}
+
 fn solve(case: &Case, accuracy: &Accuracy) -> Result<SolvedContact, MarchError> {
     let waves = PunchWaves::new(&Medium::new(case.poisson_ratio).unwrap());
-    let (target_share, wave_time) = (case.target_share, case.wave_time);
-    solve_growing(
-        &GrowingContact {
-            waves: &waves,
-            target_share,
-            wave_time,
-        },
-        accuracy,
-    )
+    solve_growing(&case.contact(&waves), accuracy)
 }
 
 /// Peak force, its time, contact time, restitution, loss, displacement, deflection, impulse.
@@ -197,9 +199,9 @@ fn the_history_is_as_accurate_as_the_results() {
         }
         assert!(solved.radius(0.0).powi(3) < 1e-30 && solved.force(0.0) == [0.0; 3]);
         assert!(solved.radius(-1e-9) == 0.0 && solved.radius(1.01 * end) == 0.0);
-        let samples = History::of_pieces(&solved, 0.01);
-        assert!((samples.force[100] - exact.state(1.0).force).abs() < 3.0 * tolerance);
-        assert_eq!(*samples.force.last().unwrap(), 0.0);
+        let read = Resampler::new(History::of_pieces(&solved));
+        assert!((read.force(1.0)[0] - exact.state(1.0).force).abs() < 3.0 * tolerance);
+        assert_eq!(read.force(read.end())[0], 0.0);
     }
 }
 
@@ -291,7 +293,7 @@ fn the_area_dashpot_keeps_its_bounds() {
         .map(|index| {
             let case = random_scene(5000 + index);
             let waves = PunchWaves::new(&Medium::new(case.poisson_ratio).unwrap());
-            let terms = AreaDashpot::new(case.target_share, case.wave_time, &waves);
+            let terms = AreaDashpot::new(&case.contact(&waves));
             let bounds = left_out(terms.lag, waves.memory * case.wave_time);
             let exact = solve(&case, &Accuracy::of_contact(3e-9, None)).unwrap();
             let (a, b) = (terms.summary(), exact.summary);

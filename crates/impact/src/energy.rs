@@ -100,17 +100,13 @@ impl EnergySeries {
     pub(crate) fn of_record(excitation: &Excitation, grid: &Grid, force_n: &[f64]) -> Self {
         let static_m_per_n = static_mean_m_per_n(excitation);
         let (mut stored_j, mut radiated_j) = (Vec::new(), Vec::new());
-        for (run, force_n) in grid.split(force_n) {
-            let lag_m = excitation.deflection_m(
-                Deflection::Mean,
-                StaticShare::Dynamic,
-                grid.step_s,
-                run.base_n,
-                force_n,
-            );
+        let (disc, share) = (Deflection::Mean, StaticShare::Dynamic);
+        let lag_m = grid.deflection_m(excitation, disc, share, force_n);
+        let runs = grid.split(force_n).into_iter().zip(grid.split(&lag_m));
+        for ((run, force_n), (_, lag_m)) in runs {
             // from the rest before the run, between which and the run before nothing is done
             let force_n = [&[run.base_n], force_n].concat();
-            let lag_m = [&[0.0], &lag_m[..]].concat();
+            let lag_m = [&[0.0], lag_m].concat();
             let before: f64 = radiated_j.last().copied().unwrap_or(0.0);
             let work_j = work_until_j(&force_n, &lag_m);
             radiated_j.extend(work_j.iter().skip(1).map(|work| before + work));

@@ -12,7 +12,7 @@ use contact::{
     CollisionUnits, HalfSpace, History, KernelUnits, Resampler, SolvedContact, StaticShare,
     WaveSpeeds, Weights,
 };
-use halfspace::{Deflection, DomainError, Medium, SurfaceResponse, gauss};
+use halfspace::{Deflection, DomainError, Medium, SurfaceResponse, bisected, gauss};
 
 /// Consecutive samples.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -237,13 +237,7 @@ impl Excitation {
 
     /// The force at a time, in N.
     pub fn force_n(&self, time_s: f64) -> f64 {
-        match &self.force {
-            Force::Contact(contact) => {
-                let units = &contact.units;
-                contact.samples.force_alone(time_s / units.time_s) * units.force_n
-            }
-            Force::Record(record) => record.at(time_s),
-        }
+        self.force_and_rate(time_s)[0]
     }
 
     /// Hertz's pressures that together stand for the one at a time: two under a contact that yields and whose pressure is
@@ -303,6 +297,7 @@ impl Excitation {
     }
 
     /// The force in N and its rate in N/s at a time; NaN for that of a record, which jumps.
+    #[inline]
     pub(crate) fn force_and_rate(&self, time_s: f64) -> [f64; 2] {
         match &self.force {
             Force::Contact(contact) => {
@@ -332,42 +327,30 @@ impl Excitation {
         const PLAIN: usize = 4;
         const GRADED: usize = 12;
         let at = |x: f64| self.force_n(from_s + (x + 0.5) * step_s);
+        let node = |(x, weight)| Node {
+            x,
+            weight,
+            force: at(x),
+        };
         let ends = [at(-0.5), at(0.5)];
         let [low, high] = [ends[0].min(ends[1]), ends[0].max(ends[1])];
         if high <= 0.0 && at(0.0) <= 0.0 {
             return;
         }
         if low > STEEP * high {
-            let plain = gauss::rule(PLAIN).on(-0.5, 0.5);
-            nodes.extend(plain.map(|(x, weight)| Node {
-                x,
-                weight,
-                force: at(x),
-            }));
+            nodes.extend(gauss::rule(PLAIN).on(-0.5, 0.5).map(node));
             return;
         }
         // from where the force is zero, or from the lower end
         let rising = ends[0] < ends[1];
-        let [mut zero, mut full] = if rising { [-0.5, 0.5] } else { [0.5, -0.5] };
-        let end = full;
+        let [mut zero, end] = if rising { [-0.5, 0.5] } else { [0.5, -0.5] };
         if low <= 0.0 {
-            for _ in 0..60 {
-                let middle = 0.5 * (zero + full);
-                match at(middle) > 0.0 {
-                    true => full = middle,
-                    false => zero = middle,
-                }
-            }
+            zero = bisected(zero, end, |x| at(x) <= 0.0);
         }
         let (length, first) = (end - zero, nodes.len());
-        for (u, weight) in gauss::rule(GRADED).on(0.0, 1.0) {
-            let x = zero + length * u * u;
-            nodes.push(Node {
-                x,
-                weight: 2.0 * u * weight * length.abs(),
-                force: at(x),
-            });
-        }
+        let graded = gauss::rule(GRADED).on(0.0, 1.0);
+        let graded = graded.map(|(u, w)| (zero + length * u * u, 2.0 * u * w * length.abs()));
+        nodes.extend(graded.map(node));
         if length < 0.0 {
             nodes[first..].reverse();
         }
@@ -411,10 +394,8 @@ impl Excitation {
 
     /// Length in s of a pulse that is as steep as the force: its duration for a contact.
     pub(crate) fn pulse_s(&self) -> f64 {
-        match &self.force {
-            Force::Contact(contact) => contact.duration_s,
-            Force::Record(record) => record.pulse_s(),
-        }
+        self.record()
+            .map_or_else(|| self.end_s(), ForceRecord::pulse_s)
     }
 
     /// What a table's error depends on, with times in r0/c1 of discs of a radius `over` the largest.

@@ -4,6 +4,8 @@ use crate::error::ImpactError;
 use crate::excitation::{Excitation, Run};
 use crate::kernels::KernelSource;
 use crate::scene::Scene;
+use contact::StaticShare;
+use halfspace::Deflection;
 
 /// Samples of the output at most.
 const MOST_SAMPLES: usize = 4_000_000;
@@ -195,6 +197,20 @@ impl Grid {
         self.runs
             .iter()
             .flat_map(|run| (0..run.count).map(|i| run.start_s + i as f64 * self.step_s))
+    }
+
+    /// Deflection of the disc in m at all samples of the force, with a share of its static part.
+    pub(crate) fn deflection_m(
+        &self,
+        excitation: &Excitation,
+        deflection: Deflection,
+        share: StaticShare,
+        force_n: &[f64],
+    ) -> Vec<f64> {
+        let of = |(run, force_n): (Run, &[f64])| {
+            excitation.deflection_m(deflection, share, self.step_s, run.base_n, force_n)
+        };
+        self.split(force_n).into_iter().flat_map(of).collect()
     }
 
     /// The samples of each run, of samples of all.

@@ -68,8 +68,7 @@ pub(crate) fn solve<S: Responses>(
 ) -> Result<Run, ContactError> {
     collision.check_step(settings)?;
     let (solved, history) = solver.solve_with_history(collision, settings)?;
-    let radiated = solver.radiated(collision, settings, &solved)?;
-    let results = Results::new(collision, settings, &solved, radiated).checked()?;
+    let results = Results::new(collision, settings, &solved).checked()?;
     let radius = match fixed_disc_m(solved.plan.model, settings, collision) {
         Some(radius_m) => PressureRadius::Fixed(radius_m),
         None => PressureRadius::Following {

@@ -6,7 +6,7 @@ use crate::error::ImpactError;
 use crate::evaluator::convolve::{Method, rises};
 use crate::evaluator::projection::Projection;
 use crate::evaluator::{Asked, Evaluator};
-use crate::excitation::{Excitation, Run};
+use crate::excitation::Excitation;
 use crate::fields::probes::{at_probes, frames, on_section};
 use crate::grid::{Grid, Wanted};
 use crate::impact::Impact;
@@ -16,7 +16,6 @@ use crate::outcome::{Cause, FieldsUsed, Outcome, RecordResults, Series, StrikerS
 use crate::record::ForceRecord;
 use crate::scene::{Load, Scene, Strike};
 use contact::{Model, Scheme, StaticShare};
-use halfspace::Deflection;
 
 /// Contact radii within which the fields are not those of a yielding block.
 const CLOSE: f64 = 2.0;
@@ -86,7 +85,7 @@ fn of_strike(
     if (plan.model, scheme) == (Model::Wave, Some(Scheme::Implicit)) {
         // anew on the output's step: the march's own step may be coarser than the disc's memory
         let (disc, share) = (scene.settings.deflection, scene.settings.static_share);
-        deflect_disc(excitation, &grid, series, disc, share);
+        series.deflection_m = grid.deflection_m(excitation, disc, share, &series.force_n);
     }
     if run.solved.flow.is_some() {
         let beside = scene.beside(CLOSE * run.results.contact_radius_m);
@@ -120,7 +119,7 @@ fn of_record(
     let (grid, mut outcome) = begin(scene, kernels, allowance, &excitation, (cause, Vec::new()))?;
     let (series, warnings) = (&mut outcome.series, &mut outcome.warnings);
     let (disc, share) = (scene.settings.deflection, StaticShare::Full);
-    deflect_disc(&excitation, &grid, series, disc, share);
+    series.deflection_m = grid.deflection_m(&excitation, disc, share, &series.force_n);
     let energy = EnergySeries::of_record(&excitation, &grid, &series.force_n);
     warnings.extend(record.doubts());
     let left_n = left_n(&excitation, &grid, &series.force_n);
@@ -243,21 +242,6 @@ fn add_fields(
         convolution,
     });
     Ok(())
-}
-
-/// Takes the deflection of the disc of a fixed radius for that of the series.
-fn deflect_disc(
-    excitation: &Excitation,
-    grid: &Grid,
-    series: &mut Series,
-    disc: Deflection,
-    share: StaticShare,
-) {
-    let of = |(run, force_n): (Run, &[f64])| {
-        excitation.deflection_m(disc, share, grid.step_s, run.base_n, force_n)
-    };
-    let runs = grid.split(&series.force_n).into_iter();
-    series.deflection_m = runs.flat_map(of).collect();
 }
 
 /// The most in N that the cells leave of the force.

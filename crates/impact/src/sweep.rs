@@ -26,10 +26,9 @@ pub fn collide(
 ) -> Result<Observed, ContactError> {
     collision.check_step(settings)?;
     let solved = solver.solve(collision, settings)?;
-    let radiated = solver.radiated(collision, settings, &solved)?;
     Ok(Observed {
         model: solved.plan.model,
-        results: Results::new(collision, settings, &solved, radiated).checked()?,
+        results: Results::new(collision, settings, &solved).checked()?,
         peaks: None,
     })
 }

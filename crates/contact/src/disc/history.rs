@@ -16,7 +16,7 @@ pub(crate) struct Separation {
     pub(crate) impulse: f64,
 }
 
-/// Samples of a march, a step apart, from the first touch until the striker has left for good.
+/// Samples of a march, a step apart, from the first touch until the striker has left for good, or a contact solved by pieces.
 ///
 /// In collision units.
 #[derive(Debug, Clone, Default)]
@@ -45,7 +45,7 @@ pub struct History {
     /// at the end over the square of its velocity there, and their duration over the velocity; zeros where they are long
     /// enough.
     pub(crate) end_layer: Option<[f64; 2]>,
-    /// The contact itself where it was solved by pieces, of which these are samples.
+    /// The contact itself where it was solved by pieces; there are no samples then.
     pub pieces: Option<Arc<SolvedContact>>,
     /// Estimated error of the force at any instant, over the largest; infinite where nobody has estimated it.
     pub error: f64,
@@ -76,23 +76,13 @@ impl History {
         };
     }
 
-    /// Samples of a contact that was solved by pieces, a step apart up to the first after it, with the pieces themselves.
-    ///
-    /// After the contact the deflection is not followed: that sample holds the one at the end.
-    pub fn of_pieces(solved: &SolvedContact, step: f64) -> Self {
-        let contact_time = solved.summary.contact_time;
-        let mut history = Self::at_touch(step);
-        let times = (1..).map(|i| f64::from(i) * step);
-        for time in times.take_while(|time| *time < contact_time) {
-            let now = solved.state(time);
-            history.push(now.force, now.displacement, now.deflection);
+    /// A contact that was solved by pieces: no samples, which [`Resampler`](crate::Resampler) reads of it at any time.
+    pub fn of_pieces(solved: &SolvedContact) -> Self {
+        Self {
+            error: solved.estimates.force,
+            pieces: Some(Arc::new(solved.clone())),
+            ..Self::default()
         }
-        let beyond = solved.state(history.force.len() as f64 * step);
-        let last = solved.state(contact_time).displacement;
-        history.push(0.0, beyond.displacement, last);
-        history.error = solved.estimates.force;
-        history.pieces = Some(Arc::new(solved.clone()));
-        history
     }
 
     #[inline]

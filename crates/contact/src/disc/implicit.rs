@@ -26,27 +26,20 @@ pub fn march_implicit(
     impact: &FixedDisc<'_, impl DiscResponse>,
     step: f64,
 ) -> Result<History, MarchError> {
-    let mut workspace = Workspace::default();
-    march_into(&mut workspace, impact, step)?;
-    Ok(workspace.history)
+    let mut history = History::default();
+    march_into(&mut history, impact, step)?;
+    Ok(history)
 }
 
-/// Weights and samples of the latest march: nothing is allocated once they are large enough.
-#[derive(Debug, Clone, Default)]
-pub struct Workspace {
-    pub(crate) weights: Weights,
-    pub(crate) history: History,
-}
-
-/// The same in the room of a workspace.
+/// The same in the room of another history: no samples are allocated once there is enough of it.
 pub(crate) fn march_into(
-    Workspace { weights, history }: &mut Workspace,
+    history: &mut History,
     impact: &FixedDisc<'_, impl DiscResponse>,
     step: f64,
 ) -> Result<(), MarchError> {
     // before the weights, which need one evaluation a cell
     let cells = memory_cells(impact.memory(), step)?;
-    weights.fill_for(impact, impact.response, step);
+    let weights = Weights::of(impact, impact.response, step);
     history.restart(step);
     let (coupling, unit) = (impact.coupling, impact.wave_time / step);
     let relaxation = Relaxation::of(impact.response, coupling, unit);
@@ -54,7 +47,7 @@ pub(crate) fn march_into(
     let elastic = coupling * (impact.share.factor() - newest_weight);
     let roots = starting_roots(step, elastic);
     let touch = Edge::touch(elastic.max(0.0), step);
-    let missed = missed(&relaxation, weights, &touch, &roots);
+    let missed = missed(&relaxation, &weights, &touch, &roots);
     let mut striker = StrikerMotion::new(step, elastic, &roots);
     let inertia = striker.newest_weight();
     history.start = striker.missed[0];

@@ -26,7 +26,7 @@ use halfspace::SurfaceResponse;
 pub const CENTRE_COUPLING: f64 = 5.0;
 
 /// An impact on a disc of fixed radius, in dimensionless groups; the response is exact, or tabulated where that is said.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct FixedDisc<'a, R = SurfaceResponse> {
     /// Step response of the deflection of the disc.
     pub response: &'a R,
@@ -37,14 +37,6 @@ pub struct FixedDisc<'a, R = SurfaceResponse> {
     /// Which part of the deflection enters.
     pub share: StaticShare,
 }
-
-impl<R> Clone for FixedDisc<'_, R> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<R> Copy for FixedDisc<'_, R> {}
 
 impl<R: DiscResponse> FixedDisc<'_, R> {
     /// Memory of the half-space in collision times.

@@ -3,7 +3,7 @@
 use crate::disc::FixedDisc;
 use crate::disc::explicit::march_explicit;
 use crate::disc::history::History;
-use crate::disc::implicit::{Workspace, march_implicit, march_into};
+use crate::disc::implicit::{march_implicit, march_into};
 use crate::disc::response::DiscResponse;
 use crate::error::MarchError;
 use crate::law::quasi_static::expected_contact_time;
@@ -210,7 +210,7 @@ impl Found {
 /// # Errors
 /// [`MarchError`].
 pub fn solve_disc(
-    workspace: &mut Workspace,
+    history: &mut History,
     impact: &FixedDisc<'_, impl DiscResponse>,
     step: Option<f64>,
     asked: Accuracy,
@@ -221,25 +221,25 @@ pub fn solve_disc(
         // the newest force is only just held by the contact law, and errors grow with it
         StaticShare::Dynamic => DYNAMIC_CAUTION,
     };
-    let march = |step, room: &mut Workspace| march_into(room, impact, step);
-    stepped(workspace, step, (duration, caution), asked, march)
+    let march = |step, room: &mut History| march_into(room, impact, step);
+    stepped(history, step, (duration, caution), asked, march)
 }
 
 /// A march with a step that is given, judged by one with half of it, or halved until the results are as accurate as asked.
 ///
 /// `duration` and `caution`: of the contact, roughly, and how many times the last change counts.
 ///
-/// The workspace keeps the history of the step that counts.
+/// The history is left as that of the step that counts.
 pub(crate) fn stepped(
-    workspace: &mut Workspace,
+    history: &mut History,
     step: Option<f64>,
     (duration, caution): (f64, f64),
     asked: Accuracy,
-    march: impl Fn(f64, &mut Workspace) -> Result<(), MarchError>,
+    march: impl Fn(f64, &mut History) -> Result<(), MarchError>,
 ) -> Result<Found, MarchError> {
     let mut run = |step: f64| {
-        march(step, workspace)?;
-        Summary::measured(&workspace.history)
+        march(step, history)?;
+        Summary::measured(history)
     };
     if let Some(step) = step {
         let (finer, _) = run(0.5 * step)?;
@@ -252,15 +252,15 @@ pub(crate) fn stepped(
 
 /// The explicit scheme and its error.
 pub(crate) fn explicit(
-    workspace: &mut Workspace,
+    history: &mut History,
     impact: &FixedDisc<'_, SurfaceResponse>,
     step: Option<f64>,
 ) -> Result<Found, MarchError> {
     let step =
         step.unwrap_or_else(|| expected_contact_time(impact.static_coupling()) / EXPLICIT_STEPS);
-    let (history, summary) = march_explicit(impact, step)?;
+    let (marched, summary) = march_explicit(impact, step)?;
     let (_, finer) = march_explicit(impact, 0.5 * step)?;
-    workspace.history = history;
+    *history = marched;
     // first order: the rest is as large as the change over one halving
     let error = 2.0 * summary.distance(&finer);
     Ok(Found::marched(summary, error, step))

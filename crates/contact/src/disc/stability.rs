@@ -19,7 +19,8 @@
 //! Theory: `docs/theory.md` (T42, T57).
 
 use crate::disc::FixedDisc;
-use crate::disc::implicit::{Workspace, march_into};
+use crate::disc::history::History;
+use crate::disc::implicit::march_into;
 use crate::disc::response::DiscResponse;
 use crate::error::{ContactError, MarchError};
 use crate::law::quasi_static::{largest_force, quasi_static};
@@ -47,7 +48,7 @@ const MARGIN: f64 = 0.975;
 /// waves.
 pub(crate) fn check(
     impact: &FixedDisc<'_, impl DiscResponse>,
-    workspace: &mut Workspace,
+    history: &mut History,
 ) -> Result<(), ContactError> {
     let (still, coupling) = (impact.static_coupling(), impact.coupling);
     let no_solution = |time| ContactError::from(MarchError::NoSolution { time, coupling });
@@ -68,8 +69,7 @@ pub(crate) fn check(
         });
     }
     let step = (impact.memory() / CELLS).min(springs.contact_time / STEPS);
-    march_into(workspace, impact, step)?;
-    let history = &workspace.history;
+    march_into(history, impact, step)?;
     match impact.share {
         StaticShare::Dynamic => {
             let largest = history.force.iter().copied().fold(0.0, f64::max);

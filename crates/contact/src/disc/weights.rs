@@ -16,7 +16,7 @@ use crate::disc::FixedDisc;
 use crate::disc::response::DiscResponse;
 
 /// The weights g_j of one step, newest first: as many as the memory has cells.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Weights {
     /// g_j.
     pub values: Vec<f64>,
@@ -26,9 +26,7 @@ impl Weights {
     /// For a force that is known at so many samples, which reach no older weights; `step` and `unit` = r0/c1 in the same
     /// unit of time.
     pub fn of_samples(response: &impl DiscResponse, step: f64, unit: f64, samples: usize) -> Self {
-        let mut weights = Self::default();
-        weights.fill(response, step / unit, f64::INFINITY, samples);
-        weights
+        Self::new(response, step / unit, f64::INFINITY, samples)
     }
 
     /// For the implicit march of an impact at a step in collision units; `response` is its own or that of another deflection
@@ -36,32 +34,18 @@ impl Weights {
     ///
     /// The deflection is coupling [p_n - sum_j g_j (p_{n-j} - p_{n-j-1})], without the first p_n for the dynamic share.
     pub fn of<R>(impact: &FixedDisc<'_, R>, response: &impl DiscResponse, step: f64) -> Self {
-        let mut weights = Self::default();
-        weights.fill_for(impact, response, step);
-        weights
-    }
-
-    /// The same in the place of whatever weights were held before.
-    pub(crate) fn fill_for<R>(
-        &mut self,
-        impact: &FixedDisc<'_, R>,
-        response: &impl DiscResponse,
-        step: f64,
-    ) {
         // Hertz's compliance is above 2/3; over the coupling and with a margin it is what 1 - 2 sum_j (-1)^j g_j, for the
         // full share, and 1 less without it, may fall below zero: how negative the compliance to an alternating force may
         // be before the march is unstable
         let slack = (0.5 / impact.coupling - (1.0 - impact.share.factor())).max(0.0);
-        self.fill(response, step / impact.wave_time, slack, usize::MAX);
+        Self::new(response, step / impact.wave_time, slack, usize::MAX)
     }
 
     /// For a step in r0/c1.
-    fn fill(&mut self, response: &impl DiscResponse, h: f64, slack: f64, samples: usize) {
+    fn new(response: &impl DiscResponse, h: f64, slack: f64, samples: usize) -> Self {
         let mut cell = response.cells(h);
         let cells = ((response.disc().memory / h).ceil() as usize).min(samples.saturating_add(1));
-        let values = &mut self.values;
-        values.clear();
-        values.resize(cells + 2, 0.0);
+        let mut values = vec![0.0; cells + 2];
         let mut newest = 0.0;
         for j in 0..cells {
             let (rise, moment) = cell(j as f64 * h, (j + 1) as f64 * h);
@@ -75,10 +59,11 @@ impl Weights {
             }
         }
         // the cell that ends now: its curvature continues the two before it
-        newest *= stable_fraction(values, newest, slack);
+        newest *= stable_fraction(&values, newest, slack);
         values[0] += 1.5 * newest;
         values[1] -= 2.0 * newest;
         values[2] += 0.5 * newest;
+        Self { values }
     }
 
     /// sum over all j of g_j (p_{n-j} - p_{n-j-1}), the deflection still to come; `force` holds p_0 = 0 .. p_n.

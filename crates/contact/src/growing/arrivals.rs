@@ -149,8 +149,8 @@ impl Roots<'_> {
         let [mut steps, mut time_slopes, mut radii, mut radius_slopes] = [[0.0; LANES]; 4];
         for _ in 0..TOGETHER {
             let times;
-            [times, time_slopes] = self.time.jets(&places);
-            [radii, radius_slopes] = self.radius.jets(&places);
+            [times, time_slopes, _] = self.time.jets(&places);
+            [radii, radius_slopes, _] = self.radius.jets(&places);
             let mut largest = 0.0_f64;
             for l in 0..LANES {
                 let miss = times[l] + lanes[l] * radii[l] - self.arrival;

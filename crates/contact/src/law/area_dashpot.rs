@@ -22,7 +22,7 @@
 //! striker is still pressed in by 4 b f(phi) v^2, since the last instants are shorter than any memory.
 
 use crate::disc::history::History;
-use crate::growing::waves::PunchWaves;
+use crate::growing::waves::GrowingContact;
 use crate::law::pulse::pulse;
 use crate::summary::{Estimates, SMALL_LOSS, Summary};
 use halfspace::chebyshev;
@@ -78,13 +78,14 @@ const FLOOR: f64 = 1e-8;
 const LOSS_FLOOR: f64 = 2e-7;
 
 impl AreaDashpot {
-    /// The terms of a contact: phi, tau = a/c1 in collision times, and the waves under a punch.
-    pub fn new(target_share: f64, wave_time: f64, waves: &PunchWaves) -> Self {
+    /// The terms of a contact.
+    pub fn new(contact: &GrowingContact<'_>) -> Self {
+        let (waves, phi, tau) = (contact.waves, contact.target_share, contact.wave_time);
         Self {
-            lag: target_share * wave_time * waves.moment(1) / 3.0,
-            inertia: target_share * wave_time.powi(2) * waves.moment(2) / 12.0,
-            third: target_share * wave_time.powi(3) * waves.moment(3),
-            target_share,
+            lag: phi * tau * waves.moment(1) / 3.0,
+            inertia: phi * tau.powi(2) * waves.moment(2) / 12.0,
+            third: phi * tau.powi(3) * waves.moment(3),
+            target_share: phi,
         }
     }
 
@@ -224,7 +225,8 @@ const BY_B: [[f64; 7]; 7] = [
 mod tests {
     use super::*;
     use crate::disc::refine::Accuracy;
-    use crate::growing::{solve_growing, waves::GrowingContact};
+    use crate::growing::solve_growing;
+    use crate::growing::waves::PunchWaves;
     use crate::law::pulse::{Course, advance};
     use crate::law::radiation::radiation;
     use crate::numeric::quadrature::peak;
@@ -304,7 +306,11 @@ mod tests {
         let waves = PunchWaves::new(&Medium::new(0.3).unwrap());
         for phi in [0.1, 0.5, 0.9] {
             for tau in [0.1, 0.05, 0.02, 0.01] {
-                let terms = AreaDashpot::new(phi, tau, &waves);
+                let terms = AreaDashpot::new(&GrowingContact {
+                    waves: &waves,
+                    target_share: phi,
+                    wave_time: tau,
+                });
                 let found = terms.summary();
                 let force = |d, v| terms.law(d, v);
                 let course = Course::new(&force, 0.0, 2e-3);
@@ -335,7 +341,7 @@ mod tests {
                     wave_time: tau,
                 };
                 let exact = solve_growing(&contact, &Accuracy::of_contact(1e-10, None)).unwrap();
-                let (a, b) = (AreaDashpot::new(phi, tau, &waves).summary(), exact.summary);
+                let (a, b) = (AreaDashpot::new(&contact).summary(), exact.summary);
                 (a.distance(&b), (a.loss - b.loss).abs())
             };
             let (coarse, fine) = (error(0.08), error(0.02));

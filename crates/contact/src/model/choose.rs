@@ -29,6 +29,7 @@
 //! Theory: `docs/theory.md` (T58).
 
 use crate::collision::Collision;
+use crate::disc::FixedDisc;
 use crate::disc::refine::{Accuracy, Found};
 use crate::disc::response::DiscResponse;
 use crate::error::ContactError;
@@ -311,9 +312,14 @@ pub(crate) fn accuracy(settings: &Settings) -> Accuracy {
     Accuracy::of_contact(settings.tolerance, settings.loss_tolerance)
 }
 
-/// Radius of the disc of the fixed models in m: that of the settings, or the tip's.
-pub(crate) fn disc_radius_m(settings: &Settings, collision: &Collision) -> f64 {
-    settings.disc_radius_m.unwrap_or(collision.tip_radius_m)
+/// The impact on the disc of the fixed models: of the settings' radius, or of the tip's.
+pub(crate) fn disc_of<'r, R: DiscResponse>(
+    settings: &Settings,
+    collision: &Collision,
+    response: &'r R,
+) -> FixedDisc<'r, R> {
+    let radius_m = settings.disc_radius_m.unwrap_or(collision.tip_radius_m);
+    collision.fixed_disc(response, radius_m, settings.static_share)
 }
 
 /// Radius of the disc that loads the half-space in m where the model fixes it; none for a contact that follows the load.
@@ -329,15 +335,14 @@ fn groups(settings: &Settings, collision: &Collision, response: &impl DiscRespon
         asked => asked.row().1,
     };
     let wave_time = collision.contact_wave_time();
-    let lag = collision.lag_of(wave_time, response);
+    let lag = collision.lag(wave_time, response);
     let (family, coupling, memory) = if fixed {
-        let disc = disc_radius_m(settings, collision);
-        let (coupling, wave_time) = collision.disc_groups(response.disc().static_compliance, disc);
-        let memory = wave_time * response.disc().memory;
-        match settings.static_share {
-            StaticShare::Full => (Family::Full, coupling, memory),
-            StaticShare::Dynamic => (Family::Dynamic, 0.0, memory),
-        }
+        let disc = disc_of(settings, collision, response);
+        let family = match settings.static_share {
+            StaticShare::Full => Family::Full,
+            StaticShare::Dynamic => Family::Dynamic,
+        };
+        (family, disc.static_coupling(), disc.memory())
     } else {
         (Family::Growing, 0.0, wave_time * response.punch_memory())
     };

@@ -135,10 +135,8 @@ pub fn infer(
             Unknown::YieldPressure => settings.yield_pressure_pa = Some(x),
             Unknown::Velocity => collision.velocity_m_s = x,
         }
-        let mut solver = Solver::new(&Exact);
-        let solved = solver.solve(&collision, &settings)?;
-        let radiated = solver.radiated(&collision, &settings, &solved)?;
-        let results = Results::new(&collision, &settings, &solved, radiated).checked()?;
+        let solved = Solver::new(&Exact).solve(&collision, &settings)?;
+        let results = Results::new(&collision, &settings, &solved).checked()?;
         let measured = match measure {
             Measure::Restitution => results.restitution,
             Measure::ContactTime => results.contact_time_s,

@@ -8,3 +8,16 @@ pub mod gauss;
 pub(crate) mod lanes;
 pub(crate) mod polynomial;
 pub(crate) mod scalar;
+
+/// The last place on the way from one to another that a condition allows, which it does before and not after: by 60 halvings.
+pub fn bisected(mut from: f64, mut to: f64, allows: impl Fn(f64) -> bool) -> f64 {
+    for _ in 0..60 {
+        let middle = 0.5 * (from + to);
+        if allows(middle) {
+            from = middle;
+        } else {
+            to = middle;
+        }
+    }
+    from
+}

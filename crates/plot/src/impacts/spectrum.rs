@@ -5,6 +5,7 @@ use crate::series::loaded;
 use crate::words::with_unit;
 use figure::{Axis, Layer, Panel, Style};
 use formats::stored::StoredImpact;
+use halfspace::bisected;
 use std::f64::consts::PI;
 
 /// Frequencies of a spectrum.
@@ -104,16 +105,9 @@ impl Pulse {
     fn corner(&self, points: &[(f64, f64)]) -> Option<(f64, f64)> {
         let half = 0.5 * points.first()?.1;
         let below = points.iter().position(|p| p.1 < half)?;
-        let (mut low, mut high) = (points[below.checked_sub(1)?].0, points[below].0);
-        for _ in 0..40 {
-            let middle = 0.5 * (low + high);
-            if self.amplitude(middle) < half {
-                high = middle;
-            } else {
-                low = middle;
-            }
-        }
-        Some((low, half))
+        let (low, high) = (points[below.checked_sub(1)?].0, points[below].0);
+        let corner = bisected(low, high, |frequency| self.amplitude(frequency) >= half);
+        Some((corner, half))
     }
 
     /// Frequencies at which the amplitude is smallest, and so small that it is a zero in a picture.

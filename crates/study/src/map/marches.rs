@@ -25,6 +25,7 @@ use contact::{
 };
 use fault::AnyError;
 use figure::{Interval, Layer, Style};
+use halfspace::bisected;
 use paper::PRINTED_PA;
 
 /// What a march made of an impact.
@@ -198,7 +199,7 @@ pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Picture>
     advance();
     let implicit = implicit(&map, &columns, &paper);
     advance();
-    let dynamic = dynamic_share(&disc, effort);
+    let dynamic = dynamic_share(&paper.disc, effort);
     advance();
     Ok(vec![explicit, implicit, dynamic])
 }
@@ -315,19 +316,6 @@ pub(super) fn dynamic_is_solved(disc: &FixedDisc<'_>, step: f64) -> bool {
     !matches!(march, Err(MarchError::NoSolution { .. }))
 }
 
-/// The largest argument that a condition allows, which it does below and not above; relative to 1e-9.
-pub(super) fn bisected(mut low: f64, mut high: f64, allows: impl Fn(f64) -> bool) -> f64 {
-    for _ in 0..60 {
-        let middle = 0.5 * (low + high);
-        if allows(middle) {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    low
-}
-
 /// Largest coupling for which the `dynamic` share has a solution at a step, up to a force of Hertz's peak.
 pub(super) fn dynamic_limit(disc: &FixedDisc<'_>, step: f64) -> f64 {
     // Numerov's weight of the newest force
@@ -357,7 +345,7 @@ fn dynamic_share(paper: &FixedDisc<'_>, effort: Effort) -> Picture {
     let map = map([0.05, 5.0], coupling, &DYNAMIC, effort);
     let column = |coupling| {
         let disc = dynamic(paper, coupling);
-        (disc, Converged::new(disc).ok())
+        (disc.clone(), Converged::new(disc).ok())
     };
     let columns: Vec<_> = map.columns().into_iter().map(column).collect();
     let title = "Dynamic share (static part of the deflection taken out)";

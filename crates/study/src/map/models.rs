@@ -5,7 +5,6 @@
 //! indentation; memory is the time that the waves need across the contact, over Hertz's contact time.
 
 use super::Map;
-use super::marches::bisected;
 use crate::measure::Effort;
 use crate::picture::Picture;
 use crate::question::marching::errors;
@@ -20,7 +19,7 @@ use contact::{Family, Groups, Rung};
 use contact::{StaticShare, Summary, march_growing, march_implicit, refine};
 use fault::AnyError;
 use figure::{Interval, Layer, Style};
-use halfspace::{Deflection, Medium, SurfaceResponse};
+use halfspace::{Deflection, Medium, SurfaceResponse, bisected};
 use paper::TABLE_1_PA;
 
 /// Tolerances of the three pictures.
@@ -181,7 +180,7 @@ impl Plane {
         }
         let exact = found?;
         let coarse = summary(2.0 * step);
-        let dashpot = AreaDashpot::new(deflection, growing.wave_time, &self.waves);
+        let dashpot = AreaDashpot::new(&growing);
         let is_allowed = left_out(dashpot.lag, groups.memory).contact() < 1.0;
         Ok(ModelErrors {
             quasi_static: error(true, &radiation(0.0), &exact),

@@ -24,7 +24,7 @@ use std::f64::consts::PI;
 fn the_published_restitution_is_the_explicit_schemes_step() {
     let response = paper_response().unwrap();
     let disc = paper_disc(PRINTED_PA, &response).unwrap();
-    let exact = Converged::new(disc).unwrap();
+    let exact = Converged::new(disc.clone()).unwrap();
     assert!((exact.summary.restitution - 0.980_44).abs() < 1e-5);
     let step = exact.summary.contact_time / 200.0;
     let (_, found) = march_explicit(&disc, step).unwrap();
@@ -47,7 +47,7 @@ fn the_published_restitution_is_the_explicit_schemes_step() {
 fn first_order_theory_gives_the_slope_of_the_explicit_schemes_energy() {
     let response = paper_response().unwrap();
     let disc = paper_disc(PRINTED_PA, &response).unwrap();
-    let exact = Converged::new(disc).unwrap();
+    let exact = Converged::new(disc.clone()).unwrap();
     // the sampled end of contact scatters: a mean over many steps near one another
     let mean = |step: f64| -> f64 {
         let slope = |i: i32| {
@@ -74,7 +74,7 @@ fn the_explicit_march_blows_up_beyond_its_boundary_and_not_well_below() {
             coupling: scale * paper.coupling,
             ..paper
         };
-        let exact = Converged::new(disc).unwrap();
+        let exact = Converged::new(disc.clone()).unwrap();
         let beyond = exact.explicit(2.0 * exact.stable_step());
         assert!(
             matches!(beyond, Outcome::BlownUp | Outcome::Oscillates),
@@ -100,7 +100,7 @@ fn the_implicit_march_is_stable_on_the_papers_plane_and_gains_no_energy() {
             coupling: scale * disc.coupling,
             ..disc
         };
-        let exact = Converged::new(disc).unwrap();
+        let exact = Converged::new(disc.clone()).unwrap();
         for step in [2e-3, 8e-3, 0.03, 0.08] {
             let outcome = exact.implicit(step * CONTACT_TIME);
             assert!(
@@ -121,7 +121,7 @@ fn on_a_very_soft_half_space_steps_near_the_memory_settle() {
         coupling: paper.coupling * 50.0 / (1.5 * admittance(&paper)),
         ..paper
     };
-    let exact = Converged::new(disc).unwrap();
+    let exact = Converged::new(disc.clone()).unwrap();
     for step in [0.01, 0.02, 0.04, 0.08] {
         let step = step * CONTACT_TIME;
         assert!(linear_growth(&disc, 1.5 * exact.summary.peak_force.cbrt(), step) < 1.0);

@@ -13,8 +13,8 @@ use contact::law::quasi_static::{quasi_static, quasi_static_radiation};
 use contact::law::radiation::radiation;
 use contact::{
     Accuracy, FixedDisc, GrowingContact, History, MarchError, Model, PunchWaves, ResponseTable,
-    Solver, Summary, Tabulated, Workspace, march_explicit, march_growing, march_implicit, refine,
-    solve_disc, solve_growing,
+    Solver, Summary, Tabulated, march_explicit, march_growing, march_implicit, refine, solve_disc,
+    solve_growing,
 };
 use fault::AnyError;
 use halfspace::{Deflection, Medium, SurfaceResponse};
@@ -62,7 +62,8 @@ pub(crate) fn measure(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Record>,
     scene.name = BALL;
     scene.errors = &against_growing;
     let response = SurfaceResponse::new(&medium, Deflection::Centre);
-    following(&mut scene, &growing, collision.lag(&response))?;
+    let lag = collision.lag(growing.wave_time, &response);
+    following(&mut scene, &growing, lag)?;
     from_series(&mut scene, &ball)?;
     advance();
     Ok(records)
@@ -178,7 +179,7 @@ fn to_tolerance(scene: &mut Scene<'_, Summary>, disc: &FixedDisc<'_>) -> Result<
         let method = "wave implicit, step halved to tolerance";
         let march = |step| march_implicit(disc, step);
         halved(scene, method, tolerance, [duration, memory], march)?.default_path = true;
-        let workspace = RefCell::new(Workspace::default());
+        let history = RefCell::new(History::default());
         let tabulated = FixedDisc {
             response: &table,
             coupling: disc.coupling,
@@ -187,7 +188,7 @@ fn to_tolerance(scene: &mut Scene<'_, Summary>, disc: &FixedDisc<'_>) -> Result<
         };
         let in_sweep = || {
             let accuracy = Accuracy::of_contact(tolerance, None);
-            let found = solve_disc(&mut workspace.borrow_mut(), &tabulated, None, accuracy)?;
+            let found = solve_disc(&mut history.borrow_mut(), &tabulated, None, accuracy)?;
             // each halving doubles steps and cells
             let step = found.step.unwrap_or(f64::INFINITY);
             let steps = found.summary.contact_time / step;
@@ -228,7 +229,7 @@ fn following(
     growing: &GrowingContact<'_>,
     lag: f64,
 ) -> Result<(), AnyError> {
-    let terms = AreaDashpot::new(growing.target_share, growing.wave_time, growing.waves);
+    let terms = AreaDashpot::new(growing);
     let hertz = || radiation(black_box(0.0));
     closed(scene, "hertz", "closed form", hertz)?.default_path = true;
     let first = || radiation(black_box(lag));
