@@ -24,10 +24,8 @@ const SILENCE: Duration = Duration::from_secs(30);
 /// A part of the work, and what was told of it.
 struct Stage {
     name: String,
-    total: u64,
     /// Units that were done before, once it is known.
     before: Option<u64>,
-    began: Instant,
     told: Instant,
     tenth: u64,
     /// Poisson's ratio where the work is, if it is anywhere.
@@ -48,7 +46,7 @@ impl Bar {
             bar: ProgressBar::hidden().with_style(style.progress_chars("=> ")),
             on_terminal: std::io::stderr().is_terminal() && !QUIET.load(Ordering::Relaxed),
             patience,
-            stage: Mutex::new(Stage::of("", 0)),
+            stage: Mutex::new(Stage::of("")),
         }
     }
 
@@ -56,7 +54,7 @@ impl Bar {
     pub(crate) fn set(&self, done: u64) {
         let mut stage = self.lock();
         if stage.before.is_none() {
-            (stage.before, stage.tenth) = (Some(done), stage.tenth_of(done));
+            (stage.before, stage.tenth) = (Some(done), 10 * done / self.units());
             self.bar.set_position(done);
             self.bar.reset_eta();
         }
@@ -68,24 +66,49 @@ impl Bar {
         self.stage.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
+    /// Units of the stage.
+    fn units(&self) -> u64 {
+        self.bar.length().unwrap_or(0).max(1)
+    }
+
     /// Shows the bar where the stage takes long enough; whether it does.
-    fn is_due(&self, stage: &Stage) -> bool {
-        let due = stage.began.elapsed() >= self.patience;
+    fn is_due(&self) -> bool {
+        let due = self.bar.elapsed() >= self.patience;
         if due && self.on_terminal && self.bar.is_hidden() {
             self.bar.set_draw_target(ProgressDrawTarget::stderr());
         }
         due
+    }
+
+    /// What to say when another tenth is done, or nothing has been said for long.
+    fn line(&self, stage: &mut Stage, more: u64) -> Option<String> {
+        let (done, units) = (self.bar.position(), self.units());
+        let tenth = 10 * done / units;
+        let silent = more == 0 || stage.told.elapsed() < SILENCE;
+        if std::mem::replace(&mut stage.tenth, tenth) == tenth && silent {
+            return None;
+        }
+        let new = done - stage.before.unwrap_or(0).min(done);
+        let rate = new as f64 / self.bar.elapsed().as_secs_f64().max(1e-9);
+        let left = units.saturating_sub(done) as f64 / rate;
+        let slice = stage.slice.map(|nu| format!(", nu = {nu:.4}"));
+        Some(format!(
+            "{} {} %{}, {rate:.1} a second, {left:.0} s left",
+            stage.name,
+            100 * done / units,
+            slice.unwrap_or_default()
+        ))
     }
 }
 
 impl Progress for Bar {
     fn total(&self, stage: &str, total: u64) {
         let mut now = self.lock();
-        *now = Stage::of(stage, total);
+        *now = Stage::of(stage);
         self.bar.reset();
         self.bar.set_length(total);
         self.bar.set_message(stage.to_owned());
-        self.is_due(&now);
+        self.is_due();
     }
 
     fn slice(&self, poisson_ratio: f64) {
@@ -98,8 +121,8 @@ impl Progress for Bar {
     fn advance(&self, done: u64) {
         let mut stage = self.lock();
         self.bar.inc(done);
-        let line = stage.line(self.bar.position(), done);
-        if self.is_due(&stage)
+        let line = self.line(&mut stage, done);
+        if self.is_due()
             && !self.on_terminal
             && let Some(line) = line
         {
@@ -111,39 +134,13 @@ impl Progress for Bar {
 
 impl Stage {
     /// The beginning of a stage.
-    fn of(name: &str, total: u64) -> Self {
-        let now = Instant::now();
+    fn of(name: &str) -> Self {
         Self {
             name: name.to_owned(),
-            total: total.max(1),
             before: None,
-            began: now,
-            told: now,
+            told: Instant::now(),
             tenth: 0,
             slice: None,
         }
-    }
-
-    fn tenth_of(&self, done: u64) -> u64 {
-        10 * done / self.total
-    }
-
-    /// What to say when another tenth is done, or nothing has been said for long.
-    fn line(&mut self, done: u64, more: u64) -> Option<String> {
-        let tenth = self.tenth_of(done);
-        let silent = more == 0 || self.told.elapsed() < SILENCE;
-        if std::mem::replace(&mut self.tenth, tenth) == tenth && silent {
-            return None;
-        }
-        let new = done - self.before.unwrap_or(0).min(done);
-        let rate = new as f64 / self.began.elapsed().as_secs_f64().max(1e-9);
-        let left = self.total.saturating_sub(done) as f64 / rate;
-        let slice = self.slice.map(|nu| format!(", nu = {nu:.4}"));
-        Some(format!(
-            "{} {} %{}, {rate:.1} a second, {left:.0} s left",
-            self.name,
-            100 * done / self.total,
-            slice.unwrap_or_default()
-        ))
     }
 }

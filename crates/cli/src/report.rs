@@ -200,21 +200,15 @@ fn validity(fields: &ProbeFields) -> Option<String> {
 
 /// A number with seven digits and an SI prefix.
 pub(crate) fn si(value: f64, unit: &str) -> String {
-    const PREFIXES: [(f64, &str); 8] = [
-        (1e9, "G"),
-        (1e6, "M"),
-        (1e3, "k"),
-        (1.0, ""),
-        (1e-3, "m"),
-        (1e-6, "u"),
-        (1e-9, "n"),
-        (1e-12, "p"),
-    ];
+    /// From 1e9 down, a thousand apart.
+    const PREFIXES: [&str; 8] = ["G", "M", "k", "", "m", "u", "n", "p"];
     let size = value.abs();
     if size == 0.0 {
         return format!("0 {unit}");
     }
-    match PREFIXES.iter().find(|(scale, _)| size >= *scale) {
+    let scales = (-4..=3).rev().map(|power| 1e3_f64.powi(power));
+    let mut scales = scales.zip(PREFIXES);
+    match scales.find(|(scale, _)| size >= *scale) {
         Some((scale, prefix)) if size < 1e12 => {
             let scaled = value / scale;
             let decimals = 6 - (scaled.abs().log10() as usize).min(2);

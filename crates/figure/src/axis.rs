@@ -177,6 +177,16 @@ impl Interval {
         Self::new(self.scale, low, high)
     }
 
+    /// The interval of a scale that shows values, [with air](Self::with_air); one decade, or up to one, without any.
+    pub(crate) fn showing(scale: Scale, values: impl Iterator<Item = f64>, air: f64) -> Self {
+        let usual = || match scale {
+            Scale::Linear => Self::linear(0.0, 1.0),
+            Scale::Logarithmic => Self::logarithmic(1.0, 10.0),
+        };
+        let found = Self::around(scale, values);
+        found.unwrap_or_else(usual).with_air(air)
+    }
+
     /// Longer by a fraction of its length at both ends; a single value becomes an interval around it.
     ///
     /// A linear end at zero stays there: an axis of a force that begins at zero begins at zero.
@@ -184,6 +194,7 @@ impl Interval {
         if self.low < self.high {
             let end = |end: f64, aired: f64| match self.scale {
                 Scale::Linear if end == 0.0 => 0.0,
+                _ if air == 0.0 => end,
                 Scale::Linear | Scale::Logarithmic => aired,
             };
             let low = end(self.low, self.value(-air));

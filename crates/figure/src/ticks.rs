@@ -34,30 +34,28 @@ pub(crate) struct Room<'a> {
 }
 
 impl Room<'_> {
-    /// The first candidate whose labels fit beside one another, with what belongs to it; without one the coarsest
-    /// with a single label.
-    fn first_that_fits<T>(
+    /// The first candidate whose labels fit beside one another; without one the coarsest with a single label.
+    fn first_that_fits(
         &self,
         interval: &Interval,
-        candidates: impl Iterator<Item = (Vec<(f64, String)>, T)>,
-    ) -> Option<(Vec<(f64, String)>, T)> {
-        let fits = |ticks: &[(f64, String)]| {
-            ticks.windows(2).all(|pair| {
+        candidates: impl Iterator<Item = Ticks>,
+    ) -> Ticks {
+        let fits = |ticks: &Ticks| {
+            ticks.major.windows(2).all(|pair| {
                 let distance = interval.fraction(pair[1].0) - interval.fraction(pair[0].0);
                 let needed = 0.5 * ((self.needs)(&pair[0].1) + (self.needs)(&pair[1].1));
                 distance.abs() * self.length >= needed
             })
         };
-        let mut coarsest = None;
+        let mut coarsest = Ticks::default();
         for candidate in candidates {
-            if fits(&candidate.0) {
-                return Some(candidate);
+            if fits(&candidate) {
+                return candidate;
             }
-            coarsest = Some(candidate);
+            coarsest = candidate;
         }
-        let (mut major, rest) = coarsest?;
-        major.truncate(1);
-        Some((major, rest))
+        coarsest.major.truncate(1);
+        coarsest
     }
 }
 
@@ -78,18 +76,14 @@ fn linear(interval: &Interval, factor: f64, room: &Room<'_>) -> Ticks {
         .map(|(exponent, step, parts)| {
             let places = usize::try_from(-exponent).unwrap_or(0);
             let tick = |shown| (shown * factor, decimal(shown, places));
-            let major: Vec<_> = multiples(low, high, step).map(tick).collect();
-            (major, (step, parts))
+            let minor = minor(low, high, step, parts);
+            Ticks {
+                major: multiples(low, high, step).map(tick).collect(),
+                minor: minor.map(|shown| shown * factor).collect(),
+            }
         })
-        .take_while(|(major, _)| !major.is_empty());
-    let Some((major, (step, parts))) = room.first_that_fits(interval, candidates) else {
-        return Ticks::default();
-    };
-    let minor = minor(low, high, step, parts);
-    Ticks {
-        major,
-        minor: minor.map(|shown| shown * factor).collect(),
-    }
+        .take_while(|ticks| !ticks.major.is_empty());
+    room.first_that_fits(interval, candidates)
 }
 
 /// Multiples of a step from `low` to `high`, the ends included up to rounding.
@@ -129,7 +123,16 @@ fn logarithmic(interval: &Interval, factor: f64, decades: f64, room: &Room<'_>) 
             .flat_map(|exponent| digits.iter().map(move |&digit| tick(digit, exponent)))
             .filter(|t| inside(t.0 / factor))
             .collect();
-        (major, stride)
+        let labelled = |value: f64| major.iter().any(|t| (t.0 / value - 1.0).abs() < 1e-6);
+        // multiples where a decade is long enough, the decades themselves where labels skip some
+        let fine = room.length / decades >= 40.0 && stride == 1;
+        let digits = if fine { 1..=9 } else { 1..=1 };
+        let minor = (first..=last)
+            .flat_map(|exponent| digits.clone().map(move |d| f64::from(d) * ten(exponent)))
+            .filter(|&value| inside(value) && !labelled(value * factor))
+            .map(|value| value * factor)
+            .collect();
+        Ticks { major, minor }
     };
     let dense: &[&[u32]] = &[&[1, 2, 3, 5], &[1, 2, 5], &[1, 3]];
     let dense = dense.iter().filter(|_| decades < 2.5);
@@ -137,19 +140,8 @@ fn logarithmic(interval: &Interval, factor: f64, decades: f64, room: &Room<'_>) 
         .map(|digits| (*digits, 1))
         .chain((1..=last - first + 1).map(|stride| (&[1_u32][..], stride)))
         .map(at)
-        .filter(|(major, _)| !major.is_empty());
-    let found = room.first_that_fits(interval, candidates);
-    let (major, stride) = found.unwrap_or((Vec::new(), 1));
-    let labelled = |value: f64| major.iter().any(|t| (t.0 / value - 1.0).abs() < 1e-6);
-    // multiples where a decade is long enough, the decades themselves where labels skip some
-    let fine = room.length / decades >= 40.0 && stride == 1;
-    let digits = if fine { 1..=9 } else { 1..=1 };
-    let minor = (first..=last)
-        .flat_map(|exponent| digits.clone().map(move |d| f64::from(d) * ten(exponent)))
-        .filter(|&value| inside(value) && !labelled(value * factor))
-        .map(|value| value * factor)
-        .collect();
-    Ticks { major, minor }
+        .filter(|ticks| !ticks.major.is_empty());
+    room.first_that_fits(interval, candidates)
 }
 
 /// A power of ten to the last bit.

@@ -28,9 +28,12 @@ fn curve() -> Figure {
 fn classes() -> Figure {
     let x = Interval::logarithmic(1.0, 1e6);
     let y = Interval::logarithmic(1e-9, 1.0);
-    let map = Classes::of([x, y], [4, 2], &["good", "bad"], |x, _| {
-        usize::from(x > 1e3)
-    });
+    let row = x.cells(4).into_iter().map(|x| usize::from(x > 1e3));
+    let map = Classes {
+        shape: [4, 2],
+        class: row.clone().chain(row).collect(),
+        names: vec!["good".to_owned(), "bad".to_owned()],
+    };
     let broken = vec![
         (1.0, 1.0),
         (1e2, 1e-3),

@@ -1,24 +1,16 @@
 //! What can be shown, and what is asked for.
 
-use contact::Choice;
+use contact::{Choice, choice};
 use figure::Figure;
 use formats::stored::FileKind;
 use std::fmt;
 
 macro_rules! kinds {
     ($($kind:ident $name:literal of $file:ident => $meaning:literal;)*) => {
-        /// What a picture shows.
-        #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-        pub enum Kind {
-            $(#[doc = $meaning] $kind,)*
-        }
-
-        impl Choice for Kind {
-            const ALL: &'static [Self] = &[$(Self::$kind),*];
-
-            fn name(self) -> &'static str {
-                match self { $(Self::$kind => $name),* }
-            }
+        choice! {
+            /// What a picture shows.
+            #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+            pub enum Kind { $(#[doc = $meaning] $kind = $name,)* }
         }
 
         impl Kind {

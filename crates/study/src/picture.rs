@@ -2,6 +2,7 @@
 //! error against cost, one curve a method, the Pareto front drawn.
 
 use crate::record::{Question, Record, by_scene, distinct, pareto_front};
+use contact::Choice;
 use figure::{Axis, Layer, Legend, Panel, Style};
 
 /// A picture of the chart.
@@ -93,7 +94,7 @@ fn diagram(question: Question, name: &'static str, rows: &[&Record]) -> Picture 
     let high = shown.iter().fold(0.0, |high, p| p.0.max(high));
     let lowest = shown.iter().fold(1.0, |low, p| p.1.min(low));
     let decade = |x: f64, up: f64| 10.0_f64.powf((x.log10() + up).floor());
-    let [asks, value, ..] = question.words();
+    let (asks, [value, ..]) = (question.name(), question.words());
     let mut figure = Picture::new(
         name,
         &format!("{asks}: {scene}"),

@@ -1,58 +1,50 @@
 //! What is measured of one method at one setting in one scene.
 
+use contact::Choice;
 use halfspace::Six;
 
-/// The four questions of the chart.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Question {
-    /// How to compute a kernel: the fields at a point and time after a unit step of force.
-    Kernels,
-    /// How to compute an impact: from a striker to the force history and its results.
-    Force,
-    /// How to compute fields under a given force history.
-    Fields,
-    /// How to compute the fields of a whole impact at a probe.
-    Impacts,
+contact::choice! {
+    /// The four questions of the chart, by their names in files.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+    pub enum Question {
+        /// How to compute a kernel: the fields at a point and time after a unit step of force.
+        Kernels = "kernels",
+        /// How to compute an impact: from a striker to the force history and its results.
+        Force = "force",
+        /// How to compute fields under a given force history.
+        Fields = "fields",
+        /// How to compute the fields of a whole impact at a probe.
+        Impacts = "impacts",
+    }
 }
 
 impl Question {
-    pub(crate) const ALL: [Self; 4] = [Self::Kernels, Self::Force, Self::Fields, Self::Impacts];
-
-    /// Its name in files, what one value is for cost and work, what the report calls it, and the names of its diagrams in
-    /// the order in which the scenes appear.
-    pub(crate) fn words(self) -> [&'static str; 4] {
+    /// What one value is for cost and work, what the report calls it, and the names of its diagrams in the order in which
+    /// the scenes appear.
+    pub(crate) fn words(self) -> [&'static str; 3] {
         match self {
             Self::Kernels => [
-                "kernels",
                 "six fields at one point and time",
                 "How to compute a kernel",
                 "kernels-interior kernels-late kernels-axis kernels-surface",
             ],
             Self::Force => [
-                "force",
                 "one impact",
                 "How to compute an impact",
                 "force-disc force-growing",
             ],
             Self::Fields => [
-                "fields",
                 "six fields at one point over r0/c1 of time",
                 "How to compute fields",
                 "fields-pulse-10 fields-interpolation-10 fields-pulse-40 fields-interpolation-40 \
                  fields-edge fields-interpolation-edge",
             ],
             Self::Impacts => [
-                "impacts",
                 "one impact with six fields at one point",
                 "How to compute the fields of a whole impact",
                 "impacts-disc-near impacts-disc-far impacts-growing-near impacts-growing-far",
             ],
         }
-    }
-
-    /// Its name in files.
-    pub(crate) fn name(self) -> &'static str {
-        self.words()[0]
     }
 }
 
@@ -157,7 +149,7 @@ pub(crate) fn pareto_front<'a>(records: &[&'a Record]) -> Vec<&'a Record> {
 /// The rows of each scene, with its question and its place among that question's scenes.
 pub(crate) fn by_scene(records: &[Record]) -> Vec<(Question, usize, Vec<&Record>)> {
     let mut scenes = Vec::new();
-    for question in Question::ALL {
+    for &question in Question::ALL {
         let mine = || records.iter().filter(move |r| r.question == question);
         let names = distinct(mine().map(|r| r.scene)).into_iter();
         scenes.extend(names.enumerate().map(|(place, name)| {

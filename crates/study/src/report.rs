@@ -5,6 +5,7 @@ use crate::measure::Effort;
 use crate::picture::Picture;
 use crate::ranking::{Ranking, rankings, why_not};
 use crate::record::{Question, Record, distinct};
+use contact::Choice;
 use fault::AnyError;
 use figure::Figure;
 use output::Folder;
@@ -58,8 +59,8 @@ fn markdown(chart: &Chart) -> String {
         "In the diagrams `[default]` marks the ways that the program itself takes, and `(fails)` those whose largest error is above a tenth at every setting; what is above the frame is not drawn.\n".to_owned(),
     ];
     let all = rankings(&chart.records);
-    for question in Question::ALL {
-        let [name, _, title, _] = question.words();
+    for &question in Question::ALL {
+        let (name, [_, title, _]) = (question.name(), question.words());
         lines.push(format!("## {title}\n"));
         let mine: Vec<&Ranking<'_>> = all.iter().filter(|s| s.question == question).collect();
         lines.extend(answer(chart, question, &mine));

@@ -105,7 +105,13 @@ pub(crate) fn classes() -> Figure {
     let y = Interval::logarithmic(1e-4, 3.0);
     let names = ["hertz", "radiation", "growing", "not converged"];
     let class = |a: f64, b: f64| ((a * b).log10() + 5.0).clamp(0.0, 3.0) as usize;
-    let map = Classes::of([x, y], [60, 60], &names, class);
+    let (xs, ys) = (x.cells(60), y.cells(60));
+    let row = |&b: &f64| xs.iter().map(move |&a| class(a, b));
+    let map = Classes {
+        shape: [60, 60],
+        class: ys.iter().flat_map(row).collect(),
+        names: names.map(str::to_owned).into(),
+    };
     let line = |c: f64| {
         x.cells(50)
             .into_iter()

@@ -1,7 +1,6 @@
 //! A map of a few classes.
 
 use super::{Swatch, count};
-use crate::axis::Interval;
 use crate::error::FigureError;
 use crate::geometry::Rect;
 use crate::look::fills;
@@ -19,25 +18,6 @@ pub struct Classes {
 }
 
 impl Classes {
-    /// The class of each cell from its centre.
-    pub fn of(
-        [x, y]: [Interval; 2],
-        shape: [usize; 2],
-        names: &[&str],
-        mut class: impl FnMut(f64, f64) -> usize,
-    ) -> Self {
-        let xs = x.cells(shape[0]);
-        let mut classes = Vec::with_capacity(shape[0] * shape[1]);
-        for y in y.cells(shape[1]) {
-            classes.extend(xs.iter().map(|&x| class(x, y)));
-        }
-        Self {
-            shape,
-            class: classes,
-            names: names.iter().map(|&name| name.to_owned()).collect(),
-        }
-    }
-
     pub(super) fn check(&self, panel: usize) -> Result<(), FigureError> {
         let [columns, rows] = self.shape;
         count(panel, "cells of classes", columns * rows, self.class.len())

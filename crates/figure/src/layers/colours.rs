@@ -58,10 +58,9 @@ fn limits(axis: &Axis, map: ColourMap, values: impl Iterator<Item = f64>) -> Int
         ColourMap::Diverging => Interval::linear(-a.abs().max(b.abs()), a.abs().max(b.abs())),
         ColourMap::Sequential => Interval::new(scale, a.min(b), a.max(b)),
     };
+    // one value only, or none, becomes an interval
     match scale {
         Scale::Logarithmic if found.low <= 0.0 => Interval::logarithmic(1.0, 1.0).with_air(0.0),
-        _ if found.low < found.high => found,
-        // one value only, or none
         Scale::Linear | Scale::Logarithmic => found.with_air(0.0),
     }
 }

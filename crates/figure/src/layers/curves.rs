@@ -40,11 +40,7 @@ impl Line {
     /// the tops of the bars, from zero to zero.
     pub fn histogram(name: &str, values: &[f64], bins: usize, scale: Scale) -> Self {
         let bins = bins.max(1);
-        let interval = match Interval::around(scale, values.iter().copied()) {
-            Some(found) if found.low < found.high => found,
-            Some(single) => single.with_air(0.0),
-            None => Interval::linear(0.0, 1.0),
-        };
+        let interval = Interval::showing(scale, values.iter().copied(), 0.0);
         let mut counts = vec![0.0; bins];
         for &value in values.iter().filter(|&&v| scale.shows(v)) {
             let bin = (interval.fraction(value) * bins as f64) as usize;

@@ -269,20 +269,12 @@ fn bounds(lines: &[Text]) -> Rect {
 
 /// Points along everything that is drawn in a plot, in pixels, at most four apart.
 pub(super) fn occupied(panel: &Panel, frame: &Frame) -> Vec<Point> {
-    let mut found = Vec::new();
-    let layers = panel.layers.iter();
-    for curve in layers.flat_map(|layer| layer.curves(frame)) {
-        for side in frame.sides(&curve) {
-            trace(&side, frame, &mut found);
-        }
-    }
-    found
-}
-
-fn trace(curve: &[Point], frame: &Frame, found: &mut Vec<Point>) {
     const STEP: f64 = 4.0;
     let near = frame.area.grown(STEP);
-    for run in frame.runs(curve) {
+    let mut found = Vec::new();
+    let curves = panel.layers.iter().flat_map(|layer| layer.curves(frame));
+    let sides = curves.flat_map(|curve| frame.sides(&curve));
+    for run in sides.flat_map(|side| frame.runs(&side)) {
         if run.len() == 1 && near.has(run[0]) {
             found.push(run[0]);
         }
@@ -299,6 +291,7 @@ fn trace(curve: &[Point], frame: &Frame, found: &mut Vec<Point>) {
             }
         }
     }
+    found
 }
 
 /// The part of a segment that lies in a rectangle, as fractions of it.

@@ -1,7 +1,7 @@
 //! What is known of each panel before its size: the intervals of its axes, the limits of its colours, the looks of its
 //! curves.
 
-use crate::axis::{Interval, Scale};
+use crate::axis::Interval;
 use crate::figure::{Figure, Panel, Sharing};
 use crate::geometry::{Frame, Point, Rect};
 use crate::layers::{Colours, Layer};
@@ -85,18 +85,10 @@ fn intervals(panel: &Panel) -> [Interval; 2] {
     let layers = panel.layers.iter();
     let shown = layers.filter(|layer| !has_image || is_image(layer));
     let places: Vec<Point> = shown.flat_map(Layer::places).collect();
-    let automatic = |scale: Scale, values: Vec<f64>, air: f64| {
-        let found = Interval::around(scale, values.into_iter());
-        let found = found.unwrap_or(match scale {
-            Scale::Linear => Interval::linear(0.0, 1.0),
-            Scale::Logarithmic => Interval::logarithmic(1.0, 10.0),
-        });
-        found.with_air(air)
-    };
     let given = panel.x.interval();
     let mut x = given.unwrap_or_else(|| {
         let values = places.iter().map(|place| place.0);
-        automatic(panel.x.scale, values.collect(), 0.0)
+        Interval::showing(panel.x.scale, values, 0.0)
     });
     if panel.is_mirrored {
         let most = x.low.abs().max(x.high.abs());
@@ -106,7 +98,7 @@ fn intervals(panel: &Panel) -> [Interval; 2] {
         let is_seen = |(x, _): &&Point| given.is_none_or(|found| found.contains(*x));
         let values = places.iter().filter(is_seen).map(|place| place.1);
         let air = if panel.is_filled() { 0.0 } else { 0.05 };
-        automatic(panel.y.scale, values.collect(), air)
+        Interval::showing(panel.y.scale, values, air)
     });
     [x, y]
 }

@@ -39,19 +39,15 @@ pub fn to_pdf(figure: &Figure) -> Result<Vec<u8>, FigureError> {
     let mut next = Ref::new(1);
     let [catalog, tree, page, content, font] = std::array::from_fn(|_| next.bump());
     let font_parts = std::array::from_fn(|_| next.bump());
-    let mut pictures: Vec<(Ref, &Picture)> = Vec::new();
-    let mut opacities: BTreeSet<u32> = BTreeSet::new();
-    for item in &scene.items {
-        match item {
-            Item::Picture(picture) => pictures.push((next.bump(), picture)),
-            Item::Shape(shape) => opacities.extend(shape.fill.map(|fill| permille(fill.1))),
-            Item::Text(_) => {}
-        }
-    }
+    let (width, height) = (scene.canvas.width() as f32, scene.canvas.height() as f32);
+    let mut painted = Content::new();
+    // pixels from the upper left corner
+    painted.transform([POINT, 0.0, 0.0, -POINT, 0.0, POINT * height]);
+    let (pictures, opacities) = paint(&mut painted, &scene, &subset);
+    let pictures: Vec<_> = pictures.into_iter().map(|p| (next.bump(), p)).collect();
     let mut pdf = Pdf::new();
     pdf.catalog(catalog).pages(tree);
     pdf.pages(tree).kids([page]).count(1);
-    let (width, height) = (scene.canvas.width() as f32, scene.canvas.height() as f32);
     let mut sheet = pdf.page(page);
     sheet.media_box(Rect::new(0.0, 0.0, POINT * width, POINT * height));
     sheet.parent(tree).contents(content);
@@ -72,10 +68,6 @@ pub fn to_pdf(figure: &Figure) -> Result<Vec<u8>, FigureError> {
     resources.finish();
     sheet.finish();
 
-    let mut painted = Content::new();
-    // pixels from the upper left corner
-    painted.transform([POINT, 0.0, 0.0, -POINT, 0.0, POINT * height]);
-    paint(&mut painted, &scene, &subset);
     let stream = compressed(&painted.finish());
     pdf.stream(content, &stream).filter(Filter::FlateDecode);
     subset.write(&mut pdf, font, font_parts);
@@ -83,11 +75,6 @@ pub fn to_pdf(figure: &Figure) -> Result<Vec<u8>, FigureError> {
         write_picture(&mut pdf, id, picture);
     }
     Ok(pdf.finish())
-}
-
-/// An opacity in thousandths, which name its state.
-fn permille(opacity: f64) -> u32 {
-    (1000.0 * opacity).round() as u32
 }
 
 fn compressed(bytes: &[u8]) -> Vec<u8> {
@@ -181,42 +168,50 @@ impl Subset {
     }
 }
 
-/// Paints everything, in pixels from the upper left corner.
-fn paint(content: &mut Content, scene: &Scene, font: &Subset) {
-    let mut pictures = 0;
+/// Paints everything, in pixels from the upper left corner; and the pictures in the order of their names, and opacities.
+fn paint<'a>(
+    content: &mut Content,
+    scene: &'a Scene,
+    font: &Subset,
+) -> (Vec<&'a Picture>, BTreeSet<u32>) {
+    let (mut pictures, mut opacities) = (Vec::new(), BTreeSet::new());
     for item in &scene.items {
         content.save_state();
         match item {
-            Item::Shape(shape) => draw_shape(content, shape),
-            Item::Picture(Picture { area, .. }) => {
+            Item::Shape(shape) => opacities.extend(draw_shape(content, shape)),
+            Item::Picture(picture) => {
+                let area = picture.area;
                 // a picture stands on its lower side in a unit square
                 let (width, height) = (area.width() as f32, area.height() as f32);
                 let place = [area.left as f32, area.bottom as f32];
                 content.transform([width, 0.0, 0.0, -height, place[0], place[1]]);
-                content.x_object(Name(format!("I{pictures}").as_bytes()));
-                pictures += 1;
+                content.x_object(Name(format!("I{}", pictures.len()).as_bytes()));
+                pictures.push(picture);
             }
             Item::Text(text) => draw_text(content, text, font),
         }
         content.restore_state();
     }
+    (pictures, opacities)
 }
 
 fn rgb(colour: u32) -> [f32; 3] {
     colour::rgb(colour).map(|c| f32::from(c) / 255.0)
 }
 
-fn draw_shape(content: &mut Content, shape: &Shape) {
+/// Draws a shape; and how much its filling hides, in thousandths, which name the state for it.
+fn draw_shape(content: &mut Content, shape: &Shape) -> Option<u32> {
+    let opacity = shape.fill.map(|fill| (1000.0 * fill.1).round() as u32);
     if let Some(area) = shape.clip {
         let corner = [area.left, area.top, area.width(), area.height()];
         let [left, top, width, height] = corner.map(|x| x as f32);
         content.rect(left, top, width, height);
         content.clip_nonzero().end_path();
     }
-    if let Some((colour, opacity)) = shape.fill {
+    if let Some(((colour, _), opacity)) = shape.fill.zip(opacity) {
         let [r, g, b] = rgb(colour);
         content.set_fill_rgb(r, g, b);
-        let state = format!("G{}", permille(opacity));
+        let state = format!("G{opacity}");
         content.set_parameters(Name(state.as_bytes()));
     }
     if let Some(stroke) = shape.stroke {
@@ -243,6 +238,7 @@ fn draw_shape(content: &mut Content, shape: &Shape) {
         (None, Some(_)) => content.stroke(),
         (None, None) => content.end_path(),
     };
+    opacity
 }
 
 fn draw_text(content: &mut Content, text: &Text, font: &Subset) {

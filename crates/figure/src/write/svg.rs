@@ -25,12 +25,13 @@ pub fn to_svg(figure: &Figure) -> Result<String, FigureError> {
     // the different areas outside of which something is not drawn
     let mut clips: Vec<Rect> = Vec::new();
     let mut letters: BTreeSet<char> = BTreeSet::new();
+    let mut drawn: Vec<Box<dyn Node>> = Vec::with_capacity(scene.items.len());
     for item in &scene.items {
-        match item {
-            Item::Shape(shape) => clips.extend(shape.clip.filter(|area| !clips.contains(area))),
-            Item::Text(text) => letters.extend(text.plain().chars()),
-            Item::Picture(_) => {}
-        }
+        drawn.push(match item {
+            Item::Shape(shape) => path(shape, &mut clips).into(),
+            Item::Picture(picture) => image(picture)?.into(),
+            Item::Text(text) => label(text, &mut letters).into(),
+        });
     }
     let mut definitions = Definitions::new();
     for (i, area) in clips.iter().enumerate() {
@@ -44,20 +45,14 @@ pub fn to_svg(figure: &Figure) -> Result<String, FigureError> {
         }
     }
     let (width, height) = (number(scene.canvas.width()), number(scene.canvas.height()));
-    let mut document = Document::new()
+    let document = Document::new()
         .set("viewBox", format!("0 0 {width} {height}"))
         .set("width", width)
         .set("height", height)
         // the older name of a link, which every viewer knows
         .set("xmlns:xlink", "http://www.w3.org/1999/xlink")
         .add(definitions);
-    for item in &scene.items {
-        document = match item {
-            Item::Shape(shape) => document.add(path(shape, &clips)),
-            Item::Picture(picture) => document.add(image(picture)?),
-            Item::Text(text) => document.add(label(text)),
-        };
-    }
+    let document = drawn.into_iter().fold(document, Document::add);
     Ok(document.to_string())
 }
 
@@ -70,7 +65,7 @@ fn placed<N: Node>(mut node: N, area: Rect) -> N {
     node
 }
 
-fn path(shape: &Shape, clips: &[Rect]) -> Path {
+fn path(shape: &Shape, clips: &mut Vec<Rect>) -> Path {
     let fill = shape.fill.map_or("none".to_owned(), |fill| hex(fill.0));
     let mut path = Path::new()
         .set("d", outline(&shape.segments))
@@ -88,6 +83,7 @@ fn path(shape: &Shape, clips: &[Rect]) -> Path {
             path = path.set("stroke-dasharray", dashes.join(" "));
         }
     }
+    clips.extend(shape.clip.filter(|area| !clips.contains(area)));
     if let Some(i) = clips.iter().position(|area| shape.clip == Some(*area)) {
         path = path.set("clip-path", format!("url(#plot{i})"));
     }
@@ -138,8 +134,10 @@ fn letter_outline(letter: char) -> Option<String> {
 }
 
 /// A text, its raised and lowered parts each on its own; a rim lies below all letters.
-fn label(text: &Text) -> Group {
-    let mut group = Group::new().set("aria-label", text.plain());
+fn label(text: &Text, used: &mut BTreeSet<char>) -> Group {
+    let plain = text.plain();
+    used.extend(plain.chars());
+    let mut group = Group::new().set("aria-label", plain);
     if text.has_rim {
         for part in text.parts() {
             let rim = letters(part, text.is_upward)

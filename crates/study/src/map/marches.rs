@@ -21,35 +21,30 @@ use crate::picture::Picture;
 use crate::scenes::{paper_disc, paper_response};
 use contact::law::hertz::CONTACT_TIME;
 use contact::{
-    FixedDisc, History, MarchError, StaticShare, Summary, Weights, march_explicit, march_implicit,
+    Choice, FixedDisc, History, MarchError, StaticShare, Summary, Weights, march_explicit,
+    march_implicit,
 };
 use fault::AnyError;
 use figure::{Interval, Layer, Style};
 use halfspace::bisected;
 use paper::PRINTED_PA;
 
-/// What a march made of an impact.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Outcome {
-    /// Restitution within 1e-3 of the converged one.
-    Accurate,
-    /// It loses energy, though not the right amount.
-    Lossy,
-    /// The striker leaves faster than it came.
-    GainsEnergy,
-    /// The force has maxima that the converged one does not have.
-    Oscillates,
-    /// The contact breaks off early, the force grows without bound, or the march refuses.
-    BlownUp,
+contact::choice! {
+    /// What a march made of an impact.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub(super) enum Outcome {
+        /// Restitution within 1e-3 of the converged one.
+        Accurate = "restitution within 1e-3",
+        /// It loses energy, though not the right amount.
+        Lossy = "loses energy, off by more",
+        /// The striker leaves faster than it came.
+        GainsEnergy = "gains energy: restitution above 1",
+        /// The force has maxima that the converged one does not have.
+        Oscillates = "the force oscillates",
+        /// The contact breaks off early, the force grows without bound, or the march refuses.
+        BlownUp = "breaks off, blows up or refuses",
+    }
 }
-
-const OUTCOMES: [&str; 5] = [
-    "restitution within 1e-3",
-    "loses energy, off by more",
-    "gains energy: restitution above 1",
-    "the force oscillates",
-    "breaks off, blows up or refuses",
-];
 
 /// A disc with its converged impact and what first-order theory needs of it.
 pub(super) struct Converged<'a> {
@@ -186,7 +181,8 @@ pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Picture>
     let response = paper_response()?;
     let disc = paper_disc(PRINTED_PA, &response)?;
     let stiffness = "contact stiffness over impedance, k/Z, per collision time";
-    let map = map([0.1, 100.0], stiffness, &OUTCOMES, effort);
+    let outcomes: Vec<_> = Outcome::ALL.iter().map(|outcome| outcome.name()).collect();
+    let map = map([0.1, 100.0], stiffness, &outcomes, effort);
     let mut columns = Vec::new();
     for stiffness in map.columns() {
         // another stiffness over impedance at the same wave time
@@ -254,7 +250,8 @@ fn implicit(map: &Map<'_>, columns: &[(f64, Converged<'_>)], paper: &Converged<'
     let step = line(columns, |exact| exact.summary.contact_time / 8.0);
     figure.line(fewest, Style::Dotted, step);
     let cells = figure.points().into_iter();
-    let gains = cells.filter(|(class, ..)| *class == OUTCOMES[2]).count();
+    let gaining = cells.filter(|(class, ..)| *class == Outcome::GainsEnergy.name());
+    let gains = gaining.count();
     for (label, place, _) in paper_steps(paper) {
         figure.add(Layer::star(place, &label));
     }

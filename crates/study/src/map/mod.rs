@@ -33,13 +33,14 @@ impl Map<'_> {
     ) -> Picture {
         let [x, y] = [0, 1].map(|side| Axis::over(self.plane[side], self.quantities[side]));
         let mut figure = Picture::new(name, title, x, y);
-        let mut cell = 0;
-        let class = |_, y| {
-            cell += 1;
-            class(cell - 1, y)
-        };
-        let classes = Classes::of(self.plane, self.shape, self.classes, class);
-        figure.panel.layers.push(Layer::Classes(classes));
+        let [columns, rows] = self.shape;
+        let ordinates = self.plane[1].cells(rows);
+        let cells = 0..columns * rows;
+        figure.add(Layer::Classes(Classes {
+            shape: self.shape,
+            class: cells.map(|i| class(i, ordinates[i / columns])).collect(),
+            names: self.classes.iter().map(ToString::to_string).collect(),
+        }));
         figure
     }
 
