@@ -21,8 +21,13 @@ const REFERENCE: f64 = 0.3;
 /// # Errors
 /// [`DomainError`] for a ratio outside (-1, 0.5).
 pub fn cell_scale(poisson_ratio: f64) -> Result<f64, DomainError> {
-    static REFERENCE_SPEED: LazyLock<Result<f64, DomainError>> = LazyLock::new(|| speed(REFERENCE));
-    Ok(REFERENCE_SPEED.clone()? / speed(poisson_ratio)?)
+    scale(&Medium::new(poisson_ratio)?)
+}
+
+/// [`cell_scale`] of a half-space.
+pub(crate) fn scale(medium: &Medium) -> Result<f64, DomainError> {
+    static MEDIUM: LazyLock<Result<Medium, DomainError>> = LazyLock::new(|| Medium::new(REFERENCE));
+    Ok(MEDIUM.as_ref().map_err(Clone::clone)?.rayleigh_speed() / medium.rayleigh_speed())
 }
 
 /// Coordinate in which slices are interpolated: nu/5 - c_R/c1, ascending in nu.
@@ -34,17 +39,14 @@ pub fn cell_scale(poisson_ratio: f64) -> Result<f64, DomainError> {
 /// # Errors
 /// [`DomainError`] for a ratio outside (-1, 0.5).
 pub fn ratio_coordinate(poisson_ratio: f64) -> Result<f64, DomainError> {
-    Ok(0.2 * poisson_ratio - speed(poisson_ratio)?)
-}
-
-fn speed(poisson_ratio: f64) -> Result<f64, DomainError> {
-    Ok(Medium::new(poisson_ratio)?.rayleigh_speed())
+    Ok(0.2 * poisson_ratio - Medium::new(poisson_ratio)?.rayleigh_speed())
 }
 
 /// A slice as far as Poisson's ratio goes.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub(crate) struct Served {
     pub(crate) ratio: f64,
+    pub(crate) medium: Medium,
     pub(crate) role: Role,
     /// [`ratio_coordinate`] of the ratio.
     pub(crate) coordinate: f64,
@@ -54,6 +56,7 @@ impl Served {
     pub(crate) fn new(ratio: f64, role: Role) -> Result<Self, DomainError> {
         Ok(Self {
             ratio,
+            medium: Medium::new(ratio)?,
             role,
             coordinate: ratio_coordinate(ratio)?,
         })

@@ -133,13 +133,17 @@ impl Table {
         }
         // before the medium, so that a ratio outside the physics is one outside the table too
         let slices = ratio::weights(&self.served, poisson_ratio)?;
+        let medium = match slices[..] {
+            [(tabulated, _)] => self.served[tabulated].medium.clone(),
+            _ => Medium::new(poisson_ratio)?,
+        };
         Ok(Plan {
             table: self,
             smoothness,
-            medium: Medium::new(poisson_ratio)?,
+            width: self.content().cell_width * ratio::scale(&medium)?,
+            medium,
             coarsening,
             slices,
-            width: self.cell_width(poisson_ratio)?,
         })
     }
 }
