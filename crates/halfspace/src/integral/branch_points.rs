@@ -6,9 +6,8 @@
 use crate::integral::panels::smallest_ellipse;
 use crate::integral::singularities::Singularities;
 use crate::medium::Medium;
-use crate::numeric::complex::Complex;
 use crate::numeric::lanes::Map;
-use crate::numeric::scalar::{Real, Scalar};
+use crate::numeric::scalar::{Complex, Real, Scalar};
 use num_complex::Complex64;
 
 /// Singularities of the amplitudes, fixed for a medium.

@@ -23,8 +23,8 @@ use crate::integral::setting::Setting;
 use crate::integral::singularities::Singularities;
 use crate::integral::spectrum::Wave;
 use crate::integral::strength::Strength;
-use crate::numeric::complex::Complex;
 use crate::numeric::lanes::Points;
+use crate::numeric::scalar::Complex;
 use crate::point::{Point, Sense};
 
 use crate::potentials::shallow;

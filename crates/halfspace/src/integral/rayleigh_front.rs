@@ -3,8 +3,8 @@
 //! Theory: `docs/theory.md` (T19).
 
 use crate::medium::Medium;
-use crate::numeric::complex::Complex;
 use crate::numeric::double::Double;
+use crate::numeric::scalar::Complex;
 use crate::point::Point;
 use crate::potentials::Potentials;
 use crate::potentials::chord_integral::{chord_primitives, from_primitives};

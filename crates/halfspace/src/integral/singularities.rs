@@ -7,9 +7,8 @@
 
 use crate::integral::panels::{Nodes, Piece, ROUNDING, panels};
 use crate::integral::strength::Strength;
-use crate::numeric::complex::Complex;
 use crate::numeric::lanes::{Map, Points};
-use crate::numeric::scalar::Scalar;
+use crate::numeric::scalar::{Complex, Scalar};
 use arrayvec::ArrayVec;
 use num_complex::Complex64;
 

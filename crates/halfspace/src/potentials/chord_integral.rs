@@ -4,10 +4,9 @@
 //! integral are 1/q, phi and their antiderivatives, and the chord function is a parabola: what is left are integrals of
 //! powers of s times 1/q, phi and q between the ends s = eta -+ 1 of the chord.
 
-use crate::numeric::complex::Complex;
-use crate::numeric::scalar::Scalar;
+use crate::numeric::scalar::{Complex, Real, Scalar};
 use crate::potentials::Potentials;
-use crate::potentials::order::Order;
+use crate::potentials::order::{Order, STEP};
 use std::f64::consts::PI;
 
 /// The chord integrals of a Hertz disc between s = eta - 1 and eta + 1, from phi and q at both ends.
@@ -69,6 +68,29 @@ pub(crate) fn chord_primitives<const N: i32, T: Scalar>(
         g_upper: b4,
         g_lower: b3,
     }
+}
+
+/// The chord primitives with phi and q held beyond the circle.
+#[inline(always)]
+pub(crate) fn held_primitives<const N: i32, T: Real>(
+    eta: T,
+    r: f64,
+    inside: [T; 2],
+) -> Potentials<T> {
+    let s = [eta - 1.0, eta + 1.0];
+    let q = [inside[0].held_root(), inside[1].held_root()];
+    let phi = if N == STEP {
+        [eta.constant(0.0), angle_between(s, q)]
+    } else {
+        [s[0].angle_over(q[0]), s[1].angle_over(q[1])]
+    };
+    chord_primitives::<N, T>(eta, r, phi, q)
+}
+
+/// The difference of the angles of the vectors (q, s).
+#[inline(always)]
+pub(crate) fn angle_between<T: Real>(s: [T; 2], q: [T; 2]) -> T {
+    (s[1] * q[0] - s[0] * q[1]).angle_over(q[0] * q[1] + s[0] * s[1])
 }
 
 /// Potentials from chord primitives: powers of i from the change of variable, and the part of

@@ -14,14 +14,12 @@
 //!
 //! Theory: `docs/theory.md` (T12 to T14).
 
-use crate::numeric::complex::{Complex, inside};
-use crate::numeric::scalar::{Real, Scalar};
+use crate::numeric::scalar::{Complex, Real, Scalar, inside};
 use crate::potentials::Potentials;
-use crate::potentials::chord_integral::{chord_primitives, from_primitives};
-use crate::potentials::compact::held_primitives;
+use crate::potentials::chord_integral::{chord_primitives, from_primitives, held_primitives};
 use crate::potentials::end::End;
 use crate::potentials::far_front::{self, ALL, FAR};
-use crate::potentials::multipole;
+use crate::potentials::multipole::{self, Reach};
 use crate::potentials::order::{IMPULSE, STEP};
 use crate::profile::Profile;
 use num_complex::Complex64;
@@ -72,46 +70,6 @@ pub(crate) fn of_one<const N: i32>(
     r: f64,
 ) -> Potentials<Complex64> {
     potentials::<N, Complex64>(profile, xi, (r, ALL), xi.re == 0.0)
-}
-
-/// Where the closed forms hold and where the multipole series takes over.
-pub(crate) struct Reach<C: Complex> {
-    distance: C::Part,
-    nearest: C::Part,
-    pub(crate) some_near: bool,
-    pub(crate) some_far: bool,
-}
-
-impl<C: Complex> Reach<C> {
-    #[inline(always)]
-    pub(crate) fn new<const N: i32>(xi: C, r: f64) -> Self {
-        let nearest = multipole::nearest::<N>(r);
-        let gap = (xi.im().abs() - r).abs();
-        let square = xi.re() * xi.re();
-        if (gap + xi.re()).largest() + 1.0 < nearest {
-            return Self {
-                distance: gap,
-                nearest: gap.constant(nearest),
-                some_near: true,
-                some_far: false,
-            };
-        }
-        let (inner, outer) = (gap - 1.0, gap + 1.0);
-        let distance = ((inner * inner + square).sqrt() + (outer * outer + square).sqrt()) * 0.5;
-        Self {
-            distance,
-            nearest: gap.constant(nearest),
-            some_near: distance.smallest() < nearest,
-            some_far: distance.largest() >= nearest,
-        }
-    }
-
-    #[inline(always)]
-    pub(crate) fn pick(&self, near: Potentials<C>, far: Potentials<C>) -> Potentials<C> {
-        near.zip(far, |near, far| {
-            C::where_below(self.distance, self.nearest, near, far)
-        })
-    }
 }
 
 /// The ends of the chord: zeta, rho and zeta + rho.
@@ -181,7 +139,7 @@ fn primitives_on_imaginary_axis<const N: i32, T: Real>(eta: T, r: f64) -> Potent
         Potentials::all(zero)
     } else {
         let s = [eta - 1.0, eta + 1.0];
-        let w = [held_root(-inside[0]), held_root(-inside[1])];
+        let w = [(-inside[0]).held_root(), (-inside[1]).held_root()];
         let modulus = [s[0].abs().at_least(r) + w[0], s[1].abs().at_least(r) + w[1]];
         let log = if N == STEP {
             [zero, (modulus[0] / modulus[1]).ln()]
@@ -193,12 +151,6 @@ fn primitives_on_imaginary_axis<const N: i32, T: Real>(eta: T, r: f64) -> Potent
     };
     let psi = re.zip(im, T::Complex::new);
     from_primitives::<N, T::Complex>(psi, T::Complex::new(eta, zero), r)
-}
-
-/// The root of what is positive, zero of what is not.
-#[inline(always)]
-pub(crate) fn held_root<T: Real>(square: T) -> T {
-    square.at_least(0.0).sqrt()
 }
 
 /// The potentials of a point force, or from the antiderivatives at both ends of the chord.

@@ -19,13 +19,11 @@
 //!
 //! Theory: `docs/theory.md` (T17).
 
-use crate::numeric::complex::{Complex, inside};
-use crate::numeric::scalar::Real;
+use crate::numeric::scalar::{Complex, Real, inside};
 use crate::potentials::Potentials;
-use crate::potentials::chord_integral::chord_primitives;
-use crate::potentials::closed_form::{Reach, held_root};
+use crate::potentials::chord_integral::{angle_between, held_primitives};
 use crate::potentials::far_front::{self, FAR};
-use crate::potentials::multipole;
+use crate::potentials::multipole::{self, Reach};
 use crate::potentials::order::{IMPULSE, Order, STEP, STEP_INTEGRAL};
 use crate::profile::Profile;
 use std::f64::consts::PI;
@@ -68,29 +66,6 @@ pub(crate) const PASSED: Potentials<f64> = Potentials {
 
 /// What is added to a potential of the integral so that it is measured from its value before the arrival.
 const BEFORE: f64 = -0.25;
-
-/// The chord primitives with phi and q held beyond the circle.
-#[inline(always)]
-pub(crate) fn held_primitives<const N: i32, T: Real>(
-    eta: T,
-    r: f64,
-    inside: [T; 2],
-) -> Potentials<T> {
-    let s = [eta - 1.0, eta + 1.0];
-    let q = [held_root(inside[0]), held_root(inside[1])];
-    let phi = if N == STEP {
-        [eta.constant(0.0), angle_between(s, q)]
-    } else {
-        [s[0].angle_over(q[0]), s[1].angle_over(q[1])]
-    };
-    chord_primitives::<N, T>(eta, r, phi, q)
-}
-
-/// The difference of the angles of the vectors (q, s).
-#[inline(always)]
-fn angle_between<T: Real>(s: [T; 2], q: [T; 2]) -> T {
-    (s[1] * q[0] - s[0] * q[1]).angle_over(q[0] * q[1] + s[0] * s[1])
-}
 
 /// 1/q, and nothing where the circle is not reached.
 #[inline(always)]
@@ -163,7 +138,7 @@ fn hertz_impulse<T: Real>(eta: T, r: f64) -> Potentials<T> {
     let ring = scale / (r * r);
     let s = [eta - 1.0, eta + 1.0];
     let inside = inside(eta, r);
-    let q = [held_root(inside[0]), held_root(inside[1])];
+    let q = [inside[0].held_root(), inside[1].held_root()];
     let over = [inverse(q[0]), inverse(q[1])];
     let (m0, m1) = (angle_between(s, q), q[0] - q[1]);
     let m2 = (m0 * (r * r) - s[1] * q[1] + s[0] * q[0]) * 0.5;
@@ -181,7 +156,7 @@ fn punch<const N: i32, T: Real>(eta: T, r: f64) -> Potentials<T> {
     let ring = scale / (r * r);
     let s = [eta - 1.0, eta + 1.0];
     let inside = inside(eta, r);
-    let q = [held_root(inside[0]), held_root(inside[1])];
+    let q = [inside[0].held_root(), inside[1].held_root()];
     let angle = angle_between(s, q);
     let (a3, b3) = (angle * scale, (q[1] - q[0]) * ring);
     match Order::of(N) {
@@ -213,7 +188,7 @@ fn punch<const N: i32, T: Real>(eta: T, r: f64) -> Potentials<T> {
 fn point<const N: i32, T: Real>(eta: T, r: f64) -> Potentials<T> {
     let scale = 0.5 / PI;
     let ring = scale / (r * r);
-    let q = held_root((-eta + r) * (eta + r));
+    let q = ((-eta + r) * (eta + r)).held_root();
     let over = inverse(q);
     let (a3, b3) = (over * scale, eta * over * -ring);
     match Order::of(N) {

@@ -2,8 +2,7 @@
 //!
 //! Theory: `docs/theory.md` (T13).
 
-use crate::numeric::complex::Complex;
-use crate::numeric::scalar::Scalar;
+use crate::numeric::scalar::{Complex, Scalar};
 
 /// One end of a chord: zeta with Re zeta >= 0, rho = sqrt(zeta^2 + r^2) with Re rho >= 0, zeta + rho and its logarithm.
 pub(crate) struct End<C> {

@@ -16,10 +16,8 @@
 //!
 //! Nothing is left of the distance but its root, so all digits of the front are kept.
 
-use crate::numeric::complex::Complex;
-use crate::numeric::scalar::{Real, Scalar};
+use crate::numeric::scalar::{Complex, Real, Scalar};
 use crate::potentials::Potentials;
-use crate::potentials::closed_form::held_root;
 use std::f64::consts::PI;
 
 /// Radius from which on the closed forms are replaced.
@@ -102,7 +100,7 @@ fn delta<T: Real>(eta: T, r: f64) -> [T; 2] {
 #[inline(always)]
 pub(crate) fn compact<T: Real>(eta: T, (r, digits): (f64, f64)) -> Potentials<T> {
     let delta = delta(eta, r);
-    let root = [held_root(delta[0]), held_root(delta[1])];
+    let root = [delta[0].held_root(), delta[1].held_root()];
     let Chord { i, k } = chord(delta, root, (r, digits));
     let ring = C / (r * r);
     Potentials {
@@ -121,12 +119,12 @@ pub(crate) fn of_disc<T: Complex>(xi: T, (r, digits): (f64, f64), on_axis: bool)
         // linear in the roots, which are real or imaginary
         let re = chord(
             delta,
-            [held_root(delta[0]), held_root(delta[1])],
+            [delta[0].held_root(), delta[1].held_root()],
             (r, digits),
         );
         let im = chord(
             delta,
-            [held_root(-delta[0]), held_root(-delta[1])],
+            [(-delta[0]).held_root(), (-delta[1]).held_root()],
             (r, digits),
         );
         let i = [T::new(re.i[0], im.i[0]), T::new(re.i[1], im.i[1])];

@@ -12,8 +12,7 @@
 //!
 //! Theory: `docs/theory.md` (T20).
 
-use crate::numeric::complex::Complex;
-use crate::numeric::scalar::{Real, Scalar};
+use crate::numeric::scalar::{Complex, Real, Scalar};
 use crate::potentials::Potentials;
 use crate::potentials::order::{IMPULSE, Order, STEP};
 use crate::profile::Profile;
@@ -24,10 +23,50 @@ const MOST_TERMS: usize = 8;
 
 /// Distance from which on the series is taken: farther out the closed forms lose digits, those of the time integral sooner.
 #[inline(always)]
-pub(crate) fn nearest<const N: i32>(r: f64) -> f64 {
+fn nearest<const N: i32>(r: f64) -> f64 {
     match Order::of(N) {
         Order::Step if r > 0.3 => 10.0,
         Order::Impulse | Order::Step | Order::StepIntegral => 7.0,
+    }
+}
+
+/// Where the closed forms hold and where the multipole series takes over.
+pub(crate) struct Reach<C: Complex> {
+    distance: C::Part,
+    nearest: C::Part,
+    pub(crate) some_near: bool,
+    pub(crate) some_far: bool,
+}
+
+impl<C: Complex> Reach<C> {
+    #[inline(always)]
+    pub(crate) fn new<const N: i32>(xi: C, r: f64) -> Self {
+        let nearest = nearest::<N>(r);
+        let gap = (xi.im().abs() - r).abs();
+        let square = xi.re() * xi.re();
+        if (gap + xi.re()).largest() + 1.0 < nearest {
+            return Self {
+                distance: gap,
+                nearest: gap.constant(nearest),
+                some_near: true,
+                some_far: false,
+            };
+        }
+        let (inner, outer) = (gap - 1.0, gap + 1.0);
+        let distance = ((inner * inner + square).sqrt() + (outer * outer + square).sqrt()) * 0.5;
+        Self {
+            distance,
+            nearest: gap.constant(nearest),
+            some_near: distance.smallest() < nearest,
+            some_far: distance.largest() >= nearest,
+        }
+    }
+
+    #[inline(always)]
+    pub(crate) fn pick(&self, near: Potentials<C>, far: Potentials<C>) -> Potentials<C> {
+        near.zip(far, |near, far| {
+            C::where_below(self.distance, self.nearest, near, far)
+        })
     }
 }
 

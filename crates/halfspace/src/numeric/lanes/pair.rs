@@ -1,8 +1,7 @@
 //! Complex numbers side by side.
 
 use super::Lanes;
-use crate::numeric::complex::Complex;
-use crate::numeric::scalar::Scalar;
+use crate::numeric::scalar::{Complex, Scalar};
 use pulp::Simd;
 use std::ops::{Add, Mul, Sub};
 

@@ -1,8 +1,7 @@
 //! Points of a complex plane, of which a function is taken for several at a time.
 
 use super::{Lanes, Pair, WIDTH, dispatch};
-use crate::numeric::complex::Complex;
-use crate::numeric::scalar::{Real, Scalar};
+use crate::numeric::scalar::{Complex, Real, Scalar};
 use arrayvec::ArrayVec;
 use num_complex::Complex64;
 use pulp::{Simd, WithSimd};
