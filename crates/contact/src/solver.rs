@@ -6,6 +6,7 @@
 use crate::collision::Collision;
 use crate::disc::history::History;
 use crate::disc::refine::{Accuracy, Found, explicit, march_finely, solve_disc, stepped};
+use crate::disc::response::DiscResponse;
 use crate::disc::stability;
 use crate::energy::{radiated, work};
 use crate::error::{ContactError, MarchError};
@@ -74,8 +75,8 @@ pub struct Solver<'a, S: Responses> {
     outcomes: Option<&'a Outcomes>,
     /// Of the latest march.
     history: History,
-    /// What was made last, with the bits of its Poisson's ratio and the deflection.
-    disc: Option<((u64, Deflection), Arc<Arc<S::Disc>>)>,
+    /// What was made last, with the bits of its Poisson's ratio.
+    disc: Option<(u64, Arc<Arc<S::Disc>>)>,
     waves: Option<(u64, Arc<Arc<PunchWaves>>)>,
     /// The contact solved last, where it was one that follows the load and was not marched.
     growing: Option<SolvedContact>,
@@ -301,13 +302,15 @@ impl<'a, S: Responses> Solver<'a, S> {
         ratio: f64,
         deflection: Deflection,
     ) -> Result<Arc<Arc<S::Disc>>, DomainError> {
-        let make = || self.responses.disc(ratio, deflection);
-        remembered(&mut self.disc, (ratio.to_bits(), deflection), make)
+        self.disc
+            .take_if(|(_, disc)| disc.disc().deflection != deflection);
+        remembered(&mut self.disc, ratio, || {
+            self.responses.disc(ratio, deflection)
+        })
     }
 
     fn waves(&mut self, ratio: f64) -> Result<Arc<Arc<PunchWaves>>, DomainError> {
-        let bits = ratio.to_bits();
-        remembered(&mut self.waves, bits, || self.responses.waves(ratio))
+        remembered(&mut self.waves, ratio, || self.responses.waves(ratio))
     }
 
     /// The terms of the expansion in the memory of a contact that follows the load.
@@ -354,15 +357,15 @@ impl<'a, S: Responses> Solver<'a, S> {
 }
 
 /// What belongs to a Poisson's ratio, made where the latest is another's.
-fn remembered<K: PartialEq, T>(
-    latest: &mut Option<(K, Arc<T>)>,
-    of: K,
+fn remembered<T>(
+    latest: &mut Option<(u64, Arc<T>)>,
+    ratio: f64,
     make: impl FnOnce() -> Result<T, DomainError>,
 ) -> Result<Arc<T>, DomainError> {
     match latest {
-        Some((known, made)) if *known == of => Ok(Arc::clone(made)),
+        Some((bits, made)) if *bits == ratio.to_bits() => Ok(Arc::clone(made)),
         Some(_) | None => {
-            let (_, made) = latest.insert((of, Arc::new(make()?)));
+            let (_, made) = latest.insert((ratio.to_bits(), Arc::new(make()?)));
             Ok(Arc::clone(made))
         }
     }
