@@ -79,8 +79,8 @@ def imports(text, module, known):
 
 def test_part(text):
     """Where the tests of a file begin; its own tests may use `super`."""
-    place = text.find("#[cfg(test)]\nmod ")
-    return len(text) if place < 0 else place
+    place = re.search(r"#\[cfg\(test\)\]\nmod \w+ \{", text)
+    return place.start() if place else len(text)
 
 
 def circles(known):

@@ -201,7 +201,7 @@ impl Course {
         time * (self.stretch[0] + self.stretch[1] * time)
     }
 
-    /// Time at a place of the self.
+    /// Time at a place of the course.
     fn time(&self, place: f64) -> f64 {
         let [a, b] = self.stretch;
         2.0 * place / (a + (a * a + 4.0 * b * place).max(0.0).sqrt())

@@ -59,16 +59,7 @@ impl Quantity {
             Self::VelocityZ => Some((Derivative::First, 1)),
             Self::AccelerationR => Some((Derivative::Second, 0)),
             Self::AccelerationZ => Some((Derivative::Second, 1)),
-            Self::StrainRr
-            | Self::StrainTt
-            | Self::StrainZz
-            | Self::StrainRz
-            | Self::VonMises
-            | Self::Tresca
-            | Self::MaxShear
-            | Self::Principal1
-            | Self::Principal2
-            | Self::Principal3 => None,
+            _ => None,
         }
     }
 
