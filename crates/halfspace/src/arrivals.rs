@@ -2,8 +2,7 @@
 //!
 //! Theory: `docs/theory.md` (T18, T28).
 
-use crate::domain::check_place;
-use crate::error::DomainError;
+use crate::domain::{DomainError, check_place};
 use crate::medium::Medium;
 use crate::profile::Profile;
 

@@ -1,4 +1,4 @@
-//! The six fields of an axisymmetric half-space and the values that carry them.
+//! The six fields of an axisymmetric half-space, the values that carry them, and the places and times of both.
 
 /// One displacement or stress component in cylindrical coordinates (r, theta, z), z into the body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -56,4 +56,27 @@ pub struct Estimate {
     pub value: Six,
     /// Likely bounds on the absolute error of each value.
     pub error: Six,
+}
+
+/// One evaluation point.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Point {
+    pub(crate) r: f64,
+    pub(crate) z: f64,
+    pub(crate) t: f64,
+}
+
+/// Direction of travel of a wave past the observer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Sense {
+    /// xi- = i (z gamma^ - t)/x: the wave that comes down from the load.
+    Outgoing = -1,
+    /// xi+ = i (z gamma^ + t)/x: its image in time, which makes the sum causal.
+    Image = 1,
+}
+
+impl Sense {
+    pub(crate) fn sign(self) -> f64 {
+        f64::from(self as i8)
+    }
 }

@@ -8,13 +8,11 @@
 //!
 //! Theory: `docs/theory.md` (T9, T10, T16, T21).
 
-use crate::domain::{check, check_hertz, check_place_under, check_time};
-use crate::error::DomainError;
-use crate::field::{Estimate, Six};
+use crate::domain::{DomainError, check, check_hertz, check_place_under, check_time};
+use crate::field::{Estimate, Point, Six};
 use crate::integral::setting::Setting;
 use crate::medium::Medium;
-use crate::point::Point;
-use crate::potentials::order::{IMPULSE, STEP, STEP_INTEGRAL};
+use crate::potentials::{IMPULSE, STEP, STEP_INTEGRAL};
 use crate::profile::Profile;
 
 /// The exact kernels of one half-space under one load profile.

@@ -64,15 +64,12 @@
 
 mod arrivals;
 mod domain;
-mod error;
 mod field;
-mod huber;
 mod integral;
 pub mod kausel;
 mod kernel;
 mod medium;
 mod numeric;
-mod point;
 mod potentials;
 mod profile;
 mod statics;
@@ -80,8 +77,8 @@ mod surface;
 mod trace;
 
 pub use arrivals::Arrivals;
+pub use domain::DomainError;
 pub use domain::check;
-pub use error::DomainError;
 pub use field::{Estimate, FIELDS, Field, Six};
 pub use integral::axis::weights_off_axis;
 pub use kernel::Kernel;

@@ -2,8 +2,7 @@
 //!
 //! Theory: `docs/theory.md` (T1, T11).
 
-use crate::domain::check;
-use crate::error::DomainError;
+use crate::domain::{DomainError, check};
 use crate::numeric::double::Double;
 use num_complex::Complex64;
 

@@ -5,7 +5,7 @@
 //!
 //! Theory: `docs/theory.md` (T55).
 
-use crate::evaluator::nodes::{CellNodes, Node};
+use crate::evaluator::projection::{CellNodes, Node};
 use crate::kernels::Pulse;
 use crate::record::ForceRecord;
 use contact::{

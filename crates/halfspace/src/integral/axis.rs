@@ -5,11 +5,10 @@
 //! values at a few small radii continue it to the axis.
 
 use crate::arrivals::Arrivals;
-use crate::field::{Estimate, FIELDS, Six};
+use crate::field::{Estimate, FIELDS, Point, Six};
 use crate::medium::Medium;
 use crate::numeric::polynomial::lagrange;
-use crate::point::Point;
-use crate::potentials::order::IMPULSE;
+use crate::potentials::IMPULSE;
 use crate::profile::Profile;
 
 /// Radii below this fraction of the distance from the edge of the disc are continued.

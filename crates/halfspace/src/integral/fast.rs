@@ -2,7 +2,7 @@
 //!
 //! Theory: `docs/theory.md` (T17).
 
-use crate::field::{Field, Six};
+use crate::field::{Field, Point, Sense, Six};
 use crate::integral::fronts;
 use crate::integral::panels::ROUNDING;
 use crate::integral::setting::Setting;
@@ -10,11 +10,8 @@ use crate::integral::singularities::Singularities;
 use crate::integral::spectrum::{self, Wave, half_angle};
 use crate::integral::sum::Sum;
 use crate::numeric::scalar::Real;
-use crate::point::{Point, Sense};
-use crate::potentials::Potentials;
 use crate::potentials::compact::{PASSED, compact};
-use crate::potentials::order::{Order, STEP_INTEGRAL};
-use crate::potentials::shallow;
+use crate::potentials::{Order, Potentials, STEP_INTEGRAL, shallow};
 use num_complex::Complex64;
 
 impl Setting {

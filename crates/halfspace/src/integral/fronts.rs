@@ -19,14 +19,13 @@
 //!
 //! Theory: `docs/theory.md` (T18).
 
+use crate::field::{Point, Sense};
+use crate::integral::panels::Strength;
 use crate::integral::setting::Setting;
 use crate::integral::singularities::Singularities;
 use crate::integral::spectrum::Wave;
-use crate::integral::strength::Strength;
 use crate::numeric::lanes::Points;
 use crate::numeric::scalar::Complex;
-use crate::point::{Point, Sense};
-
 use crate::potentials::shallow;
 use num_complex::Complex64;
 

@@ -10,8 +10,8 @@
 //! potentials are taken whole.
 //!
 //! In reading order: the integrand (`spectrum`, `setting`), its two parts below and above slowness 1/c1 (`fast`, `slow`) and
-//! the Rayleigh wave (`rayleigh_pole`, `rayleigh_front`); where it is singular and how strongly (`fronts`, `branch_points`,
-//! `strength`), and the intervals with their Gauss rules that follow (`singularities`, `panels`, `sum`); and the axis (`axis`).
+//! the Rayleigh wave (`rayleigh_pole`, `rayleigh_front`); where it is singular (`fronts`, `branch_points`), and
+//! the intervals with their Gauss rules that follow (`singularities`, `panels`, `sum`); and the axis (`axis`).
 
 pub(crate) mod axis;
 pub(crate) mod branch_points;
@@ -24,16 +24,15 @@ pub(crate) mod setting;
 pub(crate) mod singularities;
 pub(crate) mod slow;
 pub(crate) mod spectrum;
-pub(crate) mod strength;
 pub(crate) mod sum;
 
 use crate::domain::NEAREST;
 use crate::field::{Estimate, Field, Six};
+use crate::field::{Point, Sense};
 use crate::numeric::lanes::dispatch;
-use crate::point::{Point, Sense};
+use crate::potentials::STEP;
 use crate::potentials::closed_form::SMALL_RADIUS;
 use crate::potentials::far_front::{ALL, FAR};
-use crate::potentials::order::STEP;
 use crate::potentials::shallow;
 use crate::profile::Profile;
 use num_complex::Complex64;

@@ -2,15 +2,13 @@
 //!
 //! Theory: `docs/theory.md` (T19).
 
+use crate::field::Point;
 use crate::medium::Medium;
 use crate::numeric::double::Double;
 use crate::numeric::scalar::Complex;
-use crate::point::Point;
-use crate::potentials::Potentials;
 use crate::potentials::chord_integral::{chord_primitives, from_primitives};
-use crate::potentials::far_front;
-use crate::potentials::order::STEP;
 use crate::potentials::shallow::{difference, gap, is_short};
+use crate::potentials::{Potentials, STEP, far_front};
 use crate::profile::Profile;
 use num_complex::Complex64;
 use std::f64::consts::PI;

@@ -4,18 +4,15 @@
 //! 2/(c D'(c)) Re sum_{P,S} N Psi(gamma z - i c t)
 //! ```
 
-use crate::integral::panels::ROUNDING;
+use crate::field::Point;
+use crate::integral::panels::{ROUNDING, Strength};
 use crate::integral::rayleigh_front::Front;
 use crate::integral::setting::Setting;
-use crate::integral::strength::Strength;
 use crate::integral::sum::Sum;
 use crate::numeric::lanes::{Lanes, Pair, dispatch};
-use crate::point::Point;
-use crate::potentials::Potentials;
 use crate::potentials::closed_form::{of_one, potentials};
 use crate::potentials::far_front::ALL;
-use crate::potentials::order::{Order, STEP};
-use crate::potentials::shallow;
+use crate::potentials::{Order, Potentials, STEP, shallow};
 use crate::profile::Profile;
 use num_complex::Complex64;
 use pulp::{Simd, WithSimd};

@@ -1,9 +1,9 @@
 //! What one integral over slowness depends on besides the point: half-space, profile, tolerance.
 
+use crate::field::Point;
 use crate::integral::branch_points::FixedSingularities;
 use crate::integral::spectrum::{Pole, Wave, pole};
 use crate::medium::Medium;
-use crate::point::Point;
 use crate::profile::Profile;
 
 /// Half-space, load profile and accuracy, with what follows from them for every point.

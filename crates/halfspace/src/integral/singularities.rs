@@ -5,8 +5,7 @@
 //!
 //! Theory: `docs/theory.md` (T18).
 
-use crate::integral::panels::{Nodes, Piece, ROUNDING, panels};
-use crate::integral::strength::Strength;
+use crate::integral::panels::{Nodes, Piece, ROUNDING, Strength, panels};
 use crate::numeric::lanes::{Map, Points};
 use crate::numeric::scalar::{Complex, Scalar};
 use arrayvec::ArrayVec;

@@ -2,18 +2,15 @@
 //!
 //! Theory: `docs/theory.md` (T16).
 
-use crate::field::Six;
+use crate::field::{Point, Six};
 use crate::integral::fronts;
 use crate::integral::setting::Setting;
 use crate::integral::singularities::Singularities;
 use crate::integral::spectrum::{self, Wave};
 use crate::integral::sum::Sum;
 use crate::numeric::scalar::{Complex, Real};
-use crate::point::Point;
-use crate::potentials::Potentials;
 use crate::potentials::closed_form::potentials;
-use crate::potentials::order::Order;
-use crate::potentials::shallow;
+use crate::potentials::{Order, Potentials, shallow};
 use crate::profile::Profile;
 use num_complex::Complex64;
 

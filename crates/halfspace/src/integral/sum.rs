@@ -1,12 +1,11 @@
 //! A running sum of six fields that carries its own error estimate.
 
-use crate::field::Six;
+use crate::field::{Point, Sense, Six};
 use crate::integral::panels::Nodes;
 use crate::integral::setting::Setting;
 use crate::integral::spectrum::Wave;
 use crate::numeric::lanes::{Lanes, WIDTH, total};
-use crate::point::{Point, Sense};
-use crate::potentials::order::STEP;
+use crate::potentials::STEP;
 use pulp::{Simd, WithSimd};
 
 /// Six fields and the squares of their likely errors, in blocks that are added up at the end.

@@ -5,8 +5,7 @@
 //! powers of s times 1/q, phi and q between the ends s = eta -+ 1 of the chord.
 
 use crate::numeric::scalar::{Complex, Real, Scalar};
-use crate::potentials::Potentials;
-use crate::potentials::order::{Order, STEP};
+use crate::potentials::{Order, Potentials, STEP};
 use std::f64::consts::PI;
 
 /// The chord integrals of a Hertz disc between s = eta - 1 and eta + 1, from phi and q at both ends.

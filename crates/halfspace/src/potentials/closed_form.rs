@@ -15,12 +15,11 @@
 //! Theory: `docs/theory.md` (T12 to T14).
 
 use crate::numeric::scalar::{Complex, Real, Scalar, inside};
-use crate::potentials::Potentials;
 use crate::potentials::chord_integral::{chord_primitives, from_primitives, held_primitives};
 use crate::potentials::end::End;
 use crate::potentials::far_front::{self, ALL, FAR};
 use crate::potentials::multipole::{self, Reach};
-use crate::potentials::order::{IMPULSE, STEP};
+use crate::potentials::{IMPULSE, Potentials, STEP};
 use crate::profile::Profile;
 use num_complex::Complex64;
 use std::f64::consts::PI;
@@ -231,7 +230,7 @@ fn parabola<C: Complex>(outer: [C; 2], inner: [C; 2]) -> C {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::potentials::order::STEP_INTEGRAL;
+    use crate::potentials::STEP_INTEGRAL;
 
     /// d/dxi of order n + 1 is minus order n: A_{n+1}(xi + h) - A_{n+1}(xi - h) = -2 h A_n.
     #[test]

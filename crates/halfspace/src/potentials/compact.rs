@@ -20,11 +20,10 @@
 //! Theory: `docs/theory.md` (T17).
 
 use crate::numeric::scalar::{Complex, Real, inside};
-use crate::potentials::Potentials;
 use crate::potentials::chord_integral::{angle_between, held_primitives};
 use crate::potentials::far_front::{self, FAR};
 use crate::potentials::multipole::{self, Reach};
-use crate::potentials::order::{IMPULSE, Order, STEP, STEP_INTEGRAL};
+use crate::potentials::{IMPULSE, Order, Potentials, STEP, STEP_INTEGRAL};
 use crate::profile::Profile;
 use std::f64::consts::PI;
 

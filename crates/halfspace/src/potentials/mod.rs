@@ -2,7 +2,7 @@
 //!
 //! Theory: `docs/theory.md` (T12 to T14).
 //!
-//! In reading order: which time integral is meant (`order`), the closed forms of a chord and of its ends (`closed_form`,
+//! In reading order: which time integral is meant ([`Order`]), the closed forms of a chord and of its ends (`closed_form`,
 //! `chord_integral`, `end`), the real parts that begin and end with a wave (`compact`), and what takes their place far from
 //! the disc (`multipole`), at a distant front (`far_front`) and just below the surface (`shallow`).
 
@@ -12,12 +12,11 @@ pub(crate) mod compact;
 pub(crate) mod end;
 pub(crate) mod far_front;
 pub(crate) mod multipole;
-pub(crate) mod order;
 pub(crate) mod shallow;
 
 /// Potentials A_n and B_n/r of two neighbouring orders n.
 ///
-/// With m the number of integrations in time, -1 of the impulse response to 1, see [`Order`](crate::potentials::order::Order),
+/// With m the number of integrations in time, -1 of the impulse response to 1, see [`Order`],
 /// the upper order is 3 + m and the lower 2 + m.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Potentials<T> {
@@ -71,5 +70,41 @@ impl<T> Potentials<T> {
     #[cfg(test)]
     pub(crate) fn into_array(self) -> [T; 4] {
         [self.a_upper, self.a_lower, self.g_upper, self.g_lower]
+    }
+}
+
+/// Derivative or integral in time of the step response, by its number of integrations.
+///
+/// The integral over slowness is the same for all of them: one more integration in time raises the order of every
+/// potential by one. The number is a parameter of types so that each instance is compiled for itself, and this so that a
+/// `match` names all three.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Order {
+    /// d/dt, the response to a unit impulse.
+    Impulse,
+    /// The step response itself.
+    Step,
+    /// int dt.
+    StepIntegral,
+}
+
+/// Integrations in time of [`Order::Impulse`].
+pub(crate) const IMPULSE: i32 = -1;
+
+/// Integrations in time of [`Order::Step`].
+pub(crate) const STEP: i32 = 0;
+
+/// Integrations in time of [`Order::StepIntegral`].
+pub(crate) const STEP_INTEGRAL: i32 = 1;
+
+impl Order {
+    /// The one of a number of integrations in time.
+    pub(crate) const fn of(integrations: i32) -> Self {
+        match integrations {
+            IMPULSE => Self::Impulse,
+            STEP => Self::Step,
+            STEP_INTEGRAL => Self::StepIntegral,
+            _ => panic!("no such order"),
+        }
     }
 }

@@ -13,8 +13,7 @@
 //! Theory: `docs/theory.md` (T20).
 
 use crate::numeric::scalar::{Complex, Real, Scalar};
-use crate::potentials::Potentials;
-use crate::potentials::order::{IMPULSE, Order, STEP};
+use crate::potentials::{IMPULSE, Order, Potentials, STEP};
 use crate::profile::Profile;
 use std::f64::consts::PI;
 

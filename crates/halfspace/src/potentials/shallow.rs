@@ -10,11 +10,11 @@
 //!
 //! Theory: `docs/theory.md` (T19).
 
-use crate::point::Point;
+use crate::field::Point;
 use crate::potentials::closed_form::of_one;
 use crate::potentials::compact::compact;
 use crate::potentials::far_front::ALL;
-use crate::potentials::order::{IMPULSE, STEP};
+use crate::potentials::{IMPULSE, STEP};
 use crate::profile::Profile;
 use num_complex::Complex64;
 

@@ -1,6 +1,6 @@
 //! Functions of time as Chebyshev series on the panels of a zone.
 
-use super::zone::{Zone, panel_ends, panel_of};
+use super::measure::{Zone, panel_ends, panel_of};
 use crate::numeric::polynomial::chebyshev;
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::OnceLock;

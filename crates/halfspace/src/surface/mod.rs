@@ -19,14 +19,12 @@
 mod chord;
 mod curve;
 mod measure;
-mod zone;
 
 use crate::medium::Medium;
 use chord::{Chord, Moments};
 use curve::Curve;
-use measure::Measure;
 pub use measure::surface_measure;
-use zone::{ZONES, Zone};
+use measure::{Measure, ZONES, Zone};
 
 /// Which deflection of the loaded disc is meant.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]

@@ -4,7 +4,7 @@
 //! is confined to ever smaller segments by halving. A segment that is short beside the time in which the force rises counts
 //! for little, and has few nodes.
 
-use crate::error::DomainError;
+use crate::domain::DomainError;
 use crate::field::{Estimate, Six};
 use crate::trace::segment::{Course, Piece, Segment};
 

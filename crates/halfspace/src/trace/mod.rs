@@ -11,8 +11,8 @@ mod interpolation;
 mod segment;
 
 use crate::arrivals::Arrivals;
+use crate::domain::DomainError;
 use crate::domain::{FARTHEST, NEAREST, check, check_hertz, check_place_under, check_time};
-use crate::error::DomainError;
 use crate::field::Six;
 use crate::kernel::Kernel;
 use crate::trace::interpolation::segments;

@@ -12,7 +12,7 @@
 //! The nodes are a Leja sequence, taken in pairs: each set holds the one before, so that a segment has as many as it needs,
 //! and none lies on a front.
 
-use crate::error::DomainError;
+use crate::domain::DomainError;
 use crate::field::{Estimate, Six};
 use crate::numeric::gauss;
 use crate::numeric::lanes::dispatch;

@@ -10,8 +10,7 @@
 use super::convolve::Convolver;
 use super::discs::Discs;
 use super::ends::{Zone, zones};
-use super::nodes::CellNodes;
-use super::projection::Projection;
+use super::projection::{CellNodes, Projection};
 use crate::excitation::{Excitation, Pressed, PressureRadius, Run};
 use crate::fields::quantity::Derivative;
 use crate::grid::Grid;

@@ -17,7 +17,6 @@ mod cuts;
 pub(crate) mod discs;
 mod ends;
 pub(crate) mod forcing;
-pub(crate) mod nodes;
 mod past;
 pub(crate) mod projection;
 #[cfg(test)]
@@ -25,7 +24,6 @@ mod rate_tests;
 pub(crate) mod sum;
 #[cfg(test)]
 mod tests;
-mod transform;
 
 pub(crate) use past::Past;
 

@@ -6,7 +6,7 @@ pub(crate) mod condition;
 mod low_pass;
 pub(crate) mod stretch;
 
-use crate::evaluator::nodes::Node;
+use crate::evaluator::projection::Node;
 use halfspace::gauss;
 use std::path::PathBuf;
 use thiserror::Error;
