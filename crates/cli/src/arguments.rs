@@ -40,9 +40,12 @@ impl Kernels {
     }
 
     /// The table, where kernels may be looked up.
-    fn looked_up(&self) -> Option<&Path> {
-        let table = self.table.as_deref();
-        table.filter(|_| self.kernel != Kernel::Direct)
+    fn looked_up(&self) -> Result<Option<&Path>, Failure> {
+        match (self.kernel, self.table.as_deref()) {
+            (Kernel::Table, None) => Err(Failure::input(NO_TABLE)),
+            (Kernel::Direct, _) => Ok(None),
+            (_, table) => Ok(table),
+        }
     }
 
     /// Of one impact.
@@ -59,7 +62,7 @@ impl Kernels {
 
     /// Whether a finished result may have computed kernels, and the id of the table whose kernels it may have.
     pub(crate) fn allowed(&self) -> Result<(bool, Option<String>), Failure> {
-        let table = self.looked_up().map(open_table).transpose()?;
+        let table = self.looked_up()?.map(open_table).transpose()?;
         let id = table.map(|table| table.id().to_owned());
         Ok((id.is_none() || self.kernel != Kernel::Table, id))
     }
@@ -74,10 +77,7 @@ impl Kernels {
                 )),
             };
         }
-        if self.kernel == Kernel::Table && self.table.is_none() {
-            return Err(Failure::input(NO_TABLE));
-        }
-        Ok(spec.with_fields(self.looked_up(), self.kernel == Kernel::Auto)?)
+        Ok(spec.with_fields(self.looked_up()?, self.kernel == Kernel::Auto)?)
     }
 }
 

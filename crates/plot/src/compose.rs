@@ -1,6 +1,6 @@
 //! From files to a figure.
 
-use crate::error::{PlotError, only};
+use crate::error::{PlotError, kind_of, only};
 use crate::impacts::{frames_of, of_impacts};
 use crate::request::{Kind, Request};
 use crate::sweep::of_sweep;
@@ -19,7 +19,10 @@ pub fn compose(paths: &[PathBuf], request: &Request) -> Result<(Figure, Vec<Stri
     let (mut figure, notes) = match file {
         FileKind::Impact => of_impacts(&open(paths)?, request)?,
         FileKind::Sweep => (of_sweep(only(paths, Kind::Sweep)?, request)?, Vec::new()),
-        FileKind::Table => (of_table(only(paths, Kind::Errors)?, request)?, Vec::new()),
+        FileKind::Table => {
+            let kind = kind_of(request, Kind::Errors)?;
+            (of_table(only(paths, kind)?, request)?, Vec::new())
+        }
         FileKind::SweepPart => return unsuitable(Kind::Sweep),
     };
     scale(&mut figure, request)?;
