@@ -100,7 +100,7 @@ impl Fault for PlotError {
     fn culprit(&self) -> Culprit<'_> {
         match self {
             Self::Read(error) => error.culprit(),
-            Self::Table(error) => error.culprit(),
+            Self::Table(error) => Culprit::of(Class::Table).file(&error.path),
             Self::Domain(_) => Culprit::of(Class::Domain),
             Self::Refused {
                 file, suggestion, ..

@@ -28,7 +28,7 @@ impl Fault for SweepError {
     fn culprit(&self) -> Culprit<'_> {
         match self {
             Self::Scene(error) => error.culprit(),
-            Self::Table(error) => error.culprit(),
+            Self::Table(error) => Culprit::of(Class::Table).file(&error.path),
             Self::Output(error) => error.culprit(),
             Self::Missing(..) => Culprit::of(Class::Scene),
         }
