@@ -70,13 +70,15 @@ impl Resampler {
     /// Force, rate and second rate at a time in collision units; zero outside the contacts.
     ///
     /// Inlined, so that whoever takes the force alone has it in half of the time.
-    #[inline]
+    #[inline(always)]
     pub fn force(&self, time: f64) -> [f64; 3] {
         if let Some(solved) = &self.history.pieces {
             return solved.force(time);
         }
-        let place = self.place(time);
-        place.map_or([0.0; 3], |(cell, x)| pressed_by(self.indentation(cell, x)))
+        match self.place(time) {
+            Some((cell, x)) => pressed_by(self.indentation(cell, x)),
+            None => [0.0; 3],
+        }
     }
 
     /// The state at a time in collision units, from the touch on.

@@ -297,7 +297,7 @@ impl Excitation {
     }
 
     /// The force in N and its rate in N/s at a time; NaN for that of a record, which jumps.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn force_and_rate(&self, time_s: f64) -> [f64; 2] {
         match &self.force {
             Force::Contact(contact) => {
