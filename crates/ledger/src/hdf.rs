@@ -10,11 +10,10 @@ use hdf5_reader::{
     Attribute, Datatype, H5Type, Hdf5File, OpenOptions, SliceInfo, SliceInfoElem, StringSize,
 };
 use rayon::prelude::*;
-use std::fmt;
-use std::io;
 use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
+use std::{fmt, io};
 
 /// Bytes of numbers that a byte of a file may become: Deflate ends a little above a thousand.
 const GROWTH: usize = 1100;

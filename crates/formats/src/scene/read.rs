@@ -3,8 +3,7 @@
 use super::body::{body, read_materials, read_strike};
 use super::keys::{SECTIONS, Set, keys_of};
 use super::record::read_record;
-use super::section::{Section, parse};
-use super::section::{read_standard, read_text};
+use super::section::{Section, parse, read_standard, read_text};
 use crate::error::SceneError;
 use contact::{Choice, Conflict, HalfSpace, Library, Settings};
 use impact::{Load, Probe, Reading, Scene, Section as MeridionalSection, Strike};

@@ -27,13 +27,11 @@ pub(crate) mod spectrum;
 pub(crate) mod sum;
 
 use crate::domain::NEAREST;
-use crate::field::{Estimate, Field, Six};
-use crate::field::{Point, Sense};
+use crate::field::{Estimate, Field, Point, Sense, Six};
 use crate::numeric::lanes::dispatch;
-use crate::potentials::STEP;
 use crate::potentials::closed_form::SMALL_RADIUS;
 use crate::potentials::far_front::{ALL, FAR};
-use crate::potentials::shallow;
+use crate::potentials::{STEP, shallow};
 use crate::profile::Profile;
 use num_complex::Complex64;
 use panels::Nodes;

@@ -11,14 +11,13 @@ mod interpolation;
 mod segment;
 
 use crate::arrivals::Arrivals;
-use crate::domain::DomainError;
-use crate::domain::{FARTHEST, NEAREST, check, check_hertz, check_place_under, check_time};
+use crate::domain::{
+    DomainError, FARTHEST, NEAREST, check, check_hertz, check_place_under, check_time,
+};
 use crate::field::Six;
 use crate::kernel::Kernel;
 use crate::trace::interpolation::segments;
 use crate::trace::segment::Segment;
-
-pub use segment::Series;
 
 /// What is left of a polynomial is of either sign, and so is the rate of the force times it.
 const OSCILLATES: f64 = 0.22;

@@ -15,8 +15,7 @@
 use crate::domain::DomainError;
 use crate::field::{Estimate, Six};
 use crate::numeric::gauss;
-use crate::numeric::lanes::dispatch;
-use pulp::{Simd, WithSimd};
+use crate::numeric::polynomial::chebyshev_each;
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::LazyLock;
 
@@ -279,7 +278,7 @@ impl Segment {
     /// R at some s.
     fn values<const N: usize>(&self, s: [f64; N]) -> [[f64; N]; 6] {
         let (middle, half) = self.piece.middle();
-        dispatch(Series(&self.series, s.map(|s| (s - middle) / half)))
+        chebyshev_each(&self.series, s.map(|s| (s - middle) / half))
     }
 
     /// R at times of the segment.
@@ -325,38 +324,5 @@ impl Segment {
                 }
             }
         }
-    }
-}
-
-/// Chebyshev series, the coefficients of several quantities term by term, at places in [-1, 1] side by side: work for vector
-/// registers, which find the same bits on every machine.
-pub struct Series<'a, const F: usize, const N: usize>(pub &'a [[f64; F]], pub [f64; N]);
-
-impl<const F: usize, const N: usize> WithSimd for Series<'_, F, N> {
-    type Output = [[f64; N]; F];
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
-        let Self(series, x) = self;
-        let mut values = [[0.0; N]; F];
-        for from in (0..N).step_by(S::F64_LANES) {
-            let own = from..N.min(from + S::F64_LANES);
-            let x = simd.partial_load_f64s(&x[own.clone()]);
-            let twice = simd.add_f64s(x, x);
-            let (mut term, mut next) = (simd.splat_f64s(1.0), x);
-            let mut sums = [simd.splat_f64s(0.0); F];
-            for coefficients in series {
-                for (sum, coefficient) in sums.iter_mut().zip(coefficients) {
-                    let product = simd.mul_f64s(simd.splat_f64s(*coefficient), term);
-                    *sum = simd.add_f64s(*sum, product);
-                }
-                let after = simd.sub_f64s(simd.mul_f64s(twice, next), term);
-                (term, next) = (next, after);
-            }
-            for (values, sum) in values.iter_mut().zip(sums) {
-                simd.partial_store_f64s(&mut values[own.clone()], sum);
-            }
-        }
-        values
     }
 }

@@ -12,9 +12,8 @@
 //! Theory: `docs/theory.md` (T24).
 
 use super::projection::Projection;
-use halfspace::{Series, Six, Trace, gauss};
+use halfspace::{Six, Trace, chebyshev_each, gauss};
 use lookup::Moments;
-use pulp::Arch;
 use std::f64::consts::PI;
 use std::ops::Range;
 use std::sync::LazyLock;
@@ -137,7 +136,7 @@ impl Part {
     fn slopes(&self, x: [f64; NODES]) -> [[f64; NODES]; 2] {
         let [low, high] = self.roots;
         let y = x.map(|x| (2.0 * x - low - high) / (high - low));
-        Arch::new().dispatch(Series(&self.series, y))
+        chebyshev_each(&self.series, y)
     }
 
     /// Adds the integrals over some of the past at a time; the trace has its times in `unit_s`.
