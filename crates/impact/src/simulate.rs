@@ -249,7 +249,7 @@ fn left_n(excitation: &Excitation, grid: &Grid, force_n: &[f64]) -> f64 {
     let left = grid.split(force_n).into_iter().map(|(run, force_n)| {
         let nodes = excitation.cell_nodes(&run, grid.step_s);
         let rises = rises(run.base_n, force_n);
-        let projection = Projection::new(force_n, &rises, &nodes, f64::INFINITY);
+        let projection = Projection::new(force_n, &rises, &nodes, (0, f64::INFINITY));
         projection.left.most_n
     });
     left.fold(0.0, f64::max)

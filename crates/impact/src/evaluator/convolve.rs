@@ -63,15 +63,12 @@ impl Convolver {
     pub(crate) fn from_base(base: f64, force: &[f64], wanted: Vec<usize>) -> Self {
         let rise = rises(base, force);
         let live = rise.iter().rposition(|&d| d != 0.0).map_or(0, |i| i + 1);
-        let direct = direct_ns(wanted.len() as f64, live as f64);
-        let size = (2 * force.len()).next_power_of_two();
-        let transform = (transform_ns(size as f64) < direct).then(|| Transform::new(&rise, size));
         Self {
+            transform: Transform::if_faster(&rise, live, wanted.len()),
             force: force.to_vec(),
             rise,
             live,
             wanted,
-            transform,
         }
     }
 
@@ -178,7 +175,7 @@ pub(crate) struct Transform {
 }
 
 impl Transform {
-    pub(crate) fn new(rise: &[f64], size: usize) -> Self {
+    fn new(rise: &[f64], size: usize) -> Self {
         let mut transform = PLANNER.with_borrow_mut(|planner| Self {
             size,
             forward: planner.plan_fft_forward(size),
@@ -187,6 +184,13 @@ impl Transform {
         });
         transform.load = transform.spectrum(rise.iter().copied());
         transform
+    }
+
+    /// Of increments of which so many are not zero, where the sum over these for the samples wanted would take longer.
+    pub(crate) fn if_faster(rise: &[f64], live: usize, wanted: usize) -> Option<Self> {
+        let size = (2 * rise.len()).next_power_of_two();
+        let direct = direct_ns(wanted as f64, live as f64);
+        (transform_ns(size as f64) < direct).then(|| Self::new(rise, size))
     }
 
     fn spectrum(&self, samples: impl Iterator<Item = f64>) -> Vec<Complex<f64>> {

@@ -99,7 +99,12 @@ impl Sampled {
         let convolver = Convolver::from_base(base, samples, needed.to_vec());
         let negligible = NEGLIGIBLE.max(least) * largest(samples);
         Self {
-            projection: Projection::new(samples, convolver.rises(), nodes, negligible),
+            projection: Projection::new(
+                samples,
+                convolver.rises(),
+                nodes,
+                (needed.len(), negligible),
+            ),
             convolver,
         }
     }

@@ -13,7 +13,7 @@
 //!
 //! Theory: `docs/theory.md` (T24).
 
-use super::convolve::weighted_sum;
+use super::convolve::{Transform, weighted_sum};
 use crate::record::stretch::Departure;
 use halfspace::Six;
 use lookup::{Moments, absorbed};
@@ -28,10 +28,12 @@ struct Unabsorbed {
 }
 
 /// A sampled force beyond its rises.
-#[derive(Debug, Clone, Default)]
+#[derive(Default)]
 pub(crate) struct Projection {
     /// For the newest cell, the one before it, and all others: their cells take slopes from other neighbours.
     unabsorbed: [Vec<Unabsorbed>; 3],
+    /// Slopes and bends of the others where they are so many, of noise, that transforms take their place.
+    transforms: Option<[Transform; 2]>,
     /// What rise, slope and bend leave of the force.
     pub(crate) left: Departure,
     /// What each cell takes of the force; the first ends at sample 1.
@@ -42,12 +44,16 @@ pub(crate) struct Projection {
 const BEFORE: isize = 2;
 
 impl Projection {
-    /// Of a force with `samples` a step apart; what is below `negligible` is left out.
-    pub(crate) fn new(samples: &[f64], rises: &[f64], nodes: &CellNodes, negligible: f64) -> Self {
+    /// Of a force with `samples` a step apart, of which so many are wanted; what is below `negligible` is left out.
+    pub(crate) fn new(
+        samples: &[f64],
+        rises: &[f64],
+        nodes: &CellNodes,
+        (wanted, negligible): (usize, f64),
+    ) -> Self {
         let mut found = Self {
-            unabsorbed: Default::default(),
-            left: Departure::default(),
             taken: Vec::with_capacity(samples.len()),
+            ..Self::default()
         };
         for cell in -BEFORE..samples.len() as isize {
             let [slope, bend] = match usize::try_from(cell) {
@@ -71,6 +77,20 @@ impl Projection {
                     list.push(missing);
                 }
             }
+        }
+        let mut series = [vec![0.0; samples.len()], vec![0.0; samples.len()]];
+        let others = &mut found.unabsorbed[2];
+        for one in others
+            .iter()
+            .filter(|one| one.cell + BEFORE < samples.len() as isize)
+        {
+            let place = (one.cell + BEFORE) as usize;
+            (series[0][place], series[1][place]) = (one.slope, one.bend);
+        }
+        let [slopes, bends] = series.map(|own| Transform::if_faster(&own, others.len(), wanted));
+        found.transforms = slopes.zip(bends).map(|(slopes, bends)| [slopes, bends]);
+        if found.transforms.is_some() {
+            others.clear();
         }
         found
     }
@@ -97,6 +117,14 @@ impl Projection {
             }
             for (samples, s) in out.iter_mut().zip(sum) {
                 samples[place] += s;
+            }
+        }
+        let moments = [&cells.first, &cells.second];
+        for (transform, moments) in self.transforms.iter().flatten().zip(moments) {
+            let moments = moments.get(BEFORE as usize..).unwrap_or_default();
+            let found = transform.convolve(moments, self.taken.len() + 1, wanted);
+            for (samples, found) in out.iter_mut().flatten().zip(found.iter().flatten()) {
+                *samples += found;
             }
         }
     }
@@ -295,7 +323,7 @@ mod tests {
             }
             moments.push(cell);
         }
-        let projection = Projection::new(&samples, &rises, &nodes, 1e-15);
+        let projection = Projection::new(&samples, &rises, &nodes, (count as usize, 1e-15));
         let wanted: Vec<usize> = (0..samples.len()).collect();
         let mut out: [Vec<f64>; 6] = std::array::from_fn(|_| vec![0.0; samples.len()]);
         let smooth = moments.absorbed();
@@ -313,6 +341,40 @@ mod tests {
                 }
             }
             assert!((found - exact).abs() < 1e-13, "{n}: {found} {exact}");
+        }
+    }
+
+    /// Noise of which no cell absorbs anything: transforms bring what the sums bring.
+    #[test]
+    fn noise_is_transformed_as_it_is_summed() {
+        let noise = |i: usize, k: usize| ((i * i + k) as f64).sin();
+        let samples: Vec<f64> = (0..2048).map(|i| noise(i, 0)).collect();
+        let rises = crate::evaluator::convolve::rises(0.0, &samples);
+        let nodes = CellNodes::new(samples.len() - 1, |m, nodes| {
+            let rule = gauss::rule(3).on(-0.5, 0.5);
+            nodes.extend(rule.enumerate().map(|(k, (x, weight))| Node {
+                x,
+                weight,
+                force: noise(m, k + 1),
+            }));
+        });
+        let wanted: Vec<usize> = (0..samples.len()).collect();
+        let of = |count: usize, cells: usize| {
+            let mut moments = Moments::with_capacity(cells);
+            for j in 0..cells {
+                moments.push([[noise(j, 4); 6], [noise(j, 5); 6], [noise(j, 6); 6]]);
+            }
+            let projection = Projection::new(&samples, &rises, &nodes, (count, 1e-15));
+            assert_eq!(projection.transforms.is_some(), count > 0);
+            let mut out: [Vec<f64>; 6] = std::array::from_fn(|_| vec![0.0; samples.len()]);
+            projection.add(&moments, &wanted, &mut out);
+            out
+        };
+        for cells in [samples.len() + lookup::BEYOND, 500] {
+            let [summed, transformed] = [0, samples.len()].map(|count| of(count, cells));
+            for (a, b) in summed.iter().flatten().zip(transformed.iter().flatten()) {
+                assert!((a - b).abs() < 1e-10, "{a} {b}");
+            }
         }
     }
 }
