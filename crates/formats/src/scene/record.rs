@@ -116,7 +116,7 @@ const TIMES: [(&str, f64); 6] = [
     ("\u{b5}s", 1e-6),
     ("\u{3bc}s", 1e-6),
 ];
-const FORCES: [(&str, f64); 7] = [
+const FORCES: [(&str, f64); 8] = [
     ("N", 1.0),
     ("mN", 1e-3),
     ("kN", 1e3),
@@ -124,6 +124,7 @@ const FORCES: [(&str, f64); 7] = [
     ("uN", 1e-6),
     ("\u{b5}N", 1e-6),
     ("lbf", 4.448_221_615_260_5),
+    ("\u{3bc}N", 1e-6),
 ];
 
 /// What divides the columns of a line; blanks where nothing else does.
@@ -174,6 +175,7 @@ fn factor(name: &str, given: Option<&String>, known: &[(&str, f64)]) -> Result<f
         };
         format!(
             "the column \"{name}\" {has}, needed one of {}: give force.units, such as [\"us\", \"kN\"]",
+            // the last is another letter mu
             names[..names.len() - 1].join(", ")
         )
     })
