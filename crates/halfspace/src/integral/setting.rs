@@ -77,11 +77,6 @@ impl Setting {
             Wave::S => self.root_k,
         }
     }
-
-    /// Time of the first arrival at (r, z): the distance to the nearest point of the disc.
-    pub(crate) fn first_arrival(&self, r: f64, z: f64) -> f64 {
-        (r - self.profile.radius()).max(0.0).hypot(z)
-    }
 }
 
 fn digits(tolerance: f64) -> f64 {

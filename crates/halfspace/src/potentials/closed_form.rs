@@ -232,6 +232,13 @@ mod tests {
     use super::*;
     use crate::potentials::STEP_INTEGRAL;
 
+    impl<T> Potentials<T> {
+        /// The four in the order in which they are declared.
+        fn into_array(self) -> [T; 4] {
+            [self.a_upper, self.a_lower, self.g_upper, self.g_lower]
+        }
+    }
+
     /// d/dxi of order n + 1 is minus order n: A_{n+1}(xi + h) - A_{n+1}(xi - h) = -2 h A_n.
     #[test]
     fn orders_form_an_antiderivative_chain() {
