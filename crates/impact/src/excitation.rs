@@ -144,9 +144,10 @@ impl Excitation {
         let relative_error = history.error;
         let samples = Resampler::new(history);
         let span_s = |span: &[f64]| [0, 1].map(|i| span[i] * units.time_s);
+        let kinks = (samples.history.pieces.iter()).flat_map(|solved| &solved.kinks);
         let contact = Contact {
             contacts_s: samples.breaks.chunks_exact(2).map(span_s).collect(),
-            kinks_s: samples.kinks().iter().map(|t| t * units.time_s).collect(),
+            kinks_s: kinks.map(|t| t * units.time_s).collect(),
             samples,
             units,
             duration_s,

@@ -30,7 +30,6 @@
 use crate::disc::edge::{Edge, RESOLVED, Relaxation};
 use crate::disc::history::{History, Separation};
 use crate::disc::measured::first_separation;
-use crate::disc::response::DiscResponse;
 use crate::growing::nodes::dot;
 use crate::numeric::quadrature::Local;
 
@@ -48,7 +47,7 @@ const UNSEEN: f64 = 1.0 / 3.0;
 const UNCERTAIN: f64 = 0.5;
 
 /// The end of the first contact, where the last samples tell it.
-fn separation(
+pub(crate) fn separation(
     history: &History,
     relaxation: &Relaxation<impl Fn(f64) -> f64>,
 ) -> Option<Separation> {
@@ -92,30 +91,6 @@ fn separation(
     })
 }
 
-impl History {
-    /// Finds the end of the first contact and, where there is no other, the work that is left in the half-space.
-    pub(crate) fn separate(&mut self, relaxation: &Relaxation<impl Fn(f64) -> f64>) {
-        self.separation = separation(self, relaxation);
-        self.dissipated = dissipated(self, relaxation);
-    }
-
-    /// Work of the force on another deflection of the same disc, where that on its own is known and the steps do not
-    /// resolve the memory of either.
-    pub(crate) fn work_on(
-        &self,
-        response: &impl DiscResponse,
-        coupling: f64,
-        wave_time: f64,
-    ) -> Option<f64> {
-        let relaxation = Relaxation::of(response, coupling, wave_time / self.step);
-        // beyond that it knows no more than its memory
-        if relaxation.memory > RESOLVED {
-            return None;
-        }
-        dissipated(self, &relaxation)
-    }
-}
-
 /// First sample of the sum.
 const FIRST: usize = 3;
 
@@ -137,7 +112,10 @@ const BEFORE_END: f64 = 2.75;
 /// Work of one contact, relative to the kinetic energy before.
 ///
 /// Nothing for several contacts, those of few steps, and where the samples at both ends are not those of an edge.
-fn dissipated(history: &History, relaxation: &Relaxation<impl Fn(f64) -> f64>) -> Option<f64> {
+pub(crate) fn dissipated(
+    history: &History,
+    relaxation: &Relaxation<impl Fn(f64) -> f64>,
+) -> Option<f64> {
     let (p, elastic) = (&history.force, history.elastic);
     let mut after = p.iter().skip(first_separation(p));
     if after.any(|&p| p > 0.0) {
@@ -204,7 +182,7 @@ mod tests {
                 let impact = FixedDisc {
                     response: &response,
                     coupling,
-                    wave_time: memory * duration / response.disc().memory,
+                    wave_time: memory * duration / response.disc.memory,
                     share: StaticShare::Full,
                 };
                 let march = |steps: f64| march_implicit(&impact, duration / steps).unwrap();
@@ -229,7 +207,7 @@ mod tests {
         let impact = FixedDisc {
             response: &response,
             coupling,
-            wave_time: memory * duration / response.disc().memory,
+            wave_time: memory * duration / response.disc.memory,
             share: StaticShare::Full,
         };
         let fine = march_implicit(&impact, duration / 4096.0).unwrap();
@@ -268,7 +246,7 @@ mod tests {
     #[test]
     fn the_weights_of_the_lag_are_exact_for_its_moments() {
         let response = SurfaceResponse::new(&Medium::new(0.25).unwrap(), Deflection::Mean);
-        let relaxation = Relaxation::of(&response, 1.0, 2.0 / response.disc().memory);
+        let relaxation = Relaxation::of(&response, 1.0, 2.0 / response.disc.memory);
         let weights = delayed_weights(&relaxation);
         // p = (2 + s)^k at s = -2 .. 2: L(0) = sum_j (-1)^j p^(j+1)(0) M_j/j!
         let [m0, m1, m2, m3] = relaxation.moments;
