@@ -125,13 +125,8 @@ const NEGLIGIBLE: f64 = 1e-9;
 
 impl<'a> Forcing<'a> {
     /// For a derivative at some samples of a grid, ascending.
-    pub(crate) fn new(
-        excitation: &'a Excitation,
-        grid: &Grid,
-        wanted: &[usize],
-        derivative: Derivative,
-        tolerance: f64,
-    ) -> Self {
+    pub(crate) fn new(grid: &Grid<'a>, wanted: &[usize], derivative: Derivative) -> Self {
+        let excitation = grid.excitation;
         let (reading, differences) = match (derivative, excitation.record()) {
             (Derivative::Field, _) => (Reading::Force, 0),
             (Derivative::First, None) => (Reading::Rate, 0),
@@ -167,7 +162,7 @@ impl<'a> Forcing<'a> {
             reading,
             differences,
             step_s: grid.step_s,
-            tolerance,
+            tolerance: grid.tolerance,
             runs,
             needed,
             times_s,
