@@ -101,7 +101,7 @@ impl Sampled {
         Self {
             projection: Projection::new(
                 samples,
-                convolver.rises(),
+                &convolver.rises,
                 nodes,
                 (needed.len(), negligible),
             ),
@@ -264,7 +264,7 @@ impl<'a> Forcing<'a> {
         if k == 0 && self.reading == Reading::Force {
             force.left.join(own.projection.left);
         }
-        let rises = own.convolver.rises();
+        let rises = &own.convolver.rises;
         // of the outputs: differenced as they are
         let mut changes = rises.to_vec();
         for _ in 0..self.differences {

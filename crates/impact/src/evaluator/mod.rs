@@ -140,7 +140,7 @@ impl<'a> Evaluator<'a> {
     pub(crate) fn method(&self) -> Method {
         let forces = self.forces.iter().filter_map(OnceLock::get);
         let mut runs = forces.flatten().flatten().flat_map(|force| &force.runs);
-        match runs.any(|run| run.force.convolver.method() == Method::Transform) {
+        match runs.any(|run| run.force.convolver.transform.is_some()) {
             true => Method::Transform,
             false => Method::Direct,
         }
@@ -277,7 +277,6 @@ impl<'a> Evaluator<'a> {
             rates,
             tolerance: self.grid.tolerance / share.min(1.0),
         };
-        let source = self.source;
-        source.cells(ratio, place, disc_radius_m, plan)
+        (self.source).cells(ratio, place, disc_radius_m, plan)
     }
 }
