@@ -12,7 +12,7 @@ use contact::{
     CollisionUnits, HalfSpace, History, KernelUnits, Resampler, SolvedContact, StaticShare,
     WaveSpeeds, Weights,
 };
-use halfspace::{Deflection, DomainError, Medium, SurfaceResponse, bisected, gauss};
+use halfspace::{Deflection, DomainError, Medium, Profile, Six, SurfaceResponse, bisected, gauss};
 
 /// Consecutive samples.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -274,6 +274,37 @@ impl Excitation {
         ]
     }
 
+    /// Static field in SI units under the pressures of an instant.
+    pub(crate) fn static_si(
+        &self,
+        [r_m, z_m]: [f64; 2],
+        pressures: impl IntoIterator<Item = Pressed>,
+    ) -> Result<Six, DomainError> {
+        let mut sum = Six::default();
+        for one in pressures {
+            let over = one.square.sqrt();
+            if over == 0.0 {
+                continue;
+            }
+            let radius_m = over * self.units.disc_radius_m;
+            let fixed = self
+                .medium
+                .static_field(Profile::Hertz, r_m / radius_m, z_m / radius_m)?;
+            let unit = self.units_si(over);
+            for (f, sum) in sum.iter_mut().enumerate() {
+                *sum += one.force_n * unit[f] * fixed[f];
+            }
+        }
+        Ok(sum)
+    }
+
+    /// Units of the fields by a force in N, under a disc of a radius `over` the largest.
+    pub(crate) fn units_si(&self, over: f64) -> Six {
+        let displacement = self.units.displacement_m_per_n() / over;
+        let stress = self.units.stress_pa_per_n() / (over * over);
+        [displacement, displacement, stress, stress, stress, stress]
+    }
+
     /// When each contact begins and ends, in s; none of a record.
     pub(crate) fn contacts_s(&self) -> &[[f64; 2]] {
         self.contact().map_or(&[], |contact| &contact.contacts_s)
@@ -393,18 +424,12 @@ impl Excitation {
         }
     }
 
-    /// Length in s of a pulse that is as steep as the force: its duration for a contact.
-    pub(crate) fn pulse_s(&self) -> f64 {
-        self.record()
-            .map_or_else(|| self.end_s(), ForceRecord::pulse_s)
-    }
-
     /// What a table's error depends on, with times in r0/c1 of discs of a radius `over` the largest.
     pub(crate) fn pulse(&self, over: f64) -> Pulse {
-        let length = self.pulse_s() / (over * self.units.time_s());
-        match self.force {
-            Force::Contact(_) => Pulse::Contact(length),
-            Force::Record(_) => Pulse::Smooth(length),
+        let unit_s = over * self.units.time_s();
+        match &self.force {
+            Force::Contact(contact) => Pulse::Contact(contact.duration_s / unit_s),
+            Force::Record(record) => Pulse::Smooth(record.pulse_s() / unit_s),
         }
     }
 

@@ -62,7 +62,7 @@ impl Wanted {
         match excitation.record() {
             None => {
                 let samples = (1.5 / self.tolerance.sqrt()).clamp(100.0, 10_000.0);
-                excitation.pulse_s() / samples
+                excitation.end_s() / samples
             }
             Some(record) => {
                 let stretches = record.stretches(self.settling_s(excitation), self.tolerance);

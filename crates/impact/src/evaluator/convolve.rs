@@ -139,14 +139,11 @@ impl Method {
 
 /// P_m - P_{m-1}, with `base` before the first sample.
 pub(crate) fn rises(base: f64, force: &[f64]) -> Vec<f64> {
-    let mut before = base;
+    let before = [base].into_iter().chain(force.iter().copied());
     force
         .iter()
-        .map(|&p| {
-            let rise = p - before;
-            before = p;
-            rise
-        })
+        .zip(before)
+        .map(|(p, before)| p - before)
         .collect()
 }
 

@@ -11,9 +11,7 @@
 //!
 //! Theory: `docs/theory.md` (T24, T55, T60, T61).
 
-mod at_rest;
 pub mod convolve;
-mod cuts;
 pub(crate) mod discs;
 mod ends;
 pub(crate) mod forcing;
