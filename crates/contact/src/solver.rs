@@ -203,7 +203,7 @@ impl<'a, S: Responses> Solver<'a, S> {
             && let Some(place) = Place::of(&plan, collision, settings, &**disc)
             && let Some((summary, radiated, error)) = outcomes.at(&place, self.responses)
         {
-            return Ok(plan.solved(None, Found::unmarched(summary, error), radiated));
+            return Ok(plan.solved(None, Found::new(summary, error, None), radiated));
         }
         let in_times = |step_s: f64| step_s / collision.units().time_s;
         let step = settings.step_s.map(in_times);
@@ -289,7 +289,7 @@ impl<'a, S: Responses> Solver<'a, S> {
             Rung::Radiation | Rung::AreaDashpot => left_out + of_series,
             Rung::FullMemory => YIELDS * followed.map_or(0.0, |one| one.estimates.contact()),
         };
-        let found = Found::unmarched(summary, error.min(1.0));
+        let found = Found::new(summary, error.min(1.0), None);
         let scheme = memory.then_some(Scheme::Implicit);
         Ok(Some(Solved {
             flow: Some(flow),
@@ -332,7 +332,7 @@ impl<'a, S: Responses> Solver<'a, S> {
         if step.is_none() {
             match solve_growing(&contact, &asked) {
                 Ok(solved) => {
-                    let found = Found::unmarched(solved.summary, solved.estimates.contact());
+                    let found = Found::new(solved.summary, solved.estimates.contact(), None);
                     let radiated = work_on_half_space(&contact, &solved, asked.tolerance);
                     self.growing = Some(solved);
                     return Ok((found, radiated));

@@ -232,7 +232,7 @@ impl Plan {
         };
         // what the next rung adds
         let radiated = if lag > 0.0 { 0.0 } else { 0.5 * loss };
-        Ok(Found::unmarched(summary, (radiated + left_out).min(1.0)))
+        Ok(Found::new(summary, (radiated + left_out).min(1.0), None))
     }
 
     /// Results of [`Model::AreaDashpot`].
@@ -246,7 +246,7 @@ impl Plan {
         if error >= 1.0 {
             return Err(ContactError::BeyondDashpot { lag, memory });
         }
-        Ok(Found::unmarched(terms.summary(), error))
+        Ok(Found::new(terms.summary(), error, None))
     }
 
     /// Why this model, in words.
