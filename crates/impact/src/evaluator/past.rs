@@ -23,6 +23,9 @@ use std::ops::Range;
 /// Distance in largest radii from which on the kernels of the first and last small contacts lose digits.
 const FAR: f64 = 30.0;
 
+/// Nodes of a rule at least.
+pub(crate) const LEAST: usize = 6;
+
 /// Kinds of fronts, and the edge of the contact; of both pressures that stand for its own.
 const KINDS: usize = 11;
 const FAMILIES: usize = 2 * KINDS;
@@ -70,7 +73,10 @@ impl<'a> Past<'a> {
         };
         for i in 0..PARTS {
             let span_s = [graded(i), graded(i + 1)];
-            for (sum, waves) in sum.iter_mut().zip(self.between(place_m, time_s, span_s)?) {
+            for (sum, waves) in sum
+                .iter_mut()
+                .zip(self.between(LEAST, place_m, time_s, span_s)?)
+            {
                 *sum += waves;
             }
         }
@@ -193,8 +199,8 @@ impl<'a> Past<'a> {
         if span_s[1] > from_s {
             span_s[1] = f64::INFINITY;
         }
-        let after = self.with_nodes(NODES, place_m, to_s, span_s)?;
-        let before = self.with_nodes(NODES, place_m, from_s, span_s)?;
+        let after = self.between(NODES, place_m, to_s, span_s)?;
+        let before = self.between(NODES, place_m, from_s, span_s)?;
         let mut rate: Six = std::array::from_fn(|f| (after[f] - before[f]) / (to_s - from_s));
         // what leaves the span at its ends is not lost: the sum over the cells has the rate of the force inside it
         for (at_s, sign) in [(span_s[0], -1.0), (span_s[1], 1.0)] {
@@ -205,21 +211,11 @@ impl<'a> Past<'a> {
         Ok(rate)
     }
 
-    /// The waves from a part of the past.
+    /// The waves from a part of the past, by rules of so many nodes at least.
     ///
     /// Near the axis of a punch, where fronts from opposite edges meet and it has no kernel of its own, fields are r to
     /// their parity times a function of r^2, which their values at a few larger radii continue.
     pub(crate) fn between(
-        &self,
-        place_m: [f64; 2],
-        time_s: f64,
-        span_s: [f64; 2],
-    ) -> Result<Six, ImpactError> {
-        const NODES: usize = 6;
-        self.with_nodes(NODES, place_m, time_s, span_s)
-    }
-
-    fn with_nodes(
         &self,
         least: usize,
         [r_m, z_m]: [f64; 2],

@@ -4,7 +4,7 @@ use super::Trace;
 use super::discs::Discs;
 use super::ends::open;
 use super::forcing::{DiscForce, Forcing, Reading};
-use super::past::Past;
+use super::past::{LEAST, Past};
 use crate::error::ImpactError;
 use crate::excitation::{Excitation, PressureRadius};
 use crate::fields::quantity::Derivative;
@@ -395,7 +395,7 @@ impl<'a> Sum<'a> {
         for part in &parts {
             let (step_s, span_s) = (self.forcing.step_s, span_s(part));
             let found = match self.forcing.reading {
-                Reading::Force => past.between(self.place_m, time_s, span_s)?,
+                Reading::Force => past.between(LEAST, self.place_m, time_s, span_s)?,
                 Reading::Rate => past.rate_between(self.place_m, time_s, span_s, step_s)?,
             };
             for (sum, found) in exact.iter_mut().zip(found) {
