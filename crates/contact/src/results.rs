@@ -131,12 +131,7 @@ impl Results {
             energy_residual: 1.0 - rebound - (solved.radiated + plastic_work),
             contact_radius_m,
             disc_radius_m,
-            loading: Loading::new(
-                &collision.strengths,
-                peak_force_n,
-                loaded_m,
-                [collision.tip_radius_m, collision.effective_modulus_pa],
-            ),
+            loading: collision.loading(peak_force_n, loaded_m),
             plastic: Plastic::new(collision, settings, solved, units.length_m),
             contacts: s.contacts,
             march_steps: solved.step.map_or(0, steps),

@@ -161,8 +161,8 @@ fn of_the_materials(collision: &Collision, results: &Results, found: &mut Vec<St
             ));
         }
         let force_n = results.peak_force_n;
-        let crack =
-            strength.cone_crack_force_n(collision.tip_radius_m, collision.effective_modulus_pa);
+        let contact = [collision.tip_radius_m, collision.effective_modulus_pa];
+        let crack = strength.cone_crack_force_n(contact);
         if let Some(crack_n) = crack.filter(|&crack_n| force_n > crack_n) {
             found.push(format!(
                 "the peak force {force_n:.4e} N is {:.2} times {crack_n:.4e} N, where a cone crack in the {body} is expected (Auerbach's law, good to the order and the first digit)",
