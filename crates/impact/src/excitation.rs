@@ -55,10 +55,8 @@ pub enum PressureRadius {
 impl PressureRadius {
     /// The largest in m: the unit of length of the fields.
     pub fn largest_m(self) -> f64 {
-        match self {
-            Self::Fixed(radius_m) => radius_m,
-            Self::Following { largest_m, .. } => largest_m,
-        }
+        let (Self::Fixed(largest_m) | Self::Following { largest_m, .. }) = self;
+        largest_m
     }
 }
 

@@ -62,10 +62,7 @@ pub struct FieldsUsed {
 impl FieldsUsed {
     /// Name of the kernels in reports and results: "direct" or "table".
     pub fn kernel(&self) -> &'static str {
-        match self.table {
-            None => "direct",
-            Some(_) => "table",
-        }
+        self.table.as_ref().map_or("direct", |_| "table")
     }
 }
 

@@ -72,10 +72,7 @@ impl Setting {
 
     /// Slowness of a body wave: 1 for P, 1/kappa for S.
     pub(crate) fn slowness(&self, wave: Wave) -> f64 {
-        match wave {
-            Wave::P => 1.0,
-            Wave::S => self.root_k,
-        }
+        [1.0, self.root_k][wave as usize]
     }
 }
 
