@@ -25,9 +25,9 @@ use crate::model::{Model, Rung, Scheme, Settings};
 use crate::outcome::{Outcomes, Place};
 use crate::plastic::quick::quick;
 use crate::plastic::{Flow, Yielding};
-use crate::responses::Responses;
+use crate::responses::{Exact, Responses};
 use crate::summary::Summary;
-use halfspace::{Deflection, DomainError, Medium, SurfaceResponse};
+use halfspace::{Deflection, DomainError};
 use std::sync::Arc;
 
 /// A contact solved, in collision units.
@@ -224,9 +224,8 @@ impl<'a, S: Responses> Solver<'a, S> {
                 let found = match scheme {
                     Scheme::Implicit => solve_disc(room, &impact(), step, asked)?,
                     Scheme::Explicit => {
-                        let medium = Medium::new(ratio)?;
-                        let response = SurfaceResponse::new(&medium, settings.deflection);
-                        explicit(room, &disc_of(settings, collision, &response), step)?
+                        let response = Exact.disc(ratio, settings.deflection)?;
+                        explicit(room, &disc_of(settings, collision, &*response), step)?
                     }
                 };
                 let mean = self.responses.disc(ratio, Deflection::Mean)?;
