@@ -10,8 +10,7 @@ use crate::scene::Scene;
 use fault::AnyError;
 use halfspace::Profile;
 use lookup::{LookupError, Table};
-use std::collections::HashMap;
-use std::collections::hash_map::Entry;
+use std::collections::hash_map::{Entry, HashMap};
 use std::fmt;
 use std::sync::{Arc, Mutex, PoisonError};
 
