@@ -73,10 +73,8 @@ impl<'a> Past<'a> {
         };
         for i in 0..PARTS {
             let span_s = [graded(i), graded(i + 1)];
-            for (sum, waves) in sum
-                .iter_mut()
-                .zip(self.between(LEAST, place_m, time_s, span_s)?)
-            {
+            let waves = self.between(LEAST, place_m, time_s, span_s)?;
+            for (sum, waves) in sum.iter_mut().zip(waves) {
                 *sum += waves;
             }
         }
