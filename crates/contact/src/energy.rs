@@ -8,7 +8,6 @@ use crate::disc::FixedDisc;
 use crate::disc::edge::{RESOLVED, Relaxation};
 use crate::disc::history::History;
 use crate::disc::response::DiscResponse;
-use crate::disc::separation::dissipated;
 use crate::disc::weights::Weights;
 use crate::resample::Resampler;
 use halfspace::Deflection;
@@ -39,7 +38,7 @@ pub(crate) fn radiated<R: DiscResponse>(
     let relaxation = Relaxation::of(mean, coupling, impact.wave_time / history.step);
     // beyond that it knows no more than its memory
     if relaxation.memory <= RESOLVED
-        && let Some(work) = dissipated(history, &relaxation)
+        && let Some(work) = history.work_on(&relaxation)
     {
         return work;
     }

@@ -12,7 +12,6 @@ use crate::disc::FixedDisc;
 use crate::disc::edge::{Edge, RESOLVED, Relaxation};
 use crate::disc::history::{History, affordable, memory_cells};
 use crate::disc::response::DiscResponse;
-use crate::disc::separation::{dissipated, separation};
 use crate::disc::striker::{STARTING, StrikerMotion, starting_roots};
 use crate::disc::weights::Weights;
 use crate::error::MarchError;
@@ -87,8 +86,7 @@ pub(crate) fn march_into(
             affordable(n, cells, impact.memory())?;
         }
     }
-    history.separation = separation(history, &relaxation);
-    history.dissipated = dissipated(history, &relaxation);
+    history.separate(&relaxation);
     Ok(())
 }
 

@@ -47,7 +47,7 @@ const UNSEEN: f64 = 1.0 / 3.0;
 const UNCERTAIN: f64 = 0.5;
 
 /// The end of the first contact, where the last samples tell it.
-pub(crate) fn separation(
+fn separation(
     history: &History,
     relaxation: &Relaxation<impl Fn(f64) -> f64>,
 ) -> Option<Separation> {
@@ -109,41 +109,46 @@ const DERIVATIVES: [[f64; 5]; 4] = [
 /// How many steps before the end the samples between end at least: two further are needed, the last ones are known badly.
 const BEFORE_END: f64 = 2.75;
 
-/// Work of one contact, relative to the kinetic energy before.
-///
-/// Nothing for several contacts, those of few steps, and where the samples at both ends are not those of an edge.
-pub(crate) fn dissipated(
-    history: &History,
-    relaxation: &Relaxation<impl Fn(f64) -> f64>,
-) -> Option<f64> {
-    let (p, elastic) = (&history.force, history.elastic);
-    let mut after = p.iter().skip(first_separation(p));
-    if after.any(|&p| p > 0.0) {
-        return None;
+impl History {
+    /// Finds the end of the first contact and, where there is no other, the work that is left in the half-space.
+    pub(crate) fn separate(&mut self, relaxation: &Relaxation<impl Fn(f64) -> f64>) {
+        self.separation = separation(self, relaxation);
+        self.dissipated = self.work_on(relaxation);
     }
-    let steps = history.separation?.time / history.step;
-    let last = (steps - BEFORE_END) as usize;
-    let rest = steps - last as f64;
-    let roots = |from: usize| {
-        let samples = p.get(from..from + 3)?;
-        Some([0, 1, 2].map(|i: usize| samples[i].cbrt()))
-    };
-    let (first, [r0, r1, r2]) = (roots(1)?, roots(last)?);
-    let touch = Edge::new(elastic, first, [1.0, 2.0, 3.0])?;
-    let leave = Edge::new(elastic, [r2, r1, r0], [rest - 2.0, rest - 1.0, rest])?;
-    if last + 1 < FIRST + NEEDED {
-        return None;
+
+    /// Work of one contact, relative to the kinetic energy before.
+    ///
+    /// Nothing for several contacts, those of few steps, and where the samples at both ends are not those of an edge.
+    pub(crate) fn work_on(&self, relaxation: &Relaxation<impl Fn(f64) -> f64>) -> Option<f64> {
+        let (p, elastic) = (&self.force, self.elastic);
+        let mut after = p.iter().skip(first_separation(p));
+        if after.any(|&p| p > 0.0) {
+            return None;
+        }
+        let steps = self.separation?.time / self.step;
+        let last = (steps - BEFORE_END) as usize;
+        let rest = steps - last as f64;
+        let roots = |from: usize| {
+            let samples = p.get(from..from + 3)?;
+            Some([0, 1, 2].map(|i: usize| samples[i].cbrt()))
+        };
+        let (first, [r0, r1, r2]) = (roots(1)?, roots(last)?);
+        let touch = Edge::new(elastic, first, [1.0, 2.0, 3.0])?;
+        let leave = Edge::new(elastic, [r2, r1, r0], [rest - 2.0, rest - 1.0, rest])?;
+        if last + 1 < FIRST + NEEDED {
+            return None;
+        }
+        let edges = relaxation.taken(&touch, first[2], false) + relaxation.taken(&leave, r0, true);
+        let delayed = delayed_weights(relaxation);
+        let rate = |n: usize| {
+            let samples = &p[n - 2..n + 3];
+            dot(samples, &DERIVATIVES[0]) * dot(samples, &delayed)
+        };
+        let end = |(i, weight): (usize, &f64)| (1.0 - weight) * (rate(FIRST + i) + rate(last - i));
+        let ends: f64 = GREGORY.iter().enumerate().map(end).sum();
+        let middle = (FIRST..=last).map(rate).sum::<f64>() - ends;
+        Some(2.5 * relaxation.coupling * (edges + middle))
     }
-    let edges = relaxation.taken(&touch, first[2], false) + relaxation.taken(&leave, r0, true);
-    let delayed = delayed_weights(relaxation);
-    let rate = |n: usize| {
-        let samples = &p[n - 2..n + 3];
-        dot(samples, &DERIVATIVES[0]) * dot(samples, &delayed)
-    };
-    let end = |(i, weight): (usize, &f64)| (1.0 - weight) * (rate(FIRST + i) + rate(last - i));
-    let ends: f64 = GREGORY.iter().enumerate().map(end).sum();
-    let middle = (FIRST..=last).map(rate).sum::<f64>() - ends;
-    Some(2.5 * relaxation.coupling * (edges + middle))
 }
 
 /// L in the middle of five samples: sum_k (-1)^k M_k/k! p^(k+1), M_k the moments of 1 - W.
