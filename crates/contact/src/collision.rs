@@ -2,7 +2,7 @@
 //!
 //! Theory: `docs/theory.md` (T36, T39, T49).
 
-use crate::bodies::strength::Strength;
+use crate::bodies::strength::{Loading, Strength};
 use crate::bodies::{HalfSpace, Striker};
 use crate::disc::FixedDisc;
 use crate::disc::response::DiscResponse;
@@ -190,6 +190,23 @@ impl Collision {
     /// Contact radius a = sqrt(R alpha) in m under a force in N: (3 P R/(4 E*))^(1/3).
     pub fn contact_radius_m(&self, force_n: f64) -> f64 {
         (0.75 * force_n * self.tip_radius_m / self.effective_modulus_pa).cbrt()
+    }
+
+    /// How near a largest force in N on a disc of a radius in m comes to what the bodies bear.
+    pub(crate) fn loading(&self, force_n: f64, disc_radius_m: f64) -> Loading {
+        let pressure = force_n / (PI * disc_radius_m * disc_radius_m);
+        let contact = [self.tip_radius_m, self.effective_modulus_pa];
+        let over = |load: f64, of: &dyn Fn(&Strength) -> Option<f64>| {
+            let limits = self.strengths.iter().filter_map(of);
+            limits.reduce(f64::min).map(|limit| load / limit)
+        };
+        Loading {
+            mean_pressure_pa: pressure,
+            yield_onset: over(pressure, &|body| body.yield_pressure_pa),
+            pressure_over_yield: over(pressure, &|body| body.yield_strength_pa),
+            pressure_over_tensile: over(pressure, &|body| body.tensile_strength_pa),
+            cone_crack_onset: over(force_n, &|body| body.cone_crack_force_n(contact)),
+        }
     }
 
     /// phi: the half-space's part of the contact's compliance, E* (1 - nu^2)/E in (0, 1).

@@ -5,6 +5,7 @@
 //! Theory: `docs/theory.md` (T56, T57).
 
 use crate::disc::FixedDisc;
+use crate::disc::edge::{RESOLVED, Relaxation};
 use crate::disc::history::History;
 use crate::disc::response::DiscResponse;
 use crate::disc::weights::Weights;
@@ -34,7 +35,11 @@ pub(crate) fn radiated<R: DiscResponse>(
     debug_assert_eq!(mean.disc().deflection, Deflection::Mean);
     let coupling =
         impact.coupling * mean.disc().static_compliance / impact.response.disc().static_compliance;
-    if let Some(work) = history.work_on(mean, coupling, impact.wave_time) {
+    let relaxation = Relaxation::of(mean, coupling, impact.wave_time / history.step);
+    // beyond that it knows no more than its memory
+    if relaxation.memory <= RESOLVED
+        && let Some(work) = history.work_on(&relaxation)
+    {
         return work;
     }
     let step = history.step.min(duration / SAMPLES);

@@ -201,12 +201,8 @@ impl Cell {
     /// The groups at a place in it.
     fn groups(&self, inside: [f64; 2]) -> [f64; 2] {
         let group = |k: usize| (f64::from(self.octaves[k]) + 0.5 * (inside[k] + 1.0)).exp2();
-        let second = if self.family == Family::Growing {
-            1.0
-        } else {
-            group(1)
-        };
-        [group(0), second]
+        let one = self.family == Family::Growing;
+        [group(0), if one { 1.0 } else { group(1) }]
     }
 
     /// The series with its certificate, where that meets the tolerance.

@@ -59,14 +59,6 @@ impl Resampler {
         (last.unwrap_or(0) + 1) as f64 * self.history.step
     }
 
-    /// Where the rate of the force jumps within a contact, in collision units, ascending.
-    pub fn kinks(&self) -> &[f64] {
-        self.history
-            .pieces
-            .as_ref()
-            .map_or(&[], |solved| &solved.kinks)
-    }
-
     /// Force, rate and second rate at a time in collision units; zero outside the contacts.
     ///
     /// Inlined, so that whoever takes the force alone has it in half of the time.

@@ -31,13 +31,11 @@ pub struct Exact;
 impl Responses for Exact {
     type Disc = SurfaceResponse;
 
-    fn disc(
-        &self,
-        ratio: f64,
-        deflection: Deflection,
-    ) -> Result<Arc<SurfaceResponse>, DomainError> {
-        let medium = Medium::new(ratio)?;
-        Ok(Arc::new(SurfaceResponse::new(&medium, deflection)))
+    fn disc(&self, ratio: f64, deflection: Deflection) -> Result<Arc<Self::Disc>, DomainError> {
+        Ok(Arc::new(SurfaceResponse::new(
+            &Medium::new(ratio)?,
+            deflection,
+        )))
     }
 
     fn waves(&self, ratio: f64) -> Result<Arc<PunchWaves>, DomainError> {

@@ -7,7 +7,7 @@ use crate::model::Settings;
 use crate::model::choose::fixed_disc_m;
 use crate::plastic::Flow;
 use crate::solver::Solved;
-use crate::units::{CollisionUnits, INVERSE_MASS};
+use crate::units::INVERSE_MASS;
 
 /// Estimated relative error from which on results say nothing.
 pub const MOST_ERROR: f64 = 0.5;
@@ -77,12 +77,7 @@ pub struct Plastic {
 }
 
 impl Plastic {
-    fn new(
-        collision: &Collision,
-        settings: &Settings,
-        solved: &Solved,
-        units: &CollisionUnits,
-    ) -> Self {
+    fn new(collision: &Collision, settings: &Settings, solved: &Solved, length_m: f64) -> Self {
         let flow = solved.flow;
         let law = || collision.yielding(settings).ok().flatten();
         let Some(yielding) = flow.map(|flow| flow.yielding).or_else(law) else {
@@ -96,8 +91,8 @@ impl Plastic {
             yield_velocity_m_s: Some(collision.velocity_m_s / ratio),
             velocity_over_yield: Some(ratio),
             plastic_work_j: Some(part(|flow| flow.plastic_work, collision.energy_j())),
-            peak_indentation_m: Some(flow.map_or(elastic, |f| f.peak_indentation) * units.length_m),
-            residual_indentation_m: Some(part(|flow| flow.residual_indentation, units.length_m)),
+            peak_indentation_m: Some(flow.map_or(elastic, |f| f.peak_indentation) * length_m),
+            residual_indentation_m: Some(part(|flow| flow.residual_indentation, length_m)),
             dent_radius_m: Some(collision.tip_radius_m * flow.map_or(1.0, |flow| flow.flatter)),
         }
     }
@@ -136,13 +131,8 @@ impl Results {
             energy_residual: 1.0 - rebound - (solved.radiated + plastic_work),
             contact_radius_m,
             disc_radius_m,
-            loading: Loading::new(
-                &collision.strengths,
-                peak_force_n,
-                loaded_m,
-                [collision.tip_radius_m, collision.effective_modulus_pa],
-            ),
-            plastic: Plastic::new(collision, settings, solved, &units),
+            loading: collision.loading(peak_force_n, loaded_m),
+            plastic: Plastic::new(collision, settings, solved, units.length_m),
             contacts: s.contacts,
             march_steps: solved.step.map_or(0, steps),
             march_step_s: solved.step.map_or(0.0, |step| step * units.time_s),

@@ -25,9 +25,9 @@ use crate::model::{Model, Rung, Scheme, Settings};
 use crate::outcome::{Outcomes, Place};
 use crate::plastic::quick::quick;
 use crate::plastic::{Flow, Yielding};
-use crate::responses::Responses;
+use crate::responses::{Exact, Responses};
 use crate::summary::Summary;
-use halfspace::{Deflection, DomainError, Medium, SurfaceResponse};
+use halfspace::{Deflection, DomainError};
 use std::sync::Arc;
 
 /// A contact solved, in collision units.
@@ -203,7 +203,7 @@ impl<'a, S: Responses> Solver<'a, S> {
             && let Some(place) = Place::of(&plan, collision, settings, &**disc)
             && let Some((summary, radiated, error)) = outcomes.at(&place, self.responses)
         {
-            return Ok(plan.solved(None, Found::unmarched(summary, error), radiated));
+            return Ok(plan.solved(None, Found::new(summary, error, None), radiated));
         }
         let in_times = |step_s: f64| step_s / collision.units().time_s;
         let step = settings.step_s.map(in_times);
@@ -224,9 +224,8 @@ impl<'a, S: Responses> Solver<'a, S> {
                 let found = match scheme {
                     Scheme::Implicit => solve_disc(room, &impact(), step, asked)?,
                     Scheme::Explicit => {
-                        let medium = Medium::new(ratio)?;
-                        let response = SurfaceResponse::new(&medium, settings.deflection);
-                        explicit(room, &disc_of(settings, collision, &response), step)?
+                        let response = Exact.disc(ratio, settings.deflection)?;
+                        explicit(room, &disc_of(settings, collision, &*response), step)?
                     }
                 };
                 let mean = self.responses.disc(ratio, Deflection::Mean)?;
@@ -289,7 +288,7 @@ impl<'a, S: Responses> Solver<'a, S> {
             Rung::Radiation | Rung::AreaDashpot => left_out + of_series,
             Rung::FullMemory => YIELDS * followed.map_or(0.0, |one| one.estimates.contact()),
         };
-        let found = Found::unmarched(summary, error.min(1.0));
+        let found = Found::new(summary, error.min(1.0), None);
         let scheme = memory.then_some(Scheme::Implicit);
         Ok(Some(Solved {
             flow: Some(flow),
@@ -332,7 +331,7 @@ impl<'a, S: Responses> Solver<'a, S> {
         if step.is_none() {
             match solve_growing(&contact, &asked) {
                 Ok(solved) => {
-                    let found = Found::unmarched(solved.summary, solved.estimates.contact());
+                    let found = Found::new(solved.summary, solved.estimates.contact(), None);
                     let radiated = work_on_half_space(&contact, &solved, asked.tolerance);
                     self.growing = Some(solved);
                     return Ok((found, radiated));

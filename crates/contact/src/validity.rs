@@ -132,7 +132,27 @@ pub fn warnings(
         }
     }
     of_the_materials(collision, results, &mut found);
-    of_the_bodies(half_space, striker, results.contact_time_s, &mut found);
+    let contact_time_s = results.contact_time_s;
+    let material = &striker.material;
+    if let (Some(length), Some(density)) = (striker.length_m, material.density_kg_m3) {
+        let period = 2.0 * length / (material.youngs_modulus_pa / density).sqrt();
+        let ratio = contact_time_s / period;
+        if ratio < 10.0 {
+            found.push(format!(
+                "the contact lasts {contact_time_s:.3e} s, {ratio:.2} times the longest period of the striker's own vibrations, {period:.3e} s: below 10 times, waves in the striker matter, and they are not modelled"
+            ));
+        }
+    }
+    let deep = half_space.thickness_m.map(|size| ("thickness_m", size));
+    let wide = half_space.radius_m.map(|size| ("radius_m", size));
+    let faces = deep.into_iter().chain(wide);
+    let nearest = faces.reduce(|one, other| if other.1 < one.1 { other } else { one });
+    let echo = nearest.map(|(_, size)| 2.0 * size / half_space.longitudinal_speed_m_s());
+    if let (Some((key, size)), Some(echo)) = (nearest, echo.filter(|&echo| echo < contact_time_s)) {
+        found.push(format!(
+            "the echo from {key} = {size:.3e} m returns after {echo:.3e} s, before the contact ends at {contact_time_s:.3e} s: the block is not a half-space"
+        ));
+    }
     found.extend(doubts(half_space, striker));
     of_the_model(settings, plan, results, &mut found);
     found
@@ -161,8 +181,8 @@ fn of_the_materials(collision: &Collision, results: &Results, found: &mut Vec<St
             ));
         }
         let force_n = results.peak_force_n;
-        let crack =
-            strength.cone_crack_force_n(collision.tip_radius_m, collision.effective_modulus_pa);
+        let contact = [collision.tip_radius_m, collision.effective_modulus_pa];
+        let crack = strength.cone_crack_force_n(contact);
         if let Some(crack_n) = crack.filter(|&crack_n| force_n > crack_n) {
             found.push(format!(
                 "the peak force {force_n:.4e} N is {:.2} times {crack_n:.4e} N, where a cone crack in the {body} is expected (Auerbach's law, good to the order and the first digit)",
@@ -175,34 +195,6 @@ fn of_the_materials(collision: &Collision, results: &Results, found: &mut Vec<St
         found.push(format!(
             "the mean contact stress {stress:.4e} Pa is {}: the impact is not elastic unless the strength under so short a load is that high",
             borne.join("; ")
-        ));
-    }
-}
-
-fn of_the_bodies(
-    half_space: &HalfSpace,
-    striker: &Striker,
-    contact_time_s: f64,
-    found: &mut Vec<String>,
-) {
-    let material = &striker.material;
-    if let (Some(length), Some(density)) = (striker.length_m, material.density_kg_m3) {
-        let period = 2.0 * length / (material.youngs_modulus_pa / density).sqrt();
-        let ratio = contact_time_s / period;
-        if ratio < 10.0 {
-            found.push(format!(
-                "the contact lasts {contact_time_s:.3e} s, {ratio:.2} times the longest period of the striker's own vibrations, {period:.3e} s: below 10 times, waves in the striker matter, and they are not modelled"
-            ));
-        }
-    }
-    let deep = half_space.thickness_m.map(|size| ("thickness_m", size));
-    let wide = half_space.radius_m.map(|size| ("radius_m", size));
-    let faces = deep.into_iter().chain(wide);
-    let nearest = faces.reduce(|one, other| if other.1 < one.1 { other } else { one });
-    let echo = nearest.map(|(_, size)| 2.0 * size / half_space.longitudinal_speed_m_s());
-    if let (Some((key, size)), Some(echo)) = (nearest, echo.filter(|&echo| echo < contact_time_s)) {
-        found.push(format!(
-            "the echo from {key} = {size:.3e} m returns after {echo:.3e} s, before the contact ends at {contact_time_s:.3e} s: the block is not a half-space"
         ));
     }
 }

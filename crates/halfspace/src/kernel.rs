@@ -174,6 +174,6 @@ impl Kernel {
 
     /// Time of the first arrival at (r, z): the distance to the nearest point of the disc.
     pub(crate) fn first_arrival(&self, r: f64, z: f64) -> f64 {
-        self.setting.first_arrival(r, z)
+        (r - self.profile().radius()).max(0.0).hypot(z)
     }
 }

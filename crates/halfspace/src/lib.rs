@@ -77,8 +77,7 @@ mod surface;
 mod trace;
 
 pub use arrivals::Arrivals;
-pub use domain::DomainError;
-pub use domain::check;
+pub use domain::{DomainError, check};
 pub use field::{Estimate, FIELDS, Field, Six};
 pub use integral::axis::weights_off_axis;
 pub use kernel::Kernel;

@@ -171,7 +171,7 @@ proptest! {
         match kernel.trace(r, z, end) {
             Ok(trace) => {
                 prop_assert!(profile == Profile::Hertz, "{all:?}");
-                prop_assert!(trace.error().iter().all(|v| v.is_finite()), "{all:?}");
+                prop_assert!(trace.error.iter().all(|v| v.is_finite()), "{all:?}");
                 let mut finite = true;
                 let done = trace.for_each_cell(width, count, |_, cell| {
                     finite &= cell.iter().flatten().all(|v| v.is_finite());

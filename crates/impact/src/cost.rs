@@ -179,12 +179,11 @@ impl Forecast {
     /// [`ImpactError::TooMuchWork`].
     pub(crate) fn new(
         scene: &Scene,
-        excitation: &Excitation,
-        grid: &Grid,
+        grid: &Grid<'_>,
         source: Option<&KernelSource>,
         threads: f64,
     ) -> Result<Self, ImpactError> {
-        let samples = grid.count() as f64;
+        let (excitation, samples) = (grid.excitation, grid.count() as f64);
         // as long as a Rayleigh wave takes from the edge to the centre
         let memory_s = excitation.units().time_s() / excitation.medium().rayleigh_speed();
         let cells = memory_s / grid.step_s;

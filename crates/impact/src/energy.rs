@@ -97,11 +97,11 @@ impl EnergySeries {
     }
 
     /// Of a record whose force is sampled at the output's times.
-    pub(crate) fn of_record(excitation: &Excitation, grid: &Grid, force_n: &[f64]) -> Self {
-        let static_m_per_n = static_mean_m_per_n(excitation);
+    pub(crate) fn of_record(grid: &Grid<'_>, force_n: &[f64]) -> Self {
+        let static_m_per_n = static_mean_m_per_n(grid.excitation);
         let (mut stored_j, mut radiated_j) = (Vec::new(), Vec::new());
         let (disc, share) = (Deflection::Mean, StaticShare::Dynamic);
-        let lag_m = grid.deflection_m(excitation, disc, share, force_n);
+        let lag_m = grid.deflection_m(disc, share, force_n);
         let runs = grid.split(force_n).into_iter().zip(grid.split(&lag_m));
         for ((run, force_n), (_, lag_m)) in runs {
             // from the rest before the run, between which and the run before nothing is done

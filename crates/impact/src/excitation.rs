@@ -12,7 +12,7 @@ use contact::{
     CollisionUnits, HalfSpace, History, KernelUnits, Resampler, SolvedContact, StaticShare,
     WaveSpeeds, Weights,
 };
-use halfspace::{Deflection, DomainError, Medium, SurfaceResponse, bisected, gauss};
+use halfspace::{Deflection, DomainError, Medium, Profile, Six, SurfaceResponse, bisected, gauss};
 
 /// Consecutive samples.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -55,10 +55,8 @@ pub enum PressureRadius {
 impl PressureRadius {
     /// The largest in m: the unit of length of the fields.
     pub fn largest_m(self) -> f64 {
-        match self {
-            Self::Fixed(radius_m) => radius_m,
-            Self::Following { largest_m, .. } => largest_m,
-        }
+        let (Self::Fixed(largest_m) | Self::Following { largest_m, .. }) = self;
+        largest_m
     }
 }
 
@@ -144,9 +142,10 @@ impl Excitation {
         let relative_error = history.error;
         let samples = Resampler::new(history);
         let span_s = |span: &[f64]| [0, 1].map(|i| span[i] * units.time_s);
+        let kinks = (samples.history.pieces.iter()).flat_map(|solved| &solved.kinks);
         let contact = Contact {
             contacts_s: samples.breaks.chunks_exact(2).map(span_s).collect(),
-            kinks_s: samples.kinks().iter().map(|t| t * units.time_s).collect(),
+            kinks_s: kinks.map(|t| t * units.time_s).collect(),
             samples,
             units,
             duration_s,
@@ -273,6 +272,37 @@ impl Excitation {
         ]
     }
 
+    /// Static field in SI units under the pressures of an instant.
+    pub(crate) fn static_si(
+        &self,
+        [r_m, z_m]: [f64; 2],
+        pressures: impl IntoIterator<Item = Pressed>,
+    ) -> Result<Six, DomainError> {
+        let mut sum = Six::default();
+        for one in pressures {
+            let over = one.square.sqrt();
+            if over == 0.0 {
+                continue;
+            }
+            let radius_m = over * self.units.disc_radius_m;
+            let fixed = self
+                .medium
+                .static_field(Profile::Hertz, r_m / radius_m, z_m / radius_m)?;
+            let unit = self.units_si(over);
+            for (f, sum) in sum.iter_mut().enumerate() {
+                *sum += one.force_n * unit[f] * fixed[f];
+            }
+        }
+        Ok(sum)
+    }
+
+    /// Units of the fields by a force in N, under a disc of a radius `over` the largest.
+    pub(crate) fn units_si(&self, over: f64) -> Six {
+        let displacement = self.units.displacement_m_per_n() / over;
+        let stress = self.units.stress_pa_per_n() / (over * over);
+        [displacement, displacement, stress, stress, stress, stress]
+    }
+
     /// When each contact begins and ends, in s; none of a record.
     pub(crate) fn contacts_s(&self) -> &[[f64; 2]] {
         self.contact().map_or(&[], |contact| &contact.contacts_s)
@@ -392,18 +422,12 @@ impl Excitation {
         }
     }
 
-    /// Length in s of a pulse that is as steep as the force: its duration for a contact.
-    pub(crate) fn pulse_s(&self) -> f64 {
-        self.record()
-            .map_or_else(|| self.end_s(), ForceRecord::pulse_s)
-    }
-
     /// What a table's error depends on, with times in r0/c1 of discs of a radius `over` the largest.
     pub(crate) fn pulse(&self, over: f64) -> Pulse {
-        let length = self.pulse_s() / (over * self.units.time_s());
-        match self.force {
-            Force::Contact(_) => Pulse::Contact(length),
-            Force::Record(_) => Pulse::Smooth(length),
+        let unit_s = over * self.units.time_s();
+        match &self.force {
+            Force::Contact(contact) => Pulse::Contact(contact.duration_s / unit_s),
+            Force::Record(record) => Pulse::Smooth(record.pulse_s() / unit_s),
         }
     }
 

@@ -62,7 +62,7 @@ impl Wanted {
         match excitation.record() {
             None => {
                 let samples = (1.5 / self.tolerance.sqrt()).clamp(100.0, 10_000.0);
-                excitation.pulse_s() / samples
+                excitation.end_s() / samples
             }
             Some(record) => {
                 let stretches = record.stretches(self.settling_s(excitation), self.tolerance);
@@ -132,8 +132,12 @@ const MOST_RECORD: f64 = 262_144.0;
 const SETTLED: f64 = 20.0;
 
 /// Times of the output: samples a step apart, in one run from 0 or, where a record is quiet for long, in several.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Grid {
+#[derive(Debug, Clone)]
+pub(crate) struct Grid<'a> {
+    /// What is sampled.
+    pub(crate) excitation: &'a Excitation,
+    /// Relative tolerance on the results.
+    pub(crate) tolerance: f64,
     /// Step in s.
     pub(crate) step_s: f64,
     /// Consecutive samples, in the order of time.
@@ -144,11 +148,11 @@ pub(crate) struct Grid {
     settling_s: f64,
 }
 
-impl Grid {
+impl<'a> Grid<'a> {
     /// The times for what is wanted of an excitation, on steps that the source of the kernels can give.
     pub(crate) fn new(
         wanted: &Wanted,
-        excitation: &Excitation,
+        excitation: &'a Excitation,
         source: Option<&KernelSource>,
     ) -> Result<Self, ImpactError> {
         let (duration_s, wanted_s) = wanted.duration_and_step_s(excitation);
@@ -167,6 +171,8 @@ impl Grid {
             });
         }
         Ok(Self {
+            excitation,
+            tolerance: wanted.tolerance,
             step_s,
             runs,
             wanted_s,
@@ -202,13 +208,12 @@ impl Grid {
     /// Deflection of the disc in m at all samples of the force, with a share of its static part.
     pub(crate) fn deflection_m(
         &self,
-        excitation: &Excitation,
         deflection: Deflection,
         share: StaticShare,
         force_n: &[f64],
     ) -> Vec<f64> {
         let of = |(run, force_n): (Run, &[f64])| {
-            excitation.deflection_m(deflection, share, self.step_s, run.base_n, force_n)
+            (self.excitation).deflection_m(deflection, share, self.step_s, run.base_n, force_n)
         };
         self.split(force_n).into_iter().flat_map(of).collect()
     }

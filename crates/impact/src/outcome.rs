@@ -62,10 +62,7 @@ pub struct FieldsUsed {
 impl FieldsUsed {
     /// Name of the kernels in reports and results: "direct" or "table".
     pub fn kernel(&self) -> &'static str {
-        match self.table {
-            None => "direct",
-            Some(_) => "table",
-        }
+        self.table.as_ref().map_or("direct", |_| "table")
     }
 }
 
@@ -131,43 +128,20 @@ impl Outcome {
 /// Passes on an outcome all numbers of which are finite; those of a contact are checked where it is solved.
 pub(crate) fn checked(outcome: Outcome) -> Result<Outcome, ImpactError> {
     if let Cause::Record(results) = &outcome.cause {
-        of_record(results)?;
+        for (name, value) in [
+            ("the peak force", results.peak_force_n),
+            ("the time of the peak force", results.peak_force_time_s),
+            ("the duration", results.duration_s),
+            ("the impulse", results.impulse_n_s),
+            ("the largest deflection", results.peak_deflection_m),
+            ("the disc's radius", results.disc_radius_m),
+            ("the error estimate", results.relative_error_estimate),
+            ("the radiated energy", results.radiated_energy_j),
+        ] {
+            finite(|| name.to_owned(), [value])?;
+        }
     }
-    series(&outcome.series)?;
-    if let Some(found) = &outcome.probes {
-        let arrivals = found.arrival_s.iter().flat_map(|[p, s, _]| [*p, *s]);
-        finite(|| "an arrival at a probe".to_owned(), arrivals)?;
-        let values = found.values.iter();
-        let values = values.map(|rows| rows.iter().flatten().copied());
-        fields("at a probe", &found.quantities, values, &found.errors)?;
-    }
-    if let Some(found) = &outcome.section {
-        let arrivals = found.arrival_s[..2].iter().flatten().copied();
-        finite(|| "an arrival in the section".to_owned(), arrivals)?;
-        let values = found.values.iter();
-        let values = values.map(|own| own.iter().copied().map(f64::from));
-        fields("in the section", &found.quantities, values, &found.errors)?;
-    }
-    Ok(outcome)
-}
-
-fn of_record(results: &RecordResults) -> Result<(), ImpactError> {
-    for (name, value) in [
-        ("the peak force", results.peak_force_n),
-        ("the time of the peak force", results.peak_force_time_s),
-        ("the duration", results.duration_s),
-        ("the impulse", results.impulse_n_s),
-        ("the largest deflection", results.peak_deflection_m),
-        ("the disc's radius", results.disc_radius_m),
-        ("the error estimate", results.relative_error_estimate),
-        ("the radiated energy", results.radiated_energy_j),
-    ] {
-        finite(|| name.to_owned(), [value])?;
-    }
-    Ok(())
-}
-
-fn series(series: &Series) -> Result<(), ImpactError> {
+    let series = &outcome.series;
     let (striker, energy) = (series.striker.as_ref(), series.energy.as_ref());
     let kinetic_j = energy.and_then(|e| e.kinetic_j.as_ref());
     let plastic_j = energy.and_then(|e| e.plastic_j.as_ref());
@@ -186,7 +160,21 @@ fn series(series: &Series) -> Result<(), ImpactError> {
         let samples = samples.into_iter().flatten().copied();
         finite(|| format!("{name} of a sample"), samples)?;
     }
-    Ok(())
+    if let Some(found) = &outcome.probes {
+        let arrivals = found.arrival_s.iter().flat_map(|[p, s, _]| [*p, *s]);
+        finite(|| "an arrival at a probe".to_owned(), arrivals)?;
+        let values = found.values.iter();
+        let values = values.map(|rows| rows.iter().flatten().copied());
+        fields("at a probe", &found.quantities, values, &found.errors)?;
+    }
+    if let Some(found) = &outcome.section {
+        let arrivals = found.arrival_s[..2].iter().flatten().copied();
+        finite(|| "an arrival in the section".to_owned(), arrivals)?;
+        let values = found.values.iter();
+        let values = values.map(|own| own.iter().copied().map(f64::from));
+        fields("in the section", &found.quantities, values, &found.errors)?;
+    }
+    Ok(outcome)
 }
 
 /// The six fields and the quantities beside them, with their errors, somewhere.

@@ -3,9 +3,9 @@
 use crate::cost::{Allowance, Forecast, busy};
 use crate::energy::EnergySeries;
 use crate::error::ImpactError;
+use crate::evaluator::Evaluator;
 use crate::evaluator::convolve::{Method, rises};
 use crate::evaluator::projection::Projection;
-use crate::evaluator::{Asked, Evaluator};
 use crate::excitation::Excitation;
 use crate::fields::probes::{at_probes, frames, on_section};
 use crate::grid::{Grid, Wanted};
@@ -85,7 +85,7 @@ fn of_strike(
     if (plan.model, scheme) == (Model::Wave, Some(Scheme::Implicit)) {
         // anew on the output's step: the march's own step may be coarser than the disc's memory
         let (disc, share) = (scene.settings.deflection, scene.settings.static_share);
-        series.deflection_m = grid.deflection_m(excitation, disc, share, &series.force_n);
+        series.deflection_m = grid.deflection_m(disc, share, &series.force_n);
     }
     if run.solved.flow.is_some() {
         let beside = scene.beside(CLOSE * run.results.contact_radius_m);
@@ -119,10 +119,10 @@ fn of_record(
     let (grid, mut outcome) = begin(scene, kernels, allowance, &excitation, (cause, Vec::new()))?;
     let (series, warnings) = (&mut outcome.series, &mut outcome.warnings);
     let (disc, share) = (scene.settings.deflection, StaticShare::Full);
-    series.deflection_m = grid.deflection_m(&excitation, disc, share, &series.force_n);
-    let energy = EnergySeries::of_record(&excitation, &grid, &series.force_n);
+    series.deflection_m = grid.deflection_m(disc, share, &series.force_n);
+    let energy = EnergySeries::of_record(&grid, &series.force_n);
     warnings.extend(record.doubts());
-    let left_n = left_n(&excitation, &grid, &series.force_n);
+    let left_n = left_n(&grid, &series.force_n);
     let relative_error = left_n / record.largest_n().max(f64::MIN_POSITIVE);
     if relative_error > scene.settings.tolerance {
         warnings.push(format!(
@@ -150,17 +150,17 @@ fn of_record(
 }
 
 /// What follows from an excitation, whatever has caused it: the times of the output, and times, force and fields there.
-fn begin(
+fn begin<'e>(
     scene: &Scene,
     kernels: &KernelChoice,
     allowance: &Allowance<'_>,
-    excitation: &Excitation,
+    excitation: &'e Excitation,
     (cause, mut warnings): (Cause, Vec<String>),
-) -> Result<(Grid, Outcome), ImpactError> {
+) -> Result<(Grid<'e>, Outcome), ImpactError> {
     let chosen = choose_source(scene, kernels, excitation)?;
     let source = chosen.as_ref().map(|(source, _)| source);
     let grid = Grid::new(&Wanted::of(scene), excitation, source)?;
-    let forecast = Forecast::new(scene, excitation, &grid, source, busy(scene.points()))?;
+    let forecast = Forecast::new(scene, &grid, source, busy(scene.points()))?;
     forecast.check(scene, allowance.memory_bytes)?;
     if !(allowance.go_on)(&forecast) {
         let seconds = forecast.seconds;
@@ -186,7 +186,7 @@ fn begin(
         warnings,
     };
     if let Some(chosen) = chosen {
-        add_fields(scene, allowance, excitation, &grid, chosen, &mut outcome)?;
+        add_fields(scene, allowance, &grid, chosen, &mut outcome)?;
     }
     Ok((grid, outcome))
 }
@@ -194,22 +194,12 @@ fn begin(
 fn add_fields(
     scene: &Scene,
     allowance: &Allowance<'_>,
-    excitation: &Excitation,
-    grid: &Grid,
+    grid: &Grid<'_>,
     (source, reason): (KernelSource, String),
     outcome: &mut Outcome,
 ) -> Result<(), ImpactError> {
-    let evaluator = |wanted| {
-        Evaluator::new(Asked {
-            excitation,
-            source: &source,
-            grid,
-            wanted,
-            quantities: &scene.quantities,
-            tolerance: scene.settings.tolerance,
-            watch: allowance.watch,
-        })
-    };
+    let (quantities, watch) = (&scene.quantities, allowance.watch);
+    let evaluator = |wanted| Evaluator::new(&source, grid, wanted, quantities, watch);
     let mut convolution = Method::Direct;
     let all: Vec<usize> = (0..outcome.series.time_s.len()).collect();
     if !scene.probes.is_empty() {
@@ -245,9 +235,9 @@ fn add_fields(
 }
 
 /// The most in N that the cells leave of the force.
-fn left_n(excitation: &Excitation, grid: &Grid, force_n: &[f64]) -> f64 {
+fn left_n(grid: &Grid<'_>, force_n: &[f64]) -> f64 {
     let left = grid.split(force_n).into_iter().map(|(run, force_n)| {
-        let nodes = excitation.cell_nodes(&run, grid.step_s);
+        let nodes = grid.excitation.cell_nodes(&run, grid.step_s);
         let rises = rises(run.base_n, force_n);
         let projection = Projection::new(force_n, &rises, &nodes, (0, f64::INFINITY));
         projection.left.most_n

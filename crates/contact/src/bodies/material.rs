@@ -1,5 +1,6 @@
 //! Elastic materials, and what can be wrong with a body.
 
+use halfspace::{DomainError, check};
 use thiserror::Error;
 
 /// An isotropic elastic material in SI units.
@@ -36,7 +37,7 @@ impl Material {
             positive("density_kg_m3", density)?;
         }
         let nu = self.poisson_ratio;
-        within("poisson_ratio", nu, "(-1, 0.5)", nu > -1.0 && nu < 0.5)?;
+        check(nu > -1.0 && nu < 0.5, "poisson_ratio", nu, "(-1, 0.5)")?;
         Ok(())
     }
 
@@ -102,34 +103,12 @@ pub enum BodyError {
         purpose: &'static str,
     },
     /// A number outside its range.
-    #[error("{quantity} = {} is outside {range}", fault::number(*value))]
-    OutOfRange {
-        /// The quantity.
-        quantity: &'static str,
-        /// Its value.
-        value: f64,
-        /// The allowed range in interval notation.
-        range: &'static str,
-    },
+    #[error(transparent)]
+    OutOfRange(#[from] DomainError),
 }
 
 /// A positive finite number, or the error that names it.
-pub(crate) fn positive(quantity: &'static str, value: f64) -> Result<f64, BodyError> {
+pub(crate) fn positive(quantity: &'static str, value: f64) -> Result<f64, DomainError> {
     let holds = value > 0.0 && value < f64::INFINITY;
-    within(quantity, value, "(0, inf)", holds)
-}
-
-/// A number that is in its range, or the error that names both.
-pub(crate) fn within(
-    quantity: &'static str,
-    value: f64,
-    range: &'static str,
-    holds: bool,
-) -> Result<f64, BodyError> {
-    let error = BodyError::OutOfRange {
-        quantity,
-        value,
-        range,
-    };
-    if holds { Ok(value) } else { Err(error) }
+    check(holds, quantity, value, "(0, inf)").map(|()| value)
 }

@@ -9,8 +9,9 @@ pub(crate) mod shape;
 pub(crate) mod strength;
 pub(crate) mod wave_speeds;
 
-use crate::bodies::material::{BodyError, Material, positive, within};
+use crate::bodies::material::{BodyError, Material, positive};
 use crate::bodies::shape::Shape;
+use halfspace::check;
 
 /// An elastic half-space: a material with a density, and the block's thickness where it is known.
 #[derive(Debug, Clone, PartialEq)]
@@ -102,31 +103,23 @@ impl Striker {
     /// [`BodyError`] without a density, or for lengths that make no such body.
     pub fn of_shape(material: Material, shape: Shape) -> Result<Self, BodyError> {
         let density = material.density_for("the mass of the striker")?;
-        match shape {
-            Shape::Ball { diameter_m } => positive("diameter_m", diameter_m)?,
-            Shape::Rod {
-                length_m,
-                diameter_m,
-                ..
-            } => {
-                positive("diameter_m", diameter_m)?;
-                let tip_radius_m = positive("tip_radius_m", shape.tip_radius_m())?;
-                let wide = tip_radius_m >= 0.5 * diameter_m;
-                within("tip_radius_m", tip_radius_m, "[diameter_m/2, inf)", wide)?;
-                let long = length_m >= shape.cap_m() && length_m < f64::INFINITY;
-                within("length_m", length_m, "[height of the tip's cap, inf)", long)?
-            }
-        };
+        let (Shape::Ball { diameter_m } | Shape::Rod { diameter_m, .. }) = shape;
+        positive("diameter_m", diameter_m)?;
+        if let Shape::Rod { length_m, .. } = shape {
+            let tip_radius_m = positive("tip_radius_m", shape.tip_radius_m())?;
+            let wide = tip_radius_m >= 0.5 * diameter_m;
+            check(wide, "tip_radius_m", tip_radius_m, "[diameter_m/2, inf)")?;
+            let long = length_m >= shape.cap_m() && length_m < f64::INFINITY;
+            check(long, "length_m", length_m, "[height of the tip's cap, inf)")?;
+        }
         let mass_kg = density * shape.volume_m3();
         let (quantity, size_m) = match shape {
             Shape::Rod { length_m, .. } if mass_kg > 1.0 => ("length_m", length_m),
-            Shape::Ball { diameter_m } | Shape::Rod { diameter_m, .. } => {
-                ("diameter_m", diameter_m)
-            }
+            Shape::Ball { .. } | Shape::Rod { .. } => ("diameter_m", diameter_m),
         };
         let has_mass = mass_kg > 0.0 && mass_kg < f64::INFINITY;
         let range = "the sizes whose mass is in [1e-30, 1e30] kg";
-        within(quantity, size_m, range, has_mass)?;
+        check(has_mass, quantity, size_m, range)?;
         let mut striker = Self::new(material, mass_kg, shape.tip_radius_m())?;
         striker.length_m = shape.length_m();
         striker.shape = Some(shape);

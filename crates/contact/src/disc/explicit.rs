@@ -50,9 +50,26 @@ pub fn march_explicit(
         let indentation = displacement - deflection;
         let force = indentation.max(0.0).powf(1.5);
         history.push(force, displacement, deflection);
-        history.velocity.push(v + step * acceleration);
+        let velocity = v + step * acceleration;
+        history.velocity.push(velocity);
         if indentation <= 0.0 {
-            let summary = summarise(&history)?;
+            if n < 3 {
+                return Err(MarchError::StepTooLong {
+                    samples: n,
+                    needed: 3,
+                });
+            }
+            let inside = history.displacement[n - 1] - history.deflection[n - 1];
+            let fraction = inside / (inside - indentation);
+            let (place, peak_force) = peak(&history.force);
+            let summary = Summary {
+                peak_force,
+                peak_force_time: place * step,
+                contact_time: (n as f64 - 1.0 + fraction) * step,
+                peak_displacement: peak(&history.displacement).1,
+                peak_deflection: peak(&history.deflection).1,
+                ..Summary::rebound(-(v + fraction * (velocity - v)))
+            };
             return Ok((history, summary));
         }
         if force.is_nan() || force >= 1e3 {
@@ -66,28 +83,4 @@ pub fn march_explicit(
             affordable(n, cells, memory)?;
         }
     }
-}
-
-fn summarise(history: &History) -> Result<Summary, MarchError> {
-    let n = history.force.len() - 1;
-    if n < 3 {
-        return Err(MarchError::StepTooLong {
-            samples: n,
-            needed: 3,
-        });
-    }
-    let indentation = |i: usize| history.displacement[i] - history.deflection[i];
-    let (inside, outside) = (indentation(n - 1), indentation(n));
-    let fraction = inside / (inside - outside);
-    let (before, after) = (history.velocity[n - 1], history.velocity[n]);
-    let velocity = before + fraction * (after - before);
-    let (place, peak_force) = peak(&history.force);
-    Ok(Summary {
-        peak_force,
-        peak_force_time: place * history.step,
-        contact_time: (n as f64 - 1.0 + fraction) * history.step,
-        peak_displacement: peak(&history.displacement).1,
-        peak_deflection: peak(&history.deflection).1,
-        ..Summary::rebound(-velocity)
-    })
 }

@@ -146,7 +146,7 @@ fn halve(
                     if ratio <= 1.0 {
                         let summary = Accuracy::extrapolated(coarse, &summary);
                         let reported = (REPORTED * error).min(accuracy.tolerance).max(error);
-                        return Ok(Found::marched(summary, reported, step));
+                        return Ok(Found::new(summary, reported, Some(step)));
                     }
                 }
                 (coarse, last) = (Some(summary), step);
@@ -157,7 +157,7 @@ fn halve(
             Err(MarchError::NoSolution { .. }) if attempt < 8 => {}
             Err(MarchError::TooLong { .. }) if ratio <= LENIENT => {
                 // once more, since what the caller keeps is that of the march that failed
-                return Ok(Found::marched(march(last)?.0, REPORTED * error, last));
+                return Ok(Found::new(march(last)?.0, REPORTED * error, Some(last)));
             }
             Err(other) => return Err(other),
         }
@@ -187,19 +187,11 @@ pub struct Found {
 }
 
 impl Found {
-    /// Without a march.
-    pub(crate) fn unmarched(summary: Summary, error: f64) -> Self {
+    pub(crate) fn new(summary: Summary, error: f64, step: Option<f64>) -> Self {
         Self {
             summary,
             error,
-            step: None,
-        }
-    }
-
-    fn marched(summary: Summary, error: f64, step: f64) -> Self {
-        Self {
-            step: Some(step),
-            ..Self::unmarched(summary, error)
+            step,
         }
     }
 }
@@ -245,7 +237,7 @@ pub(crate) fn stepped(
         let (finer, _) = run(0.5 * step)?;
         let (summary, _) = run(step)?;
         let error = summary.distance(&finer) * 4.0 / 3.0;
-        return Ok(Found::marched(summary, error, step));
+        return Ok(Found::new(summary, error, Some(step)));
     }
     halve(run, duration / asked.first_steps(), &asked, caution)
 }
@@ -263,7 +255,7 @@ pub(crate) fn explicit(
     *history = marched;
     // first order: the rest is as large as the change over one halving
     let error = 2.0 * summary.distance(&finer);
-    Ok(Found::marched(summary, error, step))
+    Ok(Found::new(summary, error, Some(step)))
 }
 
 /// Steps over the contact of the first march, and of the last at most, where the force at each instant is asked for.

@@ -30,7 +30,6 @@
 use crate::disc::edge::{Edge, RESOLVED, Relaxation};
 use crate::disc::history::{History, Separation};
 use crate::disc::measured::first_separation;
-use crate::disc::response::DiscResponse;
 use crate::growing::nodes::dot;
 use crate::numeric::quadrature::Local;
 
@@ -92,30 +91,6 @@ fn separation(
     })
 }
 
-impl History {
-    /// Finds the end of the first contact and, where there is no other, the work that is left in the half-space.
-    pub(crate) fn separate(&mut self, relaxation: &Relaxation<impl Fn(f64) -> f64>) {
-        self.separation = separation(self, relaxation);
-        self.dissipated = dissipated(self, relaxation);
-    }
-
-    /// Work of the force on another deflection of the same disc, where that on its own is known and the steps do not
-    /// resolve the memory of either.
-    pub(crate) fn work_on(
-        &self,
-        response: &impl DiscResponse,
-        coupling: f64,
-        wave_time: f64,
-    ) -> Option<f64> {
-        let relaxation = Relaxation::of(response, coupling, wave_time / self.step);
-        // beyond that it knows no more than its memory
-        if relaxation.memory > RESOLVED {
-            return None;
-        }
-        dissipated(self, &relaxation)
-    }
-}
-
 /// First sample of the sum.
 const FIRST: usize = 3;
 
@@ -134,38 +109,46 @@ const DERIVATIVES: [[f64; 5]; 4] = [
 /// How many steps before the end the samples between end at least: two further are needed, the last ones are known badly.
 const BEFORE_END: f64 = 2.75;
 
-/// Work of one contact, relative to the kinetic energy before.
-///
-/// Nothing for several contacts, those of few steps, and where the samples at both ends are not those of an edge.
-fn dissipated(history: &History, relaxation: &Relaxation<impl Fn(f64) -> f64>) -> Option<f64> {
-    let (p, elastic) = (&history.force, history.elastic);
-    let mut after = p.iter().skip(first_separation(p));
-    if after.any(|&p| p > 0.0) {
-        return None;
+impl History {
+    /// Finds the end of the first contact and, where there is no other, the work that is left in the half-space.
+    pub(crate) fn separate(&mut self, relaxation: &Relaxation<impl Fn(f64) -> f64>) {
+        self.separation = separation(self, relaxation);
+        self.dissipated = self.work_on(relaxation);
     }
-    let steps = history.separation?.time / history.step;
-    let last = (steps - BEFORE_END) as usize;
-    let rest = steps - last as f64;
-    let roots = |from: usize| {
-        let samples = p.get(from..from + 3)?;
-        Some([0, 1, 2].map(|i: usize| samples[i].cbrt()))
-    };
-    let (first, [r0, r1, r2]) = (roots(1)?, roots(last)?);
-    let touch = Edge::new(elastic, first, [1.0, 2.0, 3.0])?;
-    let leave = Edge::new(elastic, [r2, r1, r0], [rest - 2.0, rest - 1.0, rest])?;
-    if last + 1 < FIRST + NEEDED {
-        return None;
+
+    /// Work of one contact, relative to the kinetic energy before.
+    ///
+    /// Nothing for several contacts, those of few steps, and where the samples at both ends are not those of an edge.
+    pub(crate) fn work_on(&self, relaxation: &Relaxation<impl Fn(f64) -> f64>) -> Option<f64> {
+        let (p, elastic) = (&self.force, self.elastic);
+        let mut after = p.iter().skip(first_separation(p));
+        if after.any(|&p| p > 0.0) {
+            return None;
+        }
+        let steps = self.separation?.time / self.step;
+        let last = (steps - BEFORE_END) as usize;
+        let rest = steps - last as f64;
+        let roots = |from: usize| {
+            let samples = p.get(from..from + 3)?;
+            Some([0, 1, 2].map(|i: usize| samples[i].cbrt()))
+        };
+        let (first, [r0, r1, r2]) = (roots(1)?, roots(last)?);
+        let touch = Edge::new(elastic, first, [1.0, 2.0, 3.0])?;
+        let leave = Edge::new(elastic, [r2, r1, r0], [rest - 2.0, rest - 1.0, rest])?;
+        if last + 1 < FIRST + NEEDED {
+            return None;
+        }
+        let edges = relaxation.taken(&touch, first[2], false) + relaxation.taken(&leave, r0, true);
+        let delayed = delayed_weights(relaxation);
+        let rate = |n: usize| {
+            let samples = &p[n - 2..n + 3];
+            dot(samples, &DERIVATIVES[0]) * dot(samples, &delayed)
+        };
+        let end = |(i, weight): (usize, &f64)| (1.0 - weight) * (rate(FIRST + i) + rate(last - i));
+        let ends: f64 = GREGORY.iter().enumerate().map(end).sum();
+        let middle = (FIRST..=last).map(rate).sum::<f64>() - ends;
+        Some(2.5 * relaxation.coupling * (edges + middle))
     }
-    let edges = relaxation.taken(&touch, first[2], false) + relaxation.taken(&leave, r0, true);
-    let delayed = delayed_weights(relaxation);
-    let rate = |n: usize| {
-        let samples = &p[n - 2..n + 3];
-        dot(samples, &DERIVATIVES[0]) * dot(samples, &delayed)
-    };
-    let end = |(i, weight): (usize, &f64)| (1.0 - weight) * (rate(FIRST + i) + rate(last - i));
-    let ends: f64 = GREGORY.iter().enumerate().map(end).sum();
-    let middle = (FIRST..=last).map(rate).sum::<f64>() - ends;
-    Some(2.5 * relaxation.coupling * (edges + middle))
 }
 
 /// L in the middle of five samples: sum_k (-1)^k M_k/k! p^(k+1), M_k the moments of 1 - W.
@@ -204,7 +187,7 @@ mod tests {
                 let impact = FixedDisc {
                     response: &response,
                     coupling,
-                    wave_time: memory * duration / response.disc().memory,
+                    wave_time: memory * duration / response.disc.memory,
                     share: StaticShare::Full,
                 };
                 let march = |steps: f64| march_implicit(&impact, duration / steps).unwrap();
@@ -229,7 +212,7 @@ mod tests {
         let impact = FixedDisc {
             response: &response,
             coupling,
-            wave_time: memory * duration / response.disc().memory,
+            wave_time: memory * duration / response.disc.memory,
             share: StaticShare::Full,
         };
         let fine = march_implicit(&impact, duration / 4096.0).unwrap();
@@ -268,7 +251,7 @@ mod tests {
     #[test]
     fn the_weights_of_the_lag_are_exact_for_its_moments() {
         let response = SurfaceResponse::new(&Medium::new(0.25).unwrap(), Deflection::Mean);
-        let relaxation = Relaxation::of(&response, 1.0, 2.0 / response.disc().memory);
+        let relaxation = Relaxation::of(&response, 1.0, 2.0 / response.disc.memory);
         let weights = delayed_weights(&relaxation);
         // p = (2 + s)^k at s = -2 .. 2: L(0) = sum_j (-1)^j p^(j+1)(0) M_j/j!
         let [m0, m1, m2, m3] = relaxation.moments;

@@ -59,7 +59,14 @@ impl Weights {
             }
         }
         // the cell that ends now: its curvature continues the two before it
-        newest *= stable_fraction(&values, newest, slack);
+        // As far as that leaves the march stable: an extrapolation, it takes 8 times itself from the compliance that a force
+        // meets which alternates from sample to sample, where that of the others cancels. It is whole for weak coupling and
+        // for steps longer than about twice the memory, where it gives the march its second order; shorter steps have that
+        // from the other cells.
+        let alternating: f64 = values.iter().rev().fold(0.0, |sum, g| g - sum);
+        if newest > 0.0 {
+            newest *= ((1.0 + slack - 2.0 * alternating) / (8.0 * newest)).min(1.0);
+        }
         values[0] += 1.5 * newest;
         values[1] -= 2.0 * newest;
         values[2] += 0.5 * newest;
@@ -87,21 +94,6 @@ impl Weights {
         // four sums, none of which waits for the others
         let add = |[a, b, c, d]: [f64; 4], (g, rise)| [b, c, d, a + g * rise];
         start + parts.fold([0.0; 4], add).iter().sum::<f64>()
-    }
-}
-
-/// Fraction of the newest cell's curvature that leaves the march stable.
-///
-/// The curvature of the newest cell, an extrapolation, takes 8 times itself from the compliance that a force
-/// meets which alternates from sample to sample; that of the others cancels.
-/// It is 1 for weak coupling and for steps longer than about twice the memory, where the extrapolation
-/// gives the march its second order; shorter steps have it from the other cells.
-fn stable_fraction(values: &[f64], curvature: f64, slack: f64) -> f64 {
-    let alternating: f64 = values.iter().rev().fold(0.0, |sum, g| g - sum);
-    if curvature > 0.0 {
-        ((1.0 + slack - 2.0 * alternating) / (8.0 * curvature)).min(1.0)
-    } else {
-        1.0
     }
 }
 

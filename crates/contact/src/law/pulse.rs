@@ -150,40 +150,7 @@ impl Course {
             scale: [1.0, 0.0, 0.0],
         }
     }
-}
 
-/// One step of the classical rule; the first, where the force starts like a root, in doublings.
-pub(crate) fn advance(
-    force: &impl Fn(f64, f64) -> f64,
-    state: [f64; 2],
-    step: f64,
-    first: bool,
-) -> [f64; 2] {
-    let rate = |d: f64, v: f64| {
-        let pressed = if d > 0.0 { force(d, v).max(0.0) } else { 0.0 };
-        (v, -INVERSE_MASS * pressed)
-    };
-    let once = |[d, v]: [f64; 2], h: f64| {
-        let (d1, v1) = rate(d, v);
-        let (d2, v2) = rate(d + 0.5 * h * d1, v + 0.5 * h * v1);
-        let (d3, v3) = rate(d + 0.5 * h * d2, v + 0.5 * h * v2);
-        let (d4, v4) = rate(d + h * d3, v + h * v3);
-        [
-            d + h * (d1 + 2.0 * (d2 + d3) + d4) / 6.0,
-            v + h * (v1 + 2.0 * (v2 + v3) + v4) / 6.0,
-        ]
-    };
-    if !first {
-        return once(state, step);
-    }
-    let least = step * 0.5_f64.powi(DOUBLINGS);
-    let start = once(state, least);
-    (0..DOUBLINGS).fold(start, |state, k| once(state, least * 2.0_f64.powi(k)))
-}
-
-const DOUBLINGS: i32 = 14;
-
-impl Course {
     /// Stretched and scaled to what its results are.
     fn fit(&mut self, results: &Summary) {
         let (peak, end) = (self.peak_force_time, self.contact_time);
@@ -276,6 +243,37 @@ impl Course {
         1.0 / (a * a + 4.0 * b * place).max(f64::MIN_POSITIVE).sqrt()
     }
 }
+
+/// One step of the classical rule; the first, where the force starts like a root, in doublings.
+pub(crate) fn advance(
+    force: &impl Fn(f64, f64) -> f64,
+    state: [f64; 2],
+    step: f64,
+    first: bool,
+) -> [f64; 2] {
+    let rate = |d: f64, v: f64| {
+        let pressed = if d > 0.0 { force(d, v).max(0.0) } else { 0.0 };
+        (v, -INVERSE_MASS * pressed)
+    };
+    let once = |[d, v]: [f64; 2], h: f64| {
+        let (d1, v1) = rate(d, v);
+        let (d2, v2) = rate(d + 0.5 * h * d1, v + 0.5 * h * v1);
+        let (d3, v3) = rate(d + 0.5 * h * d2, v + 0.5 * h * v2);
+        let (d4, v4) = rate(d + h * d3, v + h * v3);
+        [
+            d + h * (d1 + 2.0 * (d2 + d3) + d4) / 6.0,
+            v + h * (v1 + 2.0 * (v2 + v3) + v4) / 6.0,
+        ]
+    };
+    if !first {
+        return once(state, step);
+    }
+    let least = step * 0.5_f64.powi(DOUBLINGS);
+    let start = once(state, least);
+    (0..DOUBLINGS).fold(start, |state, k| once(state, least * 2.0_f64.powi(k)))
+}
+
+const DOUBLINGS: i32 = 14;
 
 /// Steps of Newton's method: the first is nearly exact.
 const ITERATIONS: usize = 3;

@@ -172,10 +172,30 @@ pub(crate) fn plan(
     response: &impl DiscResponse,
     yields: bool,
 ) -> Plan {
-    let mut groups = groups(settings, collision, response);
+    let fixed = match settings.model {
+        Model::Auto => settings.disc_radius_m.is_some() || settings.scheme == Scheme::Explicit,
+        asked => asked.row().1,
+    };
+    let wave_time = collision.contact_wave_time();
+    let (mut family, coupling, memory) = if fixed {
+        let disc = disc_of(settings, collision, response);
+        let family = match settings.static_share {
+            StaticShare::Full => Family::Full,
+            StaticShare::Dynamic => Family::Dynamic,
+        };
+        (family, disc.static_coupling(), disc.memory())
+    } else {
+        (Family::Growing, 0.0, wave_time * response.punch_memory())
+    };
     if yields {
-        groups.family = Family::Yielding;
+        family = Family::Yielding;
     }
+    let groups = Groups {
+        family,
+        coupling,
+        lag: collision.lag(wave_time, response),
+        memory,
+    };
     let auto = settings.model == Model::Auto && settings.scheme == Scheme::Implicit;
     let mut chosen = auto.then(|| groups.choose(&accuracy(settings)));
     if yields
@@ -232,7 +252,7 @@ impl Plan {
         };
         // what the next rung adds
         let radiated = if lag > 0.0 { 0.0 } else { 0.5 * loss };
-        Ok(Found::unmarched(summary, (radiated + left_out).min(1.0)))
+        Ok(Found::new(summary, (radiated + left_out).min(1.0), None))
     }
 
     /// Results of [`Model::AreaDashpot`].
@@ -246,7 +266,7 @@ impl Plan {
         if error >= 1.0 {
             return Err(ContactError::BeyondDashpot { lag, memory });
         }
-        Ok(Found::unmarched(terms.summary(), error))
+        Ok(Found::new(terms.summary(), error, None))
     }
 
     /// Why this model, in words.
@@ -326,30 +346,4 @@ pub(crate) fn disc_of<'r, R: DiscResponse>(
 pub fn fixed_disc_m(model: Model, settings: &Settings, collision: &Collision) -> Option<f64> {
     let of_tip = model.row().1.then_some(collision.tip_radius_m);
     settings.disc_radius_m.or(of_tip)
-}
-
-/// The groups of the family that the settings state.
-fn groups(settings: &Settings, collision: &Collision, response: &impl DiscResponse) -> Groups {
-    let fixed = match settings.model {
-        Model::Auto => settings.disc_radius_m.is_some() || settings.scheme == Scheme::Explicit,
-        asked => asked.row().1,
-    };
-    let wave_time = collision.contact_wave_time();
-    let lag = collision.lag(wave_time, response);
-    let (family, coupling, memory) = if fixed {
-        let disc = disc_of(settings, collision, response);
-        let family = match settings.static_share {
-            StaticShare::Full => Family::Full,
-            StaticShare::Dynamic => Family::Dynamic,
-        };
-        (family, disc.static_coupling(), disc.memory())
-    } else {
-        (Family::Growing, 0.0, wave_time * response.punch_memory())
-    };
-    Groups {
-        family,
-        coupling,
-        lag,
-        memory,
-    }
 }

@@ -102,10 +102,7 @@ choice!(Deflection: Centre = "centre", Mean = "mean");
 impl StaticShare {
     /// Part of the static deflection that enters.
     pub fn factor(self) -> f64 {
-        match self {
-            Self::Full => 1.0,
-            Self::Dynamic => 0.0,
-        }
+        f64::from(self == Self::Full)
     }
 }
 

@@ -7,6 +7,7 @@ use super::section::{Section, parse};
 use crate::error::SceneError;
 use contact::{BodyError, Choice, Library, Material, Shape, Striker};
 use contact::{fall_velocity_m_s, from_wave_speeds};
+use halfspace::DomainError;
 use impact::Strike;
 use std::path::Path;
 
@@ -179,12 +180,12 @@ fn of_form(section: &Section<'_>, library: &Library, form: Form) -> Result<Strik
     };
     let hint = "the mass of a shape follows from its density";
     Striker::of_shape(body(section, library)?, shape).map_err(|error| match error {
-        BodyError::NoDensity { .. } => section.missing("density_kg_m3", hint),
-        BodyError::OutOfRange {
-            quantity,
+        BodyError::OutOfRange(DomainError::Range {
+            argument,
             value,
             range,
-        } => SceneError::out_of_range(section.key(quantity), value, range),
+        }) => SceneError::out_of_range(section.key(argument), value, range),
+        _ => section.missing("density_kg_m3", hint),
     })
 }
 

@@ -82,8 +82,7 @@ fn cut((time_s, force_n): Rows, reading: &Reading) -> Result<Rows, SceneError> {
         fits.then_some(()).ok_or(TreatmentError {
             key,
             value,
-            least,
-            most,
+            limits: [least, most],
             reason: "the times of the record",
         })
     };

@@ -125,10 +125,7 @@ impl Setting {
 
     /// gamma^ at x = 1.
     fn vertical_at_one(&self, wave: Wave) -> f64 {
-        match wave {
-            Wave::P => 0.0,
-            Wave::S => self.span,
-        }
+        [0.0, self.span][wave as usize]
     }
 
     /// eta = (z gamma^ -+ t)/x, accurate where the difference is small and x too.

@@ -128,12 +128,8 @@ fn with_mirror(point: Complex64, mut add: impl FnMut(Complex64)) {
 fn with_reciprocal(point: Complex64, mut add: impl FnMut(Complex64)) {
     const NEAR_ONE: f64 = 0.4;
     if point.norm_sqr() > NEAR_ONE * NEAR_ONE {
-        let reciprocal = 1.0 / point;
-        add(if reciprocal.re < 0.0 {
-            -reciprocal
-        } else {
-            reciprocal
-        });
+        let point = 1.0 / point;
+        add(if point.re < 0.0 { -point } else { point });
     }
 }
 

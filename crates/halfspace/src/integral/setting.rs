@@ -72,15 +72,7 @@ impl Setting {
 
     /// Slowness of a body wave: 1 for P, 1/kappa for S.
     pub(crate) fn slowness(&self, wave: Wave) -> f64 {
-        match wave {
-            Wave::P => 1.0,
-            Wave::S => self.root_k,
-        }
-    }
-
-    /// Time of the first arrival at (r, z): the distance to the nearest point of the disc.
-    pub(crate) fn first_arrival(&self, r: f64, z: f64) -> f64 {
-        (r - self.profile.radius()).max(0.0).hypot(z)
+        [1.0, self.root_k][wave as usize]
     }
 }
 

@@ -1,6 +1,6 @@
 //! Sums and products to twice the digits of a double, for the distance of a time from a front.
 
-use std::ops::{Add, Div, Mul, Neg, Sub};
+use std::ops::{Add, Div, Mul, Sub};
 
 /// An unevaluated sum of two doubles, the second a rounding error of the first.
 #[derive(Debug, Clone, Copy)]
@@ -54,22 +54,12 @@ impl Add for Double {
     }
 }
 
-impl Neg for Double {
-    type Output = Self;
-
-    fn neg(self) -> Self {
-        Self {
-            high: -self.high,
-            low: -self.low,
-        }
-    }
-}
-
 impl Sub for Double {
     type Output = Self;
 
     fn sub(self, other: Self) -> Self {
-        self + -other
+        let (high, low) = (-other.high, -other.low);
+        self + Self { high, low }
     }
 }
 

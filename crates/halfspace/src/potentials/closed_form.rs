@@ -155,16 +155,15 @@ fn primitives_on_imaginary_axis<const N: i32, T: Real>(eta: T, r: f64) -> Potent
 /// The potentials of a point force, or from the antiderivatives at both ends of the chord.
 #[inline(always)]
 fn by_parts<const N: i32, C: Complex>(profile: Profile, xi: C, r: f64) -> Potentials<C> {
-    let m = N;
     if profile == Profile::Point {
         let rho = off_front(xi.root_with_circle(r), r);
         let sum = xi + rho;
         let end = End::new(xi, rho, sum, sum.logarithm(), r);
         return Potentials {
-            a_upper: end.e(m) * (0.5 / PI),
-            a_lower: end.e(m - 1) * (0.5 / PI),
-            g_upper: end.f(m) * (0.5 / PI),
-            g_lower: end.f(m - 1) * (0.5 / PI),
+            a_upper: end.e(N) * (0.5 / PI),
+            a_lower: end.e(N - 1) * (0.5 / PI),
+            g_upper: end.f(N) * (0.5 / PI),
+            g_lower: end.f(N - 1) * (0.5 / PI),
         };
     }
     let ends = Ends::new(xi, r);
@@ -177,23 +176,23 @@ fn by_parts<const N: i32, C: Complex>(profile: Profile, xi: C, r: f64) -> Potent
     let lower = End::new(zeta[1], rho[1], sum[1], log1, r);
     if profile == Profile::Punch {
         return Potentials {
-            a_upper: constant(upper.e(1 + m), lower.e(1 + m)),
-            a_lower: constant(upper.e(m), lower.e(m)),
-            g_upper: constant(upper.f(1 + m), lower.f(1 + m)),
-            g_lower: constant(upper.f(m), lower.f(m)),
+            a_upper: constant(upper.e(1 + N), lower.e(1 + N)),
+            a_lower: constant(upper.e(N), lower.e(N)),
+            g_upper: constant(upper.f(1 + N), lower.f(1 + N)),
+            g_lower: constant(upper.f(N), lower.f(N)),
         };
     }
     let [e1, f1] = [
-        [upper.e(1 + m), lower.e(1 + m)],
-        [upper.f(1 + m), lower.f(1 + m)],
+        [upper.e(1 + N), lower.e(1 + N)],
+        [upper.f(1 + N), lower.f(1 + N)],
     ];
     let [e2, f2] = [
-        [upper.e(2 + m), lower.e(2 + m)],
-        [upper.f(2 + m), lower.f(2 + m)],
+        [upper.e(2 + N), lower.e(2 + N)],
+        [upper.f(2 + N), lower.f(2 + N)],
     ];
     let [e3, f3] = [
-        [upper.e(3 + m), lower.e(3 + m)],
-        [upper.f(3 + m), lower.f(3 + m)],
+        [upper.e(3 + N), lower.e(3 + N)],
+        [upper.f(3 + N), lower.f(3 + N)],
     ];
     Potentials {
         a_upper: parabola(e3, e2),
@@ -231,6 +230,13 @@ fn parabola<C: Complex>(outer: [C; 2], inner: [C; 2]) -> C {
 mod tests {
     use super::*;
     use crate::potentials::STEP_INTEGRAL;
+
+    impl<T> Potentials<T> {
+        /// The four in the order in which they are declared.
+        fn into_array(self) -> [T; 4] {
+            [self.a_upper, self.a_lower, self.g_upper, self.g_lower]
+        }
+    }
 
     /// d/dxi of order n + 1 is minus order n: A_{n+1}(xi + h) - A_{n+1}(xi - h) = -2 h A_n.
     #[test]

@@ -65,12 +65,6 @@ impl<T> Potentials<T> {
             g_lower: f(self.g_lower, other.g_lower),
         }
     }
-
-    /// The four in the order in which they are declared.
-    #[cfg(test)]
-    pub(crate) fn into_array(self) -> [T; 4] {
-        [self.a_upper, self.a_lower, self.g_upper, self.g_lower]
-    }
 }
 
 /// Derivative or integral in time of the step response, by its number of integrations.

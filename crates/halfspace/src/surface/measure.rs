@@ -157,13 +157,7 @@ pub(super) const ZONES: [Zone; 2] = [Zone::Fast, Zone::Slow];
 
 impl Zone {
     pub(super) fn of(x: f64, shear_slowness: f64) -> Option<Self> {
-        if x < 1.0 {
-            Some(Self::Fast)
-        } else if x < shear_slowness {
-            Some(Self::Slow)
-        } else {
-            None
-        }
+        (x < shear_slowness).then_some(if x < 1.0 { Self::Fast } else { Self::Slow })
     }
 
     /// The slowness at an angle whose sine is s.

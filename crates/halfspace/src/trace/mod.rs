@@ -45,7 +45,8 @@ pub struct Trace {
     end: f64,
     static_field: Six,
     segments: Vec<Segment>,
-    error: Six,
+    /// Estimated error of a response to the force that the trace is for, over the peak of the force.
+    pub error: Six,
 }
 
 impl Kernel {
@@ -118,11 +119,6 @@ impl Trace {
     /// Times between which R is a polynomial in the root of the time from a front, ascending, fronts among them.
     pub fn breaks(&self) -> impl Iterator<Item = f64> {
         self.segments.iter().map(|segment| segment.times[0])
-    }
-
-    /// Estimated error of a response to the force that the trace is for, over the peak of the force.
-    pub fn error(&self) -> &Six {
-        &self.error
     }
 
     /// R at a time; after the end of the trace, its value there.

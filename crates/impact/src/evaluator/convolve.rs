@@ -20,12 +20,14 @@ use std::sync::Arc;
 /// A sampled force, ready to be convolved with the cells of any number of points.
 pub struct Convolver {
     force: Vec<f64>,
-    rise: Vec<f64>,
+    /// P_m - P_{m-1} of the samples.
+    pub(crate) rises: Vec<f64>,
     /// Samples until the force has come to rest.
     live: usize,
     /// Samples at which the fields are wanted, ascending.
     wanted: Vec<usize>,
-    transform: Option<Transform>,
+    /// Where the sum is done by it: the way that is estimated to be faster.
+    pub(crate) transform: Option<Transform>,
 }
 
 /// Nanoseconds of a product of the direct sum for six fields, and of a point and stage of the twelve transforms.
@@ -55,33 +57,20 @@ impl Convolver {
         let mut convolver = Self::new(force);
         let size = (2 * force.len()).next_power_of_two();
         convolver.transform =
-            (method == Method::Transform).then(|| Transform::new(&convolver.rise, size));
+            (method == Method::Transform).then(|| Transform::new(&convolver.rises, size));
         convolver
     }
 
     /// Fields are wanted at some samples, ascending, of a force that was `base` for long before.
     pub(crate) fn from_base(base: f64, force: &[f64], wanted: Vec<usize>) -> Self {
-        let rise = rises(base, force);
-        let live = rise.iter().rposition(|&d| d != 0.0).map_or(0, |i| i + 1);
+        let rises = rises(base, force);
+        let live = rises.iter().rposition(|&d| d != 0.0).map_or(0, |i| i + 1);
         Self {
-            transform: Transform::if_faster(&rise, live, wanted.len()),
+            transform: Transform::if_faster(&rises, live, wanted.len()),
             force: force.to_vec(),
-            rise,
+            rises,
             live,
             wanted,
-        }
-    }
-
-    /// P_m - P_{m-1} of the samples.
-    pub(crate) fn rises(&self) -> &[f64] {
-        &self.rise
-    }
-
-    /// How the sum is done: the way that is estimated to be faster.
-    pub(crate) fn method(&self) -> Method {
-        match self.transform {
-            Some(_) => Method::Transform,
-            None => Method::Direct,
         }
     }
 
@@ -102,7 +91,7 @@ impl Convolver {
 
     fn direct_sum(&self, averages: &[Six]) -> [Vec<f64>; 6] {
         let of = |&n: &usize| {
-            let rises = self.rise[..self.live.min(n + 1)].iter().copied();
+            let rises = self.rises[..self.live.min(n + 1)].iter().copied();
             weighted_sum(rises.zip(averages[..=n].iter().rev()))
         };
         let sums: Vec<Six> = self.wanted.iter().map(of).collect();
@@ -150,14 +139,11 @@ impl Method {
 
 /// P_m - P_{m-1}, with `base` before the first sample.
 pub(crate) fn rises(base: f64, force: &[f64]) -> Vec<f64> {
-    let mut before = base;
+    let before = [base].into_iter().chain(force.iter().copied());
     force
         .iter()
-        .map(|&p| {
-            let rise = p - before;
-            before = p;
-            rise
-        })
+        .zip(before)
+        .map(|(p, before)| p - before)
         .collect()
 }
 
@@ -240,7 +226,7 @@ mod tests {
             .collect();
         for wanted in [(0..300).collect::<Vec<_>>(), vec![0, 7, 150, 299]] {
             let mut convolver = Convolver::from_base(0.0, &force, wanted);
-            convolver.transform = Some(Transform::new(&convolver.rise, 1024));
+            convolver.transform = Some(Transform::new(&convolver.rises, 1024));
             let b = convolver.fields(&[1.0; 6], &averages);
             convolver.transform = None;
             let a = convolver.fields(&[1.0; 6], &averages);

@@ -56,7 +56,7 @@ impl Discs {
     /// Those for kernels that are computed, the fewest first: some radii away from the load, and beside it or far away.
     pub(crate) fn computed(radius: PressureRadius, tolerance: f64) -> Vec<Self> {
         if let PressureRadius::Fixed(_) = radius {
-            return vec![Self::one()];
+            return vec![Self::following(1, 1.0)];
         }
         let digits = (-tolerance.log10()).clamp(2.0, 8.0);
         let apart = COUNTS_APART.into_iter().filter(|_| digits <= DIGITS_APART);
@@ -67,7 +67,7 @@ impl Discs {
 
     /// Those for kernels that are looked up, the smallest radii first.
     pub(crate) fn looked_up(radius: PressureRadius) -> Vec<Self> {
-        let mut choices = vec![Self::one()];
+        let mut choices = vec![Self::following(1, 1.0)];
         if let PressureRadius::Following { .. } = radius {
             let smaller = COVERED.map(|smallest| Self::following(LOOKED_UP, smallest));
             choices.splice(0..0, smaller);
@@ -110,16 +110,7 @@ impl Discs {
         self.radii.iter().map(|b| square - b * b).product()
     }
 
-    /// One disc that takes all.
-    pub(crate) fn one() -> Self {
-        Self {
-            radii: vec![1.0],
-            least: 1.0,
-            omitted: None,
-        }
-    }
-
-    /// Chebyshev's nodes for the squares of radii from `smallest` of the largest up.
+    /// Chebyshev's nodes for the squares of radii from `smallest` of the largest up; one from the largest takes all.
     pub(crate) fn following(count: usize, smallest: f64) -> Self {
         let least = smallest * smallest;
         let radii = (0..count).map(|k| {
@@ -178,7 +169,7 @@ mod tests {
         }
         for (count, smallest) in [(1, 1.0), (2, 0.5), (6, 0.0), (9, 0.2)] {
             let discs = if count == 1 {
-                Discs::one()
+                Discs::following(1, 1.0)
             } else {
                 Discs::following(count, smallest)
             };

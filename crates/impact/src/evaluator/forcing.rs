@@ -101,7 +101,7 @@ impl Sampled {
         Self {
             projection: Projection::new(
                 samples,
-                convolver.rises(),
+                &convolver.rises,
                 nodes,
                 (needed.len(), negligible),
             ),
@@ -125,13 +125,8 @@ const NEGLIGIBLE: f64 = 1e-9;
 
 impl<'a> Forcing<'a> {
     /// For a derivative at some samples of a grid, ascending.
-    pub(crate) fn new(
-        excitation: &'a Excitation,
-        grid: &Grid,
-        wanted: &[usize],
-        derivative: Derivative,
-        tolerance: f64,
-    ) -> Self {
+    pub(crate) fn new(grid: &Grid<'a>, wanted: &[usize], derivative: Derivative) -> Self {
+        let excitation = grid.excitation;
         let (reading, differences) = match (derivative, excitation.record()) {
             (Derivative::Field, _) => (Reading::Force, 0),
             (Derivative::First, None) => (Reading::Rate, 0),
@@ -167,7 +162,7 @@ impl<'a> Forcing<'a> {
             reading,
             differences,
             step_s: grid.step_s,
-            tolerance,
+            tolerance: grid.tolerance,
             runs,
             needed,
             times_s,
@@ -245,7 +240,6 @@ impl<'a> Forcing<'a> {
         nodes: &CellNodes,
     ) {
         let (run, needed) = (&self.runs[i], &self.needed[i]);
-        let radius = self.excitation.radius();
         let both = |t: f64| self.on_disc(discs, k, t);
         let sample = |n: usize| both(run.start_s + n as f64 * self.step_s);
         let samples: Vec<[f64; 2]> = (0..run.count).map(sample).collect();
@@ -269,7 +263,7 @@ impl<'a> Forcing<'a> {
         if k == 0 && self.reading == Reading::Force {
             force.left.join(own.projection.left);
         }
-        let rises = own.convolver.rises();
+        let rises = &own.convolver.rises;
         // of the outputs: differenced as they are
         let mut changes = rises.to_vec();
         for _ in 0..self.differences {
@@ -277,22 +271,23 @@ impl<'a> Forcing<'a> {
             changes = next.collect();
         }
         force.half_variation += 0.5 * changes.iter().map(|d| d.abs()).sum::<f64>();
-        let last = match radius {
-            PressureRadius::Fixed(_) => None,
-            PressureRadius::Following { .. } if discs.omitted.is_some() => {
-                // as its samples are
+        let last = match (self.excitation.radius(), &discs.omitted) {
+            (PressureRadius::Fixed(_), _) => None,
+            (PressureRadius::Following { .. }, Some(counts)) => {
+                // what some discs leave some radii away, as its samples are
                 let nodes = CellNodes::new(run.count.saturating_sub(1), |_, _| {});
-                let left = self.omitted(discs, k, run);
+                let beyond = |one: Pressed| [one.force_n * discs.product(one.square)];
+                let left = self.bent(counts[k], |t| self.sum(t, beyond)[0], run);
                 Some(Sampled::new(0.0, &left, &nodes, (needed, 1.0)))
             }
-            PressureRadius::Following { .. } if discs.radii.len() == 1 => {
+            (PressureRadius::Following { .. }, None) if discs.radii.len() == 1 => {
                 let left = self.left_out(discs.radii[0], run);
                 Some(Sampled {
                     convolver: Convolver::from_base(0.0, &left, needed.clone()),
                     projection: Projection::default(),
                 })
             }
-            PressureRadius::Following { .. } => Some(of(1, 1e-3)),
+            (PressureRadius::Following { .. }, None) => Some(of(1, 1e-3)),
         };
         let mut run_zones = Vec::new();
         if self.excitation.record().is_none() {
@@ -331,13 +326,6 @@ impl<'a> Forcing<'a> {
         };
         let over = |t: f64| self.excitation.pressures(t).map(of).iter().sum();
         self.bent(0.1, over, run)
-    }
-
-    /// The force on disc k of what some discs leave some radii away.
-    fn omitted(&self, discs: &Discs, k: usize, run: &Run) -> Vec<f64> {
-        let count = discs.omitted.as_ref().map_or(0.0, |counts| counts[k]);
-        let beyond = |one: Pressed| [one.force_n * discs.product(one.square)];
-        self.bent(count, |t| self.sum(t, beyond)[0], run)
     }
 
     /// A number times (a_max/c_R)^2 times the second derivative of a function of time.

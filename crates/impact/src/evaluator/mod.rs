@@ -11,9 +11,7 @@
 //!
 //! Theory: `docs/theory.md` (T24, T55, T60, T61).
 
-mod at_rest;
 pub mod convolve;
-mod cuts;
 pub(crate) mod discs;
 mod ends;
 pub(crate) mod forcing;
@@ -28,7 +26,7 @@ mod tests;
 pub(crate) use past::Past;
 
 use crate::error::ImpactError;
-use crate::excitation::{Excitation, PressureRadius};
+use crate::excitation::PressureRadius;
 use crate::fields::quantity::{Derivative, Quantity};
 use crate::grid::Grid;
 use crate::kernels::{CellPlan, Cells, KernelSource};
@@ -39,24 +37,16 @@ use lookup::BEYOND;
 use std::sync::OnceLock;
 use sum::Sum;
 
-/// What is asked at points, of an excitation with kernels.
-#[derive(Clone, Copy)]
-pub(crate) struct Asked<'a> {
-    pub(crate) excitation: &'a Excitation,
-    pub(crate) source: &'a KernelSource,
-    pub(crate) grid: &'a Grid,
-    /// Samples at which it is wanted, ascending.
-    pub(crate) wanted: &'a [usize],
-    /// Beside the six fields.
-    pub(crate) quantities: &'a [Quantity],
-    pub(crate) tolerance: f64,
-    /// Who is told of each point.
-    pub(crate) watch: &'a (dyn Fn() + Sync),
-}
-
 /// What is the same for all points: forces on discs, sampled.
 pub(crate) struct Evaluator<'a> {
-    pub(crate) asked: Asked<'a>,
+    source: &'a KernelSource,
+    pub(crate) grid: &'a Grid<'a>,
+    /// Samples at which the fields are wanted, ascending.
+    wanted: &'a [usize],
+    /// Beside the six fields.
+    pub(crate) quantities: &'a [Quantity],
+    /// Who is told of each point.
+    watch: &'a (dyn Fn() + Sync),
     /// Of the fields, and of the velocities and accelerations where they are asked for.
     forcings: Vec<Forcing<'a>>,
     /// The discs that may stand for the load, and the forces on them that a point has needed, of each forcing.
@@ -94,10 +84,16 @@ const FAR: f64 = 30.0;
 const MOST_HELD: usize = 1 << 24;
 
 impl<'a> Evaluator<'a> {
-    /// Of all that is asked.
-    pub(crate) fn new(asked: Asked<'a>) -> Result<Self, ImpactError> {
-        let (excitation, grid, tolerance) = (asked.excitation, asked.grid, asked.tolerance);
-        let computed = matches!(asked.source, KernelSource::Direct(_));
+    /// Of what is asked at points, of the excitation of a grid with kernels.
+    pub(crate) fn new(
+        source: &'a KernelSource,
+        grid: &'a Grid<'a>,
+        wanted: &'a [usize],
+        quantities: &'a [Quantity],
+        watch: &'a (dyn Fn() + Sync),
+    ) -> Result<Self, ImpactError> {
+        let (excitation, tolerance) = (grid.excitation, grid.tolerance);
+        let computed = matches!(source, KernelSource::Direct(_));
         let radius = excitation.radius();
         let mut choices = Discs::looked_up(radius);
         if computed {
@@ -107,13 +103,12 @@ impl<'a> Evaluator<'a> {
             choices.truncate(kept);
         }
         let mut derivatives = vec![Derivative::Field];
-        for (derivative, _) in asked.quantities.iter().filter_map(|one| one.rate()) {
+        for (derivative, _) in quantities.iter().filter_map(|one| one.rate()) {
             if !derivatives.contains(&derivative) {
                 derivatives.push(derivative);
             }
         }
-        let forcing =
-            |derivative| Forcing::new(excitation, grid, asked.wanted, derivative, tolerance);
+        let forcing = |derivative| Forcing::new(grid, wanted, derivative);
         let past = match radius {
             PressureRadius::Following { .. } if computed => {
                 Some(Past::new(excitation, PART_OF_PAST * tolerance)?)
@@ -125,21 +120,25 @@ impl<'a> Evaluator<'a> {
             forces: choices.iter().map(|_| OnceLock::new()).collect(),
             choices,
             past,
-            asked,
+            source,
+            grid,
+            wanted,
+            quantities,
+            watch,
         })
     }
 
     /// Times in s at which the fields are wanted.
     pub(crate) fn times_s(&self) -> Vec<f64> {
-        let all: Vec<f64> = self.asked.grid.times_s().collect();
-        self.asked.wanted.iter().map(|&n| all[n]).collect()
+        let all: Vec<f64> = self.grid.times_s().collect();
+        self.wanted.iter().map(|&n| all[n]).collect()
     }
 
     /// How forces are summed, for reports.
     pub(crate) fn method(&self) -> Method {
         let forces = self.forces.iter().filter_map(OnceLock::get);
         let mut runs = forces.flatten().flatten().flat_map(|force| &force.runs);
-        match runs.any(|run| run.force.convolver.method() == Method::Transform) {
+        match runs.any(|run| run.force.convolver.transform.is_some()) {
             true => Method::Transform,
             false => Method::Direct,
         }
@@ -152,7 +151,7 @@ impl<'a> Evaluator<'a> {
     pub(crate) fn at(&self, r_m: f64, z_m: f64) -> Result<Vec<Trace>, ImpactError> {
         let sums = self.sums([r_m, z_m])?;
         let mut found = sums[0].clone();
-        found.extend(self.asked.quantities.iter().map(|&quantity| {
+        found.extend(self.quantities.iter().map(|&quantity| {
             let Some((derivative, component)) = quantity.rate() else {
                 return self.of_stresses(quantity, &sums[0]);
             };
@@ -160,12 +159,12 @@ impl<'a> Evaluator<'a> {
             let place = derivatives.position(|own| own == derivative);
             sums[place.unwrap_or(0)][component].clone()
         }));
-        (self.asked.watch)();
+        (self.watch)();
         Ok(found)
     }
 
     fn of_stresses(&self, quantity: Quantity, fields: &[Trace]) -> Trace {
-        let (stresses, elastic) = ([2, 3, 4, 5], self.asked.excitation.elastic);
+        let (stresses, elastic) = ([2, 3, 4, 5], self.grid.excitation.elastic);
         let of = |i: usize| quantity.of(stresses.map(|f| fields[f].samples[i]), elastic);
         Trace {
             samples: (0..fields[2].samples.len()).map(of).collect(),
@@ -204,17 +203,17 @@ impl<'a> Evaluator<'a> {
     /// The choices of discs that the source serves at a point in largest radii; where there is none, the last or, of
     /// kernels that are computed, the first, whose error names the place.
     fn serving(&self, place_m: [f64; 2]) -> Vec<usize> {
-        let radius_m = self.asked.excitation.units().disc_radius_m;
+        let radius_m = self.grid.excitation.units().disc_radius_m;
         let [r, z] = place_m.map(|x| x / radius_m);
-        let reach = self.asked.source.reach();
+        let reach = self.source.reach();
         let count = self.choices.len();
-        let computed = matches!(self.asked.source, KernelSource::Direct(_));
+        let computed = matches!(self.source, KernelSource::Direct(_));
         let served = |&choice: &usize| {
             let smallest = self.choices[choice].smallest();
             r <= smallest * reach[0] && z <= smallest * reach[1]
         };
         // whose force has a kink begins short waves where it is large, too
-        let smooth = self.asked.excitation.kinks_s().is_empty();
+        let smooth = self.grid.excitation.kinks_s().is_empty();
         let apart = computed && smooth && (APART..FAR).contains(&self.distance(place_m));
         let fits = |choice: &usize| self.choices[*choice].omitted.is_some() == apart;
         let mut found: Vec<usize> = (0..count).filter(served).collect();
@@ -230,7 +229,7 @@ impl<'a> Evaluator<'a> {
 
     /// Distance from the load in largest radii.
     fn distance(&self, [r_m, z_m]: [f64; 2]) -> f64 {
-        r_m.hypot(z_m) / self.asked.excitation.units().disc_radius_m
+        r_m.hypot(z_m) / self.grid.excitation.units().disc_radius_m
     }
 
     /// The sums of all forcings over the discs of one choice, with the kernels of the discs; those of another are known.
@@ -263,7 +262,7 @@ impl<'a> Evaluator<'a> {
 
     /// The kernels of a disc of a radius `over` the largest that bears a share of the load, as far as the outputs need them.
     fn cells(&self, place_m: [f64; 2], over: f64, share: f64) -> Result<Cells, ImpactError> {
-        let (excitation, grid) = (self.asked.excitation, self.asked.grid);
+        let (excitation, grid) = (self.grid.excitation, self.grid);
         let (ratio, units) = (excitation.medium().poisson_ratio(), excitation.units());
         let disc_radius_m = over * units.disc_radius_m;
         let place = place_m.map(|x| x / disc_radius_m);
@@ -274,9 +273,8 @@ impl<'a> Evaluator<'a> {
             count: grid.longest() + differences.max().unwrap_or(0) + BEYOND,
             pulse: excitation.pulse(over),
             rates,
-            tolerance: self.asked.tolerance / share.min(1.0),
+            tolerance: self.grid.tolerance / share.min(1.0),
         };
-        let source = self.asked.source;
-        source.cells(ratio, place, disc_radius_m, plan)
+        (self.source).cells(ratio, place, disc_radius_m, plan)
     }
 }

@@ -5,7 +5,7 @@
 use crate::evaluator::discs::Discs;
 use crate::evaluator::forcing::Forcing;
 use crate::evaluator::tests::contact;
-use crate::evaluator::{Asked, Evaluator, Past};
+use crate::evaluator::{Evaluator, Past};
 use crate::fields::quantity::Derivative;
 use crate::fields::quantity::Quantity;
 use crate::grid::{Grid, Wanted};
@@ -88,15 +88,7 @@ fn worst(order: Derivative, duration: f64, place: [f64; 2], tolerance: f64) -> [
         Derivative::Field | Derivative::First => [Quantity::VelocityR, Quantity::VelocityZ],
         Derivative::Second => [Quantity::AccelerationR, Quantity::AccelerationZ],
     };
-    let evaluator = Evaluator::new(Asked {
-        excitation: &excitation,
-        source: &source,
-        grid: &grid,
-        wanted: &all,
-        quantities: &quantities,
-        tolerance,
-        watch: &|| {},
-    });
+    let evaluator = Evaluator::new(&source, &grid, &all, &quantities, &|| {});
     let found = evaluator.unwrap().at(place[0], place[1]).unwrap();
     let rates = &found[6..];
     let reference = Reference {
@@ -177,7 +169,7 @@ fn rates_of_shares_are_those_of_their_forces() {
     };
     let grid = Grid::new(&wanted, &excitation, None).unwrap();
     let [forces, rates] = [Derivative::Field, Derivative::First]
-        .map(|derivative| Forcing::new(&excitation, &grid, &[], derivative, tolerance));
+        .map(|derivative| Forcing::new(&grid, &[], derivative));
     let discs = Discs::following(6, 0.0);
     for k in 0..discs.radii.len() {
         for t in [0.1, 0.23, 0.4, 0.61, 0.9].map(|part| part * duration) {

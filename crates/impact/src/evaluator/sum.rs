@@ -1,11 +1,10 @@
 //! The sum of one forcing over the discs of a choice, at one point.
 
 use super::Trace;
-use super::at_rest::{static_si, units_si};
 use super::discs::Discs;
 use super::ends::open;
 use super::forcing::{DiscForce, Forcing, Reading};
-use super::past::Past;
+use super::past::{LEAST, Past};
 use crate::error::ImpactError;
 use crate::excitation::{Excitation, PressureRadius};
 use crate::fields::quantity::Derivative;
@@ -124,7 +123,7 @@ impl<'a> Sum<'a> {
     /// Adds the fields under one disc.
     fn add_disc(&mut self, k: usize, cells: &Cells) {
         let (excitation, force) = (self.forcing.excitation, &self.forces[k]);
-        let unit = units_si(excitation, self.discs.radii[k]);
+        let unit = excitation.units_si(self.discs.radii[k]);
         // the static part of a pressure that follows the load is added as a whole
         let rest = match excitation.radius() {
             PressureRadius::Fixed(_) => cells.static_part,
@@ -172,7 +171,7 @@ impl<'a> Sum<'a> {
         const PART: f64 = 1e-4;
         let excitation = self.forcing.excitation;
         for (i, &time_s) in self.forcing.times_s.iter().enumerate() {
-            let of = |one| static_si(excitation, self.place_m, [one]);
+            let of = |one| excitation.static_si(self.place_m, [one]);
             let fixed = self.forcing.try_sum(time_s, PART, of)?;
             for (samples, value) in self.values.iter_mut().zip(fixed) {
                 samples[i] += value;
@@ -320,7 +319,7 @@ impl<'a> Sum<'a> {
     fn by_zones(&self, i: usize, k: usize, cells: &Cells, among: &Range<usize>) -> [Six; 2] {
         let (run, n) = self.in_run(i);
         let over = self.discs.radii[k];
-        let unit = units_si(self.forcing.excitation, over);
+        let unit = self.forcing.excitation.units_si(over);
         let unit_s = over * self.forcing.excitation.units().time_s();
         let own = &self.forces[k].runs[run];
         let mut change = [Six::default(); 2];
@@ -396,7 +395,7 @@ impl<'a> Sum<'a> {
         for part in &parts {
             let (step_s, span_s) = (self.forcing.step_s, span_s(part));
             let found = match self.forcing.reading {
-                Reading::Force => past.between(self.place_m, time_s, span_s)?,
+                Reading::Force => past.between(LEAST, self.place_m, time_s, span_s)?,
                 Reading::Rate => past.rate_between(self.place_m, time_s, span_s, step_s)?,
             };
             for (sum, found) in exact.iter_mut().zip(found) {
@@ -417,7 +416,7 @@ impl<'a> Sum<'a> {
         let mut sums = [Six::default(); 2];
         for part in parts {
             for (k, cells) in cells.iter().enumerate() {
-                let unit = units_si(self.forcing.excitation, self.discs.radii[k]);
+                let unit = self.forcing.excitation.units_si(self.discs.radii[k]);
                 let zones = match self.integrated[i] {
                     true => self.by_zones(i, k, cells, part),
                     false => [Six::default(); 2],

@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 
-use crate::evaluator::{Asked, Evaluator, Past, Trace};
+use crate::evaluator::{Evaluator, Past, Trace};
 use crate::excitation::{Excitation, PressureRadius};
 use crate::grid::{Grid, Wanted};
 use crate::impact::Impact;
@@ -92,7 +92,12 @@ pub(crate) fn contact(poisson_ratio: f64, duration: f64) -> Excitation {
 }
 
 /// The grid that would be chosen for all of a contact's waves to a distance.
-fn grid((excitation, source): (&Excitation, &KernelSource), tolerance: f64, farthest: f64) -> Grid {
+fn grid<'e>(
+    excitation: &'e Excitation,
+    source: &KernelSource,
+    tolerance: f64,
+    farthest: f64,
+) -> Grid<'e> {
     let wanted = Wanted {
         tolerance,
         step_s: None,
@@ -104,22 +109,8 @@ fn grid((excitation, source): (&Excitation, &KernelSource), tolerance: f64, fart
 }
 
 /// The six fields at a place, at some samples of a grid.
-fn at(
-    (excitation, source): (&Excitation, &KernelSource),
-    grid: &Grid,
-    wanted: &[usize],
-    tolerance: f64,
-    place: [f64; 2],
-) -> Vec<Trace> {
-    let evaluator = Evaluator::new(Asked {
-        excitation,
-        source,
-        grid,
-        wanted,
-        quantities: &[],
-        tolerance,
-        watch: &|| {},
-    });
+fn at(source: &KernelSource, grid: &Grid<'_>, wanted: &[usize], place: [f64; 2]) -> Vec<Trace> {
+    let evaluator = Evaluator::new(source, grid, wanted, &[], &|| {});
     evaluator.unwrap().at(place[0], place[1]).unwrap()
 }
 
@@ -182,7 +173,7 @@ fn discs_agree_with_frequency_and_wavenumber_integrals() {
                 .collect();
             let mut wanted = wanted;
             wanted.dedup();
-            let point = at((&excitation, &source), &grid, &wanted, tolerance, row.place);
+            let point = at(&source, &grid, &wanted, row.place);
             for (f, found) in point.iter().enumerate() {
                 if row.peaks[f] > 0.0 {
                     let error = (found.samples.last().unwrap() - row.fields[f]).abs();
@@ -245,7 +236,7 @@ fn far_away_few_discs_are_enough() {
                 let times: Vec<f64> = grid.times_s().collect();
                 let every = (times.len() / 40).max(1);
                 let wanted: Vec<usize> = (0..times.len()).step_by(every).collect();
-                let point = at((&excitation, &source), &grid, &wanted, tolerance, place);
+                let point = at(&source, &grid, &wanted, place);
                 let fields = |&n: &usize| exact.at(place, times[n]).unwrap();
                 let exact: Vec<Six> = wanted.iter().map(fields).collect();
                 for f in 0..6 {
@@ -287,12 +278,12 @@ fn tractions_below_the_surface_are_within_their_estimate_in_the_middle_of_a_long
     let exact = Past::new(&excitation, 1e-7).unwrap();
     let tolerance = 1e-4;
     let source = KernelSource::direct(excitation.medium(), 0.1 * tolerance).unwrap();
-    let grid = grid((&excitation, &source), tolerance, 20.0);
+    let grid = grid(&excitation, &source, tolerance, 20.0);
     let times: Vec<f64> = grid.times_s().collect();
     let middle = |n: &usize| n.is_multiple_of(8) && (60.0..280.0).contains(&times[*n]);
     let wanted: Vec<usize> = (0..times.len()).filter(middle).collect();
     for place in [[6.0, 0.27], [11.0, 0.27], [19.0, 0.54]] {
-        let point = at((&excitation, &source), &grid, &wanted, tolerance, place);
+        let point = at(&source, &grid, &wanted, place);
         for (i, &n) in wanted.iter().enumerate() {
             for (f, exact) in exact.at(place, times[n]).unwrap().into_iter().enumerate() {
                 let (error, estimate) = ((point[f].samples[i] - exact).abs(), point[f].error);
@@ -310,7 +301,7 @@ fn fields_just_below_the_surface_about_a_contact_are_within_their_estimate() {
     let exact = Past::new(&excitation, 1e-8).unwrap();
     for tolerance in [1e-4, 1e-5] {
         let source = KernelSource::direct(excitation.medium(), 0.1 * tolerance).unwrap();
-        let grid = grid((&excitation, &source), tolerance, 1.2);
+        let grid = grid(&excitation, &source, tolerance, 1.2);
         let times: Vec<f64> = grid.times_s().collect();
         let all: Vec<usize> = (0..times.len()).collect();
         let under = [[0.41, 0.047], [0.45, 0.0]];
@@ -318,7 +309,7 @@ fn fields_just_below_the_surface_about_a_contact_are_within_their_estimate() {
         // to five digits errors under the contact are up to twice their estimate
         let under = under.into_iter().filter(|_| tolerance > 2e-5);
         for place in under.chain(beside) {
-            let point = at((&excitation, &source), &grid, &all, tolerance, place);
+            let point = at(&source, &grid, &all, place);
             // the first and last instants and some between
             let parts = [
                 0.01, 0.02, 0.035, 0.05, 0.08, 0.3, 0.42, 0.7, 0.9, 0.93, 0.99,
@@ -369,7 +360,7 @@ fn fields_at_steps_that_are_shorter_than_the_tolerance_asks_for_are_within_their
     let times: Vec<f64> = grid.times_s().collect();
     let all: Vec<usize> = (0..times.len()).collect();
     let place = [1.4671e-4, 5.753e-6];
-    let point = at((excitation, &source), &grid, &all, 1e-4, place);
+    let point = at(&source, &grid, &all, place);
     let mut worst = 0.0_f64;
     for (n, &time) in times.iter().enumerate().take(130).skip(1) {
         for (f, exact) in exact.at(place, time).unwrap().into_iter().enumerate() {
@@ -417,7 +408,7 @@ fn what_arrives_from_the_turning_point_of_a_contact_that_yields_is_within_its_es
             let wanted: Vec<usize> = (0..times.len())
                 .filter(|&n| n % 40 == 0 || near(times[n]))
                 .collect();
-            let point = at((excitation, &source), &grid, &wanted, tolerance, place);
+            let point = at(&source, &grid, &wanted, place);
             let fields = |&n: &usize| exact.at(place, times[n]).unwrap();
             let exact: Vec<Six> = wanted.iter().map(fields).collect();
             for f in 0..6 {

@@ -6,7 +6,7 @@ pub(crate) mod probes;
 pub(crate) mod quantity;
 
 use crate::error::ImpactError;
-use crate::evaluator::{Asked, Evaluator, Past, Trace};
+use crate::evaluator::{Evaluator, Past, Trace};
 use crate::excitation::Excitation;
 use crate::grid::{Grid, Wanted};
 use crate::kernels::KernelSource;
@@ -94,15 +94,7 @@ impl Fields<'_> {
         let grid = Grid::new(&wanted, self.excitation, Some(&self.source))?;
         let time_s: Vec<f64> = grid.times_s().collect();
         let all: Vec<usize> = (0..time_s.len()).collect();
-        let evaluator = Evaluator::new(Asked {
-            excitation: self.excitation,
-            source: &self.source,
-            grid: &grid,
-            wanted: &all,
-            quantities: &[],
-            tolerance: self.tolerance,
-            watch: &|| {},
-        })?;
+        let evaluator = Evaluator::new(&self.source, &grid, &all, &[], &|| {})?;
         Ok(FieldHistory {
             traces: evaluator.at(r_m, z_m)?,
             time_s,

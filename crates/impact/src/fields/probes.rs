@@ -2,7 +2,7 @@
 
 use crate::cost::Forecast;
 use crate::error::{ImpactError, finite};
-use crate::evaluator::{Asked, Evaluator, Trace};
+use crate::evaluator::{Evaluator, Trace};
 use crate::excitation::Excitation;
 use crate::fields::quantity::Quantity;
 use crate::grid::{Grid, Wanted};
@@ -108,7 +108,7 @@ pub(crate) fn at_probes(
 ) -> Result<ProbeFields, ImpactError> {
     let found = (probes.par_iter()).map(|probe| evaluator.at(probe.r_m, probe.z_m));
     let found: Vec<Vec<Trace>> = found.collect::<Result<_, _>>()?;
-    let quantities = evaluator.asked.quantities.to_vec();
+    let quantities = evaluator.quantities.to_vec();
     let count = 6 + quantities.len();
     let mut fields = ProbeFields {
         r_m: probes.iter().map(|p| p.r_m).collect(),
@@ -119,7 +119,7 @@ pub(crate) fn at_probes(
         values: vec![Vec::new(); count],
         errors: vec![Vec::new(); count],
     };
-    let excitation = evaluator.asked.excitation;
+    let excitation = evaluator.grid.excitation;
     let (speeds, radius_m) = (excitation.speeds(), excitation.units().disc_radius_m);
     for (found, probe) in found.into_iter().zip(probes) {
         let place_m = [probe.r_m, probe.z_m];
@@ -150,7 +150,7 @@ pub(crate) fn on_section(
     peaks: bool,
 ) -> Result<SectionFields, ImpactError> {
     let all_s = evaluator.times_s();
-    let quantities = evaluator.asked.quantities.to_vec();
+    let quantities = evaluator.quantities.to_vec();
     let even =
         |end: f64, count: usize| (0..count).map(move |i| end * i as f64 / (count as f64 - 1.0));
     let r_m: Vec<f64> = even(section.r_max_m, section.points[0]).collect();
@@ -174,7 +174,7 @@ pub(crate) fn on_section(
         let found: Vec<Vec<Trace>> = found.collect::<Result<_, _>>()?;
         for (column, found) in found.into_iter().enumerate() {
             let place_m = [fields.r_m[column], z_m];
-            let arrivals = evaluator.asked.excitation.arrivals_s(place_m);
+            let arrivals = evaluator.grid.excitation.arrivals_s(place_m);
             for (times, time) in fields.arrival_s.iter_mut().zip(arrivals) {
                 times.push(time);
             }
@@ -226,18 +226,10 @@ pub(crate) fn peaks_at_probes(
     found.looked_up = matches!(source, KernelSource::Table(_));
     let grid = Grid::new(&Wanted::of(scene), excitation, Some(source))?;
     // on its own thread: whether a row fails depends on the row alone
-    Forecast::new(scene, excitation, &grid, Some(source), 1.0)?.check(scene, MOST_BYTES)?;
+    Forecast::new(scene, &grid, Some(source), 1.0)?.check(scene, MOST_BYTES)?;
     let time_s: Vec<f64> = grid.times_s().collect();
     let wanted: Vec<usize> = (0..time_s.len()).collect();
-    let evaluator = Evaluator::new(Asked {
-        excitation,
-        source,
-        grid: &grid,
-        wanted: &wanted,
-        quantities: &scene.quantities,
-        tolerance: scene.settings.tolerance,
-        watch: &|| {},
-    })?;
+    let evaluator = Evaluator::new(source, &grid, &wanted, &scene.quantities, &|| {})?;
     for probe in &scene.probes {
         for Trace { samples, error } in evaluator.at(probe.r_m, probe.z_m)? {
             let [value, time_s] = peak(&time_s, &samples);

@@ -116,7 +116,7 @@ impl KernelSource {
                 trace.for_each_cell(step, count, keep).map_err(domain)?;
                 let static_part = kernel.static_field(r, z).map_err(domain)?;
                 // the force rises and falls once
-                let error = trace.error().map(|e| 2.0 * e);
+                let error = trace.error.map(|e| 2.0 * e);
                 (static_part, moments, error, Some(trace))
             }
             Self::Table(table) => {

@@ -10,8 +10,7 @@ use crate::scene::Scene;
 use fault::AnyError;
 use halfspace::Profile;
 use lookup::{LookupError, Table};
-use std::collections::HashMap;
-use std::collections::hash_map::Entry;
+use std::collections::hash_map::{Entry, HashMap};
 use std::fmt;
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -27,11 +26,7 @@ pub trait Tables: fmt::Debug + Send + Sync {
     ///
     /// # Errors
     /// Why that cannot be told.
-    fn refusal(
-        &self,
-        _poisson_ratio: f64,
-        _farthest: [f64; 2],
-    ) -> Result<Option<LookupError>, AnyError> {
+    fn refusal(&self, _ratio: f64, _farthest: [f64; 2]) -> Result<Option<LookupError>, AnyError> {
         Ok(None)
     }
 }
@@ -48,12 +43,8 @@ impl Tables for lookup::TableFile {
         Ok(Arc::new(Self::part(self, poisson_ratio, span)?))
     }
 
-    fn refusal(
-        &self,
-        poisson_ratio: f64,
-        farthest: [f64; 2],
-    ) -> Result<Option<LookupError>, AnyError> {
-        Ok(self.serves(poisson_ratio, farthest)?.err())
+    fn refusal(&self, ratio: f64, farthest: [f64; 2]) -> Result<Option<LookupError>, AnyError> {
+        Ok(self.serves(ratio, farthest)?.err())
     }
 }
 

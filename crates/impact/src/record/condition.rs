@@ -6,16 +6,14 @@ use thiserror::Error;
 
 /// A treatment that this record cannot have.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
-#[error("{key} = {value} is outside ({least:.4e}, {most:.4e}], {reason}")]
+#[error("{key} = {value} is outside ({:.4e}, {:.4e}], {reason}", limits[0], limits[1])]
 pub struct TreatmentError {
     /// Which of the two, by the name of its scene key.
     pub key: &'static str,
     /// Its value.
     pub value: f64,
-    /// What it must exceed.
-    pub least: f64,
-    /// The most allowed.
-    pub most: f64,
+    /// What it must exceed, and the most allowed.
+    pub limits: [f64; 2],
     /// Where the limits come from.
     pub reason: &'static str,
 }
@@ -47,13 +45,12 @@ impl ForceRecord {
             }
         }
         if let Some(cutoff_hz) = low_pass_hz {
-            let [least, most] = allowed_hz(record.time_s());
-            if !(cutoff_hz > least && cutoff_hz <= most) {
+            let limits = allowed_hz(record.time_s());
+            if !(cutoff_hz > limits[0] && cutoff_hz <= limits[1]) {
                 return Err(TreatmentError {
                     key: "low_pass_hz",
                     value: cutoff_hz,
-                    least,
-                    most,
+                    limits,
                     reason: "one period in the record to rows that memory holds",
                 });
             }
@@ -91,8 +88,7 @@ impl ForceRecord {
             return Err(TreatmentError {
                 key: "baseline_s",
                 value: length_s,
-                least: 0.0,
-                most,
+                limits: [0.0, most],
                 reason: "the length of the record",
             });
         }

@@ -46,8 +46,9 @@ pub(crate) fn allowed_hz(time_s: &[f64]) -> [f64; 2] {
     let span_s = time_s[time_s.len() - 1] - time_s[0];
     let most = MOST_ROWS.max(2.0 * time_s.len() as f64);
     let rows = |cutoff_hz: f64| {
-        let added = time_s.windows(2).map(|t| added(t[1] - t[0], cutoff_hz));
-        time_s.len() as f64 + 2.0 * REACH * ROWS + added.sum::<f64>()
+        let reach = 2.0 * REACH * ROWS;
+        let added = |t: &[f64]| (ROWS * cutoff_hz * (t[1] - t[0])).min(reach).floor();
+        time_s.len() as f64 + reach + time_s.windows(2).map(added).sum::<f64>()
     };
     let (mut low, mut high) = (1.0 / span_s, 1e4 * MOST_ROWS / span_s);
     if rows(high) <= most {
@@ -62,11 +63,6 @@ pub(crate) fn allowed_hz(time_s: &[f64]) -> [f64; 2] {
         }
     }
     [least, low]
-}
-
-/// Rows added within an interval.
-fn added(width_s: f64, cutoff_hz: f64) -> f64 {
-    (ROWS * cutoff_hz * width_s).min(2.0 * REACH * ROWS).floor()
 }
 
 /// The force through the filter; `cutoff_hz` is one of [`allowed_hz`].

@@ -1,8 +1,8 @@
-//! Angle, logarithm and exponential of the numbers of a register.
+//! The functions of the real numbers of a register: angle, logarithm and exponential are ours.
 //!
 //! The polynomials are those of fdlibm (Sun Microsystems, 1993): within two units in the last place.
 
-use super::Lanes;
+use super::{Lanes, Pair};
 use crate::numeric::scalar::{Real, Scalar};
 use pulp::{Simd, cast};
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, LOG2_E, PI};
@@ -11,47 +11,42 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, LOG2_E, PI};
 const LN_2_HIGH: f64 = 6.931_471_803_691_238e-1;
 const LN_2_LOW: f64 = 1.908_214_929_270_587_7e-10;
 
-impl<S: Simd> Lanes<S> {
-    /// The angle of the vector (`x`, self), in [-pi, pi]; of nothing it is zero.
+impl<S: Simd> Real for Lanes<S> {
+    type Complex = Pair<S>;
+
     #[inline(always)]
-    pub(super) fn angle(self, x: Self) -> Self {
-        const TAN_PI_8: f64 = 0.414_213_562_373_095_03;
-        const FRAC_PI_4_LOW: f64 = 3.061_616_997_868_383e-17;
-        let zero = self.constant(0.0);
-        let (across, along) = (self.abs(), x.abs());
-        let small = across.min(along);
-        let large = across.max(along).at_least(f64::MIN_POSITIVE);
-        // atan(small/large), or pi/4 less atan of the rest
-        let limit = large * TAN_PI_8;
-        let t = small.where_below(limit, small, small - large)
-            / small.where_below(limit, large, small + large);
-        let low = small.where_below(limit, zero, self.constant(FRAC_PI_4_LOW));
-        let high = small.where_below(limit, zero, self.constant(FRAC_PI_4));
-        let z = t * t;
-        let w = z * z;
-        let even = z * w.polynomial([
-            1.628_582_011_536_578_2e-2,
-            4.976_877_994_615_932e-2,
-            6.661_073_137_387_531e-2,
-            9.090_887_133_436_507e-2,
-            1.428_571_427_250_346_6e-1,
-            3.333_333_333_333_293e-1,
+    fn sqrt(self) -> Self {
+        self.with(self.simd.sqrt_f64s(self.register))
+    }
+
+    /// The exponential of numbers between -700 and 700.
+    #[inline(always)]
+    fn exp(self) -> Self {
+        // to this the nearest integer is added in the last bits
+        const ROUND: f64 = 6_755_399_441_055_744.0;
+        let simd = self.simd;
+        let k = (self * LOG2_E + ROUND) - ROUND;
+        let low = k * LN_2_LOW;
+        let high = self - k * LN_2_HIGH;
+        let x = high - low;
+        let z = x * x;
+        let c = x - z * z.polynomial([
+            4.138_136_797_057_238_5e-8,
+            -1.653_390_220_546_525_2e-6,
+            6.613_756_321_437_934e-5,
+            -2.777_777_777_701_559_3e-3,
+            0.166_666_666_666_666_02,
         ]);
-        let odd = w * w.polynomial([
-            -3.653_157_274_421_691_6e-2,
-            -5.833_570_133_790_573e-2,
-            -7.691_876_205_044_83e-2,
-            -1.111_111_040_546_235_6e-1,
-            -1.999_999_999_987_648_3e-1,
-        ]);
-        let first = high + (t - (t * (even + odd) - low));
-        let octant = along.where_below(across, -first + FRAC_PI_2, first);
-        x.where_below(zero, -octant + PI, octant).copysign(self)
+        let y = (x * c / (-c + 2.0) - low) + high + 1.0;
+        // the exponent of 2^k, shifted out of the last bits of 2^52 + (k + 1023) 2^32
+        let biased = (k + 1023.0) * 2.0_f64.powi(32) + 2.0_f64.powi(52);
+        let power = simd.wrapping_dyn_shl_u32s(cast(biased.register), simd.splat_u32s(20));
+        y * self.with(cast(power))
     }
 
     /// The natural logarithm of positive numbers that are not subnormal.
     #[inline(always)]
-    pub(super) fn logarithm(self) -> Self {
+    fn ln(self) -> Self {
         // of 2^52 the last bit counts one
         const MAGIC: f64 = 4_503_599_627_370_496.0;
         let simd = self.simd;
@@ -88,29 +83,74 @@ impl<S: Simd> Lanes<S> {
         s * (half_square + (odd + even)) + k * LN_2_LOW - half_square + f + k * LN_2_HIGH
     }
 
-    /// The exponential of numbers between -700 and 700.
     #[inline(always)]
-    pub(super) fn exponential(self) -> Self {
-        // to this the nearest integer is added in the last bits
-        const ROUND: f64 = 6_755_399_441_055_744.0;
-        let simd = self.simd;
-        let k = (self * LOG2_E + ROUND) - ROUND;
-        let low = k * LN_2_LOW;
-        let high = self - k * LN_2_HIGH;
-        let x = high - low;
-        let z = x * x;
-        let c = x - z * z.polynomial([
-            4.138_136_797_057_238_5e-8,
-            -1.653_390_220_546_525_2e-6,
-            6.613_756_321_437_934e-5,
-            -2.777_777_777_701_559_3e-3,
-            0.166_666_666_666_666_02,
+    fn abs(self) -> Self {
+        self.with(self.simd.abs_f64s(self.register))
+    }
+
+    #[inline(always)]
+    fn copysign(self, sign: Self) -> Self {
+        let Self { simd, .. } = self;
+        let sign = simd.and_f64s(sign.register, simd.splat_f64s(-0.0));
+        self.with(simd.or_f64s(self.abs().register, sign))
+    }
+
+    #[inline(always)]
+    fn at_least(self, least: f64) -> Self {
+        self.max(self.constant(least))
+    }
+
+    /// The angle of the vector (`x`, self), in [-pi, pi]; of nothing it is zero.
+    #[inline(always)]
+    fn angle_over(self, x: Self) -> Self {
+        const TAN_PI_8: f64 = 0.414_213_562_373_095_03;
+        const FRAC_PI_4_LOW: f64 = 3.061_616_997_868_383e-17;
+        let zero = self.constant(0.0);
+        let (across, along) = (self.abs(), x.abs());
+        let small = across.min(along);
+        let large = across.max(along).at_least(f64::MIN_POSITIVE);
+        // atan(small/large), or pi/4 less atan of the rest
+        let limit = large * TAN_PI_8;
+        let t = small.where_below(limit, small, small - large)
+            / small.where_below(limit, large, small + large);
+        let low = small.where_below(limit, zero, self.constant(FRAC_PI_4_LOW));
+        let high = small.where_below(limit, zero, self.constant(FRAC_PI_4));
+        let z = t * t;
+        let w = z * z;
+        let even = z * w.polynomial([
+            1.628_582_011_536_578_2e-2,
+            4.976_877_994_615_932e-2,
+            6.661_073_137_387_531e-2,
+            9.090_887_133_436_507e-2,
+            1.428_571_427_250_346_6e-1,
+            3.333_333_333_333_293e-1,
         ]);
-        let y = (x * c / (-c + 2.0) - low) + high + 1.0;
-        // the exponent of 2^k, shifted out of the last bits of 2^52 + (k + 1023) 2^32
-        let biased = (k + 1023.0) * 2.0_f64.powi(32) + 2.0_f64.powi(52);
-        let power = simd.wrapping_dyn_shl_u32s(cast(biased.register), simd.splat_u32s(20));
-        y * self.with(cast(power))
+        let odd = w * w.polynomial([
+            -3.653_157_274_421_691_6e-2,
+            -5.833_570_133_790_573e-2,
+            -7.691_876_205_044_83e-2,
+            -1.111_111_040_546_235_6e-1,
+            -1.999_999_999_987_648_3e-1,
+        ]);
+        let first = high + (t - (t * (even + odd) - low));
+        let octant = along.where_below(across, -first + FRAC_PI_2, first);
+        x.where_below(zero, -octant + PI, octant).copysign(self)
+    }
+
+    #[inline(always)]
+    fn where_below(self, limit: Self, yes: Self, no: Self) -> Self {
+        let mask = self.simd.less_than_f64s(self.register, limit.register);
+        self.with(self.simd.select_f64s(mask, yes.register, no.register))
+    }
+
+    #[inline(always)]
+    fn largest(self) -> f64 {
+        self.simd.reduce_max_f64s(self.register)
+    }
+
+    #[inline(always)]
+    fn smallest(self) -> f64 {
+        self.simd.reduce_min_f64s(self.register)
     }
 }
 

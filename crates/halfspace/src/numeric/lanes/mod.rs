@@ -10,7 +10,7 @@ mod points;
 pub(crate) use pair::Pair;
 pub(crate) use points::{Map, Points, half_axes, major_axis, power};
 
-use crate::numeric::scalar::{Real, Scalar};
+use crate::numeric::scalar::Scalar;
 use pulp::{Simd, WithSimd};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -146,62 +146,5 @@ impl<S: Simd> Scalar for Lanes<S> {
     #[inline(always)]
     fn constant(self, value: f64) -> Self {
         Self::all(self.simd, value)
-    }
-}
-
-impl<S: Simd> Real for Lanes<S> {
-    type Complex = Pair<S>;
-
-    #[inline(always)]
-    fn sqrt(self) -> Self {
-        self.with(self.simd.sqrt_f64s(self.register))
-    }
-
-    #[inline(always)]
-    fn exp(self) -> Self {
-        self.exponential()
-    }
-
-    #[inline(always)]
-    fn ln(self) -> Self {
-        self.logarithm()
-    }
-
-    #[inline(always)]
-    fn abs(self) -> Self {
-        self.with(self.simd.abs_f64s(self.register))
-    }
-
-    #[inline(always)]
-    fn copysign(self, sign: Self) -> Self {
-        let Self { simd, .. } = self;
-        let sign = simd.and_f64s(sign.register, simd.splat_f64s(-0.0));
-        self.with(simd.or_f64s(self.abs().register, sign))
-    }
-
-    #[inline(always)]
-    fn at_least(self, least: f64) -> Self {
-        self.max(self.constant(least))
-    }
-
-    #[inline(always)]
-    fn angle_over(self, x: Self) -> Self {
-        self.angle(x)
-    }
-
-    #[inline(always)]
-    fn where_below(self, limit: Self, yes: Self, no: Self) -> Self {
-        let mask = self.simd.less_than_f64s(self.register, limit.register);
-        self.with(self.simd.select_f64s(mask, yes.register, no.register))
-    }
-
-    #[inline(always)]
-    fn largest(self) -> f64 {
-        self.simd.reduce_max_f64s(self.register)
-    }
-
-    #[inline(always)]
-    fn smallest(self) -> f64 {
-        self.simd.reduce_min_f64s(self.register)
     }
 }
