@@ -73,7 +73,7 @@ impl<'a> Past<'a> {
         };
         for i in 0..PARTS {
             let span_s = [graded(i), graded(i + 1)];
-            let waves = self.between(LEAST, place_m, time_s, span_s)?;
+            let waves = self.between(LEAST, place_m, [time_s], span_s)?[0];
             for (sum, waves) in sum.iter_mut().zip(waves) {
                 *sum += waves;
             }
@@ -197,8 +197,7 @@ impl<'a> Past<'a> {
         if span_s[1] > from_s {
             span_s[1] = f64::INFINITY;
         }
-        let after = self.between(NODES, place_m, to_s, span_s)?;
-        let before = self.between(NODES, place_m, from_s, span_s)?;
+        let [before, after] = self.between(NODES, place_m, [from_s, to_s], span_s)?;
         let mut rate: Six = std::array::from_fn(|f| (after[f] - before[f]) / (to_s - from_s));
         // what leaves the span at its ends is not lost: the sum over the cells has the rate of the force inside it
         for (at_s, sign) in [(span_s[0], -1.0), (span_s[1], 1.0)] {
@@ -209,49 +208,79 @@ impl<'a> Past<'a> {
         Ok(rate)
     }
 
-    /// The waves from a part of the past, by rules of so many nodes at least.
+    /// The waves from a part of the past at some times that are close together, by rules of so many nodes at least, the same
+    /// for all times: what they miss is nearly the same, too, and differences lose it.
     ///
     /// Near the axis of a punch, where fronts from opposite edges meet and it has no kernel of its own, fields are r to
     /// their parity times a function of r^2, which their values at a few larger radii continue.
-    pub(crate) fn between(
+    pub(crate) fn between<const N: usize>(
         &self,
         least: usize,
         [r_m, z_m]: [f64; 2],
-        time_s: f64,
+        times_s: [f64; N],
         span_s: [f64; 2],
-    ) -> Result<Six, ImpactError> {
+    ) -> Result<[Six; N], ImpactError> {
         /// Radii below this fraction of the distance from the largest edge are continued.
         const NEAR: f64 = 0.031;
         let step_m = NEAR * z_m.hypot(self.excitation.units().disc_radius_m);
         if r_m >= step_m || matches!(self.excitation.radius(), PressureRadius::Fixed(_)) {
-            return self.off_axis(least, [r_m, z_m], time_s, span_s);
+            return self.off_axis(least, [r_m, z_m], times_s, span_s);
         }
         let radii: Vec<f64> = (1..=self.radii).map(|i| step_m * i as f64).collect();
-        let mut sum = Six::default();
+        let mut sums = [Six::default(); N];
         for (i, &radius) in radii.iter().enumerate() {
-            let found = self.off_axis(least, [radius, z_m], time_s, span_s)?;
-            for (f, weight) in weights_off_axis(r_m, &radii, i).into_iter().enumerate() {
-                sum[f] += weight * found[f];
+            let found = self.off_axis(least, [radius, z_m], times_s, span_s)?;
+            let weights = weights_off_axis(r_m, &radii, i);
+            for (sum, found) in sums.iter_mut().zip(found) {
+                for f in 0..6 {
+                    sum[f] += weights[f] * found[f];
+                }
             }
         }
-        Ok(sum)
+        Ok(sums)
     }
 
-    fn off_axis(
+    fn off_axis<const N: usize>(
         &self,
         least: usize,
         place_m: [f64; 2],
-        time_s: f64,
+        times_s: [f64; N],
         [from_s, to_s]: [f64; 2],
-    ) -> Result<Six, ImpactError> {
-        let mut sum = Six::default();
-        let span_s = [
-            from_s.max(0.0),
-            to_s.min(time_s).min(self.excitation.end_s()),
-        ];
-        if span_s[0] >= span_s[1] {
-            return Ok(sum);
+    ) -> Result<[Six; N], ImpactError> {
+        let from_s = from_s.max(0.0);
+        let spans_s =
+            times_s.map(|t| [from_s, to_s.min(t).min(self.excitation.end_s()).max(from_s)]);
+        let mut cuts: [Vec<f64>; N] =
+            std::array::from_fn(|i| self.cuts(place_m, times_s[i], spans_s[i]));
+        if cuts.iter().any(|own| own.len() != cuts[0].len()) {
+            let mut all = cuts.concat();
+            all.sort_by(f64::total_cmp);
+            cuts = spans_s.map(|[from, to]| all.iter().map(|t| t.clamp(from, to)).collect());
         }
+        let mut sums = [Six::default(); N];
+        for panel in 1..cuts[0].len() {
+            let pairs: [[f64; 2]; N] =
+                std::array::from_fn(|i| [cuts[i][panel - 1], cuts[i][panel]]);
+            let counts = pairs.map(|pair| self.nodes(least, place_m, pair));
+            let rule = gauss::rule(counts.into_iter().fold(0, usize::max));
+            for (i, pair) in pairs
+                .iter()
+                .enumerate()
+                .filter(|(_, pair)| pair[0] < pair[1])
+            {
+                let (middle, half) = (0.5 * (pair[0] + pair[1]), 0.5 * (pair[1] - pair[0]));
+                for (angle, weight) in rule.on(0.0, PI) {
+                    let past_s = middle - half * angle.cos();
+                    let weight = half * weight * angle.sin();
+                    self.add(place_m, times_s[i], past_s, weight, &mut sums[i])?;
+                }
+            }
+        }
+        Ok(sums)
+    }
+
+    /// Nodes of the rule between two cuts.
+    fn nodes(&self, least: usize, place_m: [f64; 2], pair: [f64; 2]) -> usize {
         /// Power of the radius with which waves grow, and nodes for a digit.
         const FALLS: f64 = 1.5;
         const NODES_A_DIGIT: f64 = 2.0;
@@ -260,31 +289,22 @@ impl<'a> Past<'a> {
         /// Just below the surface the wave of Rayleigh has a peak for a front, as long as the depth: nodes over those of an
         /// interval that is no longer, at most.
         const SHARP: f64 = 3.0;
-        let depth_s = place_m[1] / self.excitation.units().longitudinal_speed_m_s;
-        let far = self.is_far(place_m);
-        let over = |t: f64| self.overs(t)[0];
-        for pair in self.cuts(place_m, time_s, span_s).windows(2) {
-            let (middle, half) = (0.5 * (pair[0] + pair[1]), 0.5 * (pair[1] - pair[0]));
-            // small contacts bring little
-            let digits = FALLS * over(pair[0]).max(over(pair[1])).max(1e-3).log10();
-            let nodes = if far {
-                self.nodes.max(LEAST_FAR)
-            } else {
-                let sharp = if depth_s > 0.0 {
-                    (half / depth_s).sqrt().clamp(1.0, SHARP)
-                } else {
-                    1.0
-                };
-                let nodes = (self.nodes as f64 + NODES_A_DIGIT * digits).max(least as f64);
-                (sharp * nodes).min(gauss::MAX_NODES as f64) as usize
-            };
-            for (angle, weight) in gauss::rule(nodes).on(0.0, PI) {
-                let past_s = middle - half * angle.cos();
-                let weight = half * weight * angle.sin();
-                self.add(place_m, time_s, past_s, weight, &mut sum)?;
-            }
+        if self.is_far(place_m) {
+            return self.nodes.max(LEAST_FAR);
         }
-        Ok(sum)
+        let depth_s = place_m[1] / self.excitation.units().longitudinal_speed_m_s;
+        let sharp = if depth_s > 0.0 {
+            (0.5 * (pair[1] - pair[0]) / depth_s)
+                .sqrt()
+                .clamp(1.0, SHARP)
+        } else {
+            1.0
+        };
+        // small contacts bring little
+        let [one, other] = pair.map(|t| self.overs(t)[0]);
+        let digits = FALLS * one.max(other).max(1e-3).log10();
+        let nodes = (self.nodes as f64 + NODES_A_DIGIT * digits).max(least as f64);
+        (sharp * nodes).min(gauss::MAX_NODES as f64) as usize
     }
 
     /// Whether fields nearly cancel over a contact.

@@ -395,7 +395,7 @@ impl<'a> Sum<'a> {
         for part in &parts {
             let (step_s, span_s) = (self.forcing.step_s, span_s(part));
             let found = match self.forcing.reading {
-                Reading::Force => past.between(LEAST, self.place_m, time_s, span_s)?,
+                Reading::Force => past.between(LEAST, self.place_m, [time_s], span_s)?[0],
                 Reading::Rate => past.rate_between(self.place_m, time_s, span_s, step_s)?,
             };
             for (sum, found) in exact.iter_mut().zip(found) {
