@@ -188,10 +188,8 @@ impl Plan<'_> {
     fn series(&self, across: &Stencil, down: &Stencil, count: usize) -> Series {
         let content = self.table.content();
         let cells = content.slices[self.slices[0].0].cells;
-        let beyond = match self.smoothness {
-            Smoothness::Linear => 0,
-            Smoothness::Smooth => smooth::BEYOND,
-        };
+        let is_smooth = self.smoothness == Smoothness::Smooth;
+        let beyond = if is_smooth { smooth::BEYOND } else { 0 };
         let wanted = count
             .saturating_add(beyond)
             .saturating_mul(1 << self.coarsening);
@@ -211,16 +209,13 @@ impl Plan<'_> {
             let cell = |k| std::array::from_fn(|field| sums[field * used + k]);
             (0..used).map(cell).collect()
         };
-        let in_cells = match self.smoothness {
-            Smoothness::Linear => 0,
-            Smoothness::Smooth => stored,
-        };
-        let numbers = Numbers {
-            averages: sum(|slice| &slice.remainder, cells, stored),
-            moments: sum(|slice| &slice.moment, cells, in_cells),
-            curvatures: sum(|slice| &slice.curvature, cells, in_cells),
-            tail: sum(|slice| &slice.tail, terms, terms),
-        };
+        let in_cells = if is_smooth { stored } else { 0 };
+        let numbers: Numbers = [
+            sum(|slice| &slice.remainder, cells, stored),
+            sum(|slice| &slice.moment, cells, in_cells),
+            sum(|slice| &slice.curvature, cells, in_cells),
+            sum(|slice| &slice.tail, terms, terms),
+        ];
         Series::new(self.width, cells, numbers)
     }
 }
