@@ -43,8 +43,7 @@ class _Results(Protocol):
     def energy(self) -> dict[str, Floats] | None: ...
     def probes(self) -> dict[str, Any] | None: ...
     def section(self) -> dict[str, Any] | None: ...
-    def save(self, path: os.PathLike[str] | str, overwrite: bool) -> None: ...
-    def save_csv(self, path: os.PathLike[str] | str, overwrite: bool) -> None: ...
+    def save(self, path: os.PathLike[str] | str, overwrite: bool, csv: bool) -> None: ...
 
 
 class _Kept:
@@ -80,16 +79,10 @@ class _Kept:
     def section(self) -> dict[str, Any] | None:
         return None if self.parts["section"] is None else dict(self.parts["section"])
 
-    def save(self, path: os.PathLike[str] | str, overwrite: bool) -> None:
-        self._write("impact.h5", path, overwrite)
-
-    def save_csv(self, path: os.PathLike[str] | str, overwrite: bool) -> None:
-        self._write("impact.csv", path, overwrite)
-
-    def _write(self, name: str, path: os.PathLike[str] | str, overwrite: bool) -> None:
+    def save(self, path: os.PathLike[str] | str, overwrite: bool, csv: bool) -> None:
         try:
             with open(path, "wb" if overwrite else "xb") as file:
-                file.write(self.files[name])
+                file.write(self.files["impact.csv" if csv else "impact.h5"])
         except FileExistsError:
             message = f"{os.fspath(path)} exists already and is not replaced; give overwrite=True to replace it"
             raise OutputExists(message, file=os.fspath(path)) from None
@@ -382,11 +375,11 @@ class Impact:
 
     def save(self, path: str | os.PathLike[str], *, overwrite: bool = False) -> None:
         """Writes the results file of the command, HDF5, byte for byte."""
-        self._core.save(path, overwrite)
+        self._core.save(path, overwrite, csv=False)
 
     def save_csv(self, path: str | os.PathLike[str], *, overwrite: bool = False) -> None:
         """Writes the time series and the traces of the probes as text, as ``hertzlamb impact --csv`` does."""
-        self._core.save_csv(path, overwrite)
+        self._core.save(path, overwrite, csv=True)
 
     def plot(self, *, axes: Axes | None = None) -> Axes:
         """Draws the force over time (matplotlib)."""
@@ -427,8 +420,8 @@ class Impact:
             return _restored, (parts, self._core.files)
         files = {}
         with tempfile.TemporaryDirectory() as folder:
-            self._core.save(Path(folder, "impact.h5"), False)
-            self._core.save_csv(Path(folder, "impact.csv"), False)
+            self._core.save(Path(folder, "impact.h5"), False, csv=False)
+            self._core.save(Path(folder, "impact.csv"), False, csv=True)
             files = {path.name: path.read_bytes() for path in Path(folder).iterdir() if path.is_file()}
         return _restored, (parts, files)
 

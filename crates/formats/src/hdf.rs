@@ -1,5 +1,6 @@
 //! What the HDF5 library is asked to do: described datasets, texts, dimension scales.
 
+use crate::quantities::Labels;
 use hdf5::dataset::{AllocTime, FillTime};
 use hdf5::types::TypeDescriptor;
 use hdf5::{Dataset, Group, H5Type};
@@ -9,7 +10,7 @@ pub(crate) use lookup::labels::{array, attach_scales, new_file, reason, scalar, 
 /// A dataset of one dimension.
 pub(crate) fn vector<T: H5Type>(
     group: &Group,
-    described: &(&str, &str, &str),
+    described: &Labels<'_>,
     samples: &[T],
 ) -> Result<Dataset, hdf5::Error> {
     numbers(group, described, &[samples.len()], samples)
@@ -18,7 +19,7 @@ pub(crate) fn vector<T: H5Type>(
 /// A dataset of any shape; `described` is its name, unit and meaning.
 pub(crate) fn numbers<T: H5Type>(
     group: &Group,
-    described: &(&str, &str, &str),
+    described: &Labels<'_>,
     shape: &[usize],
     samples: &[T],
 ) -> Result<Dataset, hdf5::Error> {
@@ -29,7 +30,7 @@ pub(crate) fn numbers<T: H5Type>(
 
 fn filled<T: H5Type>(
     group: &Group,
-    described: &(&str, &str, &str),
+    described: &Labels<'_>,
     shape: &[usize],
     fill: impl FnOnce(&Dataset) -> Result<(), hdf5::Error>,
 ) -> Result<Dataset, hdf5::Error> {
@@ -49,7 +50,7 @@ const AT_A_TIME: usize = 1 << 20;
 /// A list of numbers that need not be in memory together, by their places.
 pub(crate) fn some_at_a_time<T: H5Type>(
     group: &Group,
-    described: &(&str, &str, &str),
+    described: &Labels<'_>,
     length: usize,
     number: impl Fn(usize) -> T,
 ) -> Result<Dataset, hdf5::Error> {
@@ -65,7 +66,7 @@ pub(crate) fn some_at_a_time<T: H5Type>(
 /// A described dataset whose numbers are written later, and where in the file they stand; nowhere without any.
 pub(crate) fn reserve(
     group: &Group,
-    described: &(&str, &str, &str),
+    described: &Labels<'_>,
     shape: &[usize],
     of: &TypeDescriptor,
 ) -> Result<(Dataset, Option<u64>), hdf5::Error> {
@@ -88,7 +89,7 @@ pub(crate) fn reserve(
 /// A list of texts.
 pub(crate) fn texts(
     group: &Group,
-    described: &(&str, &str, &str),
+    described: &Labels<'_>,
     values: &[String],
 ) -> Result<Dataset, hdf5::Error> {
     let values = values.iter().map(|value| unicode(value));
@@ -99,7 +100,7 @@ pub(crate) fn texts(
 /// A dimension scale of numbers.
 pub(crate) fn scale<T: H5Type>(
     group: &Group,
-    described: &(&str, &str, &str),
+    described: &Labels<'_>,
     values: &[T],
 ) -> Result<Dataset, hdf5::Error> {
     let dataset = vector(group, described, values)?;
@@ -107,10 +108,7 @@ pub(crate) fn scale<T: H5Type>(
     Ok(dataset)
 }
 
-pub(crate) fn describe(
-    dataset: &Dataset,
-    described: &(&str, &str, &str),
-) -> Result<(), hdf5::Error> {
+pub(crate) fn describe(dataset: &Dataset, described: &Labels<'_>) -> Result<(), hdf5::Error> {
     text(dataset, "units", described.1)?;
     text(dataset, "long_name", described.2)
 }

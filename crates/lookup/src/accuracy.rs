@@ -25,18 +25,6 @@ pub struct Accuracy {
     pub between_slices: Option<[Quantiles; 6]>,
 }
 
-impl Accuracy {
-    /// The field with the largest 99 % quantile on slices, and its errors.
-    pub fn worst_on_slices(&self) -> (Field, Quantiles) {
-        worst(&self.on_slices)
-    }
-
-    /// The field with the largest 99 % quantile between slices, and its errors.
-    pub fn worst_between_slices(&self) -> Option<(Field, Quantiles)> {
-        self.between_slices.as_ref().map(worst)
-    }
-}
-
 impl Content {
     /// The errors measured, for each of [`Self::pulse_lengths`]; places where a field is zero throughout say nothing.
     ///
@@ -91,7 +79,8 @@ fn quantiles(measured: &[&Verification], first: usize, every: usize) -> Quantile
     }
 }
 
-fn worst(errors: &[Quantiles; 6]) -> (Field, Quantiles) {
+/// The field with the largest 99 % quantile, and its errors.
+pub fn worst(errors: &[Quantiles; 6]) -> (Field, Quantiles) {
     let fields = halfspace::FIELDS.into_iter().zip(*errors);
     fields
         .max_by(|a, b| a.1.p99.total_cmp(&b.1.p99))

@@ -59,12 +59,10 @@ impl<'a> Measured<'a> {
 
     /// The places between slices around a point.
     pub(crate) fn around(&self, [r, z]: [f64; 2]) -> [Range<usize>; 2] {
-        let Content {
-            between_r,
-            between_z,
-            ..
-        } = self.content;
-        [corners(between_r, r), corners(between_z, z)]
+        [
+            corners(&self.content.between_r, r),
+            corners(&self.content.between_z, z),
+        ]
     }
 
     /// The estimate of a field from the largest error among the places `across` by `down`, for the pulse of index `pulse`.
@@ -194,8 +192,6 @@ fn bracket(lengths: &[f64], length: f64) -> (usize, f64) {
         return (last, 0.0);
     }
     let lower = lengths.partition_point(|&x| x <= length) - 1;
-    (
-        lower,
-        (length / lengths[lower]).ln() / (lengths[lower + 1] / lengths[lower]).ln(),
-    )
+    let whole = (lengths[lower + 1] / lengths[lower]).ln();
+    (lower, (length / lengths[lower]).ln() / whole)
 }

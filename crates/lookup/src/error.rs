@@ -29,16 +29,14 @@ pub(crate) fn value(item: &str, value: f64, range: &str) -> ContentError {
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum LookupError {
     /// The point lies outside the table.
-    #[error("{axis} = {value} is outside the table's range [{min}, {max}]")]
+    #[error("{axis} = {value} is outside the table's range [{}, {}]", .limits[0], .limits[1])]
     Outside {
         /// `r/r0`, `z/r0` or `poisson_ratio`.
         axis: &'static str,
         /// The value asked for.
         value: f64,
-        /// Smallest value that the table serves.
-        min: f64,
-        /// Largest value that the table serves.
-        max: f64,
+        /// Smallest and largest value that the table serves.
+        limits: [f64; 2],
     },
     /// Time cells beyond anything that a table can hold.
     #[error("coarsening = {value} is outside [0, {max}]")]
@@ -72,12 +70,11 @@ pub enum LookupError {
 }
 
 impl LookupError {
-    pub(crate) fn outside(axis: &'static str, value: f64, [min, max]: [f64; 2]) -> Self {
+    pub(crate) fn outside(axis: &'static str, value: f64, limits: [f64; 2]) -> Self {
         Self::Outside {
             axis,
             value,
-            min,
-            max,
+            limits,
         }
     }
 }
@@ -92,9 +89,8 @@ impl Fault for LookupError {
             Self::Outside {
                 axis,
                 value,
-                min,
-                max,
-            } => outside(*axis, *value, [*min, *max]),
+                limits,
+            } => outside(*axis, *value, *limits),
             Self::Coarsening { value, max } => {
                 outside("coarsening", f64::from(*value), [0.0, f64::from(*max)])
             }

@@ -91,21 +91,20 @@ mod table;
 mod trace;
 mod validate;
 
-pub use accuracy::{Accuracy, Quantiles, quantile};
+pub use accuracy::{Accuracy, Quantiles, quantile, worst};
 pub use certificate::{SAFETY, SAFETY_BETWEEN};
 pub use content::{Between, Content, Origin, Role, Slice, Verification, centres};
 pub use error::{ContentError, LookupError};
 #[cfg(feature = "hdf5")]
-pub use file::labels;
-#[cfg(feature = "hdf5")]
-pub use file::{BadTable, TableError, TableFile, damaged_patches};
-#[cfg(feature = "hdf5")]
-pub use file::{check_whole, holds, read, same_hash, stated_hash, write};
+pub use file::{
+    BadTable, TableError, TableFile, check_whole, damaged_patches, holds, labels, read, same_hash,
+    stated_hash, write,
+};
 pub use hash::{content_hash, settings_id};
 pub use pulse::PulseSum;
 pub use ratio::{cell_scale, ratio_coordinate};
 pub use series::smooth::{BEYOND, absorb, absorbed};
 pub use series::stencil::{Stencil, locate};
-pub use series::{Moments, Numbers, Series, Smoothness};
+pub use series::{Moments, Numbers, Series, Smoothness, round};
 pub use table::Table;
 pub use trace::TraceInfo;

@@ -1,7 +1,7 @@
 //! Response to a smooth pulse, the yardstick of every error in a table.
 
 use halfspace::Six;
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 /// The pulse P(t) = sin^4(pi t/T) on [0, T] with unit peak, taken linear between samples one cell apart.
 ///
@@ -22,22 +22,14 @@ impl PulseSum {
     /// The pulse whose length is `length`, rounded to whole cells of `width` (at least two).
     pub fn new(length: f64, width: f64) -> Self {
         let cells = ((length / width).round() as usize).max(2);
-        let mut pulse = Self {
+        let angles = [1.0, 2.0].map(|k| TAU * k / cells as f64);
+        let turn = angles.map(|angle| [angle.cos(), angle.sin()]);
+        let amplitude = |factor: f64, [cos, sin]: [f64; 2]| [factor * (1.0 - cos), factor * sin];
+        Self {
             cells,
-            turn: [[0.0; 2]; 2],
-            amplitude: [[0.0; 2]; 2],
-        };
-        for (k, factor) in [-0.5, 0.125].into_iter().enumerate() {
-            let angle = TAU * (k + 1) as f64 / cells as f64;
-            pulse.turn[k] = [angle.cos(), angle.sin()];
-            pulse.amplitude[k] = [factor * (1.0 - angle.cos()), factor * angle.sin()];
+            turn,
+            amplitude: [amplitude(-0.5, turn[0]), amplitude(0.125, turn[1])],
         }
-        pulse
-    }
-
-    /// Length of the pulse in cells.
-    pub fn cells(&self) -> usize {
-        self.cells
     }
 
     /// P at the end of cell `n - 1`.
@@ -45,9 +37,8 @@ impl PulseSum {
         if n >= self.cells {
             return 0.0;
         }
-        (std::f64::consts::PI * n as f64 / self.cells as f64)
-            .sin()
-            .powi(4)
+        let angle = PI * n as f64 / self.cells as f64;
+        angle.sin().powi(4)
     }
 
     /// Responses at the times 0, 1, 2, ... cells, one for each entry of `cells`.
@@ -61,11 +52,8 @@ impl PulseSum {
             let mut value = static_part.map(|s| force * s);
             if n > 0 {
                 let entering = cells[n - 1];
-                let leaving = if n > self.cells {
-                    cells[n - 1 - self.cells]
-                } else {
-                    [0.0; 6]
-                };
+                let leaving = (n - 1).checked_sub(self.cells);
+                let leaving = leaving.map_or([0.0; 6], |cell| cells[cell]);
                 for (k, field) in sums.iter_mut().enumerate() {
                     let [c, s] = self.turn[k];
                     let [a, b] = self.amplitude[k];
@@ -97,7 +85,7 @@ mod tests {
         let response = pulse.response(&[0.5; 6], &cells);
         for n in [0, 1, 20, 40, 41, 42, 100, 299] {
             for f in 0..6 {
-                let plain: f64 = (1..=n.min(pulse.cells()))
+                let plain: f64 = (1..=n.min(pulse.cells))
                     .map(|m| (pulse.force(m) - pulse.force(m - 1)) * cells[n - m][f])
                     .sum();
                 let exact = 0.5 * pulse.force(n) + plain;

@@ -13,7 +13,6 @@ use crate::{hash, validate};
 pub struct Table {
     content: Content,
     id: String,
-    poisson_ratios: Vec<f64>,
     /// The slices as far as Poisson's ratio goes.
     pub(crate) served: Vec<Served>,
     /// Meshes served in r and z: the first, and behind the last.
@@ -40,7 +39,6 @@ impl Table {
     ) -> Result<Self, ContentError> {
         validate::slices(&content)?;
         let slices = content.slices.iter();
-        let poisson_ratios: Vec<f64> = slices.clone().map(|slice| slice.poisson_ratio).collect();
         let served = slices.map(|slice| Served::new(slice.poisson_ratio, slice.role));
         let served = served.collect::<Result<_, _>>()?;
         let meshes = content.probes().map(|places| places.len());
@@ -49,7 +47,6 @@ impl Table {
             meshes,
             decoded_bytes,
             id: hash::settings_id(&content.origin.grid),
-            poisson_ratios,
             served,
             content,
         })
@@ -66,8 +63,8 @@ impl Table {
     }
 
     /// Poisson ratios tabulated, ascending.
-    pub fn poisson_ratios(&self) -> &[f64] {
-        &self.poisson_ratios
+    pub fn poisson_ratios(&self) -> Vec<f64> {
+        self.served.iter().map(|slice| slice.ratio).collect()
     }
 
     /// Width of a time cell in r0/c1 at a Poisson ratio, see [`cell_scale`].

@@ -92,8 +92,7 @@ impl Table {
     /// As [`Self::trace`].
     pub fn series(&self, poisson_ratio: f64, r: f64, z: f64) -> Result<Series, LookupError> {
         let plan = self.plan(Smoothness::Smooth, poisson_ratio, 0)?;
-        let (across, down) = plan.stencils([r, z])?;
-        Ok(plan.series(&across, &down, usize::MAX))
+        plan.series([r, z], usize::MAX)
     }
 
     /// The static field at a point, and averages and moments of the remainder over `count` cells of any width, in r0/c1.
@@ -109,9 +108,8 @@ impl Table {
         count: usize,
     ) -> Result<(Six, Moments), LookupError> {
         let plan = self.plan(Smoothness::Smooth, poisson_ratio, 0)?;
-        let (across, down) = plan.stencils([r, z])?;
         let table_cells = (count as f64 * width / plan.width).ceil() as usize;
-        let series = plan.series(&across, &down, table_cells);
+        let series = plan.series([r, z], table_cells)?;
         Ok((
             plan.medium.static_field(Profile::Hertz, r, z)?,
             series.moments(width, count),
@@ -159,14 +157,13 @@ struct Plan<'a> {
 
 impl Plan<'_> {
     fn trace(&self, [r, z]: [f64; 2], cells: &mut [Six]) -> Result<TraceInfo, LookupError> {
-        let (across, down) = self.stencils([r, z])?;
+        let series = self.series([r, z], cells.len())?;
         let static_part = self.medium.static_field(Profile::Hertz, r, z)?;
         let cell_width = self.width * f64::from(1_u32 << self.coarsening);
         let error = self
             .table
             .error(self.medium.poisson_ratio(), r, z, 10.0 * cell_width)?;
-        self.series(&across, &down, cells.len())
-            .fill(self.smoothness, self.coarsening, cells);
+        series.fill(self.smoothness, self.coarsening, cells);
         Ok(TraceInfo {
             static_part,
             cell_width,
@@ -174,24 +171,16 @@ impl Plan<'_> {
         })
     }
 
-    fn stencils(&self, place: [f64; 2]) -> Result<(Stencil, Stencil), LookupError> {
+    /// The interpolated series at a place, as much of it as `count` cells need.
+    fn series(&self, place: [f64; 2], count: usize) -> Result<Series, LookupError> {
         let content = self.table.content();
-        let points = content.stencil_points;
         let mesh = self.table.mesh(place)?;
-        Ok((
-            Stencil::mirrored(&content.r, mesh[0], place[0], points),
-            Stencil::one_sided(&content.z, mesh[1], place[1], points),
-        ))
-    }
-
-    /// The interpolated series, as much of it as `count` cells need.
-    fn series(&self, across: &Stencil, down: &Stencil, count: usize) -> Series {
-        let content = self.table.content();
+        let points = content.stencil_points;
+        let across = Stencil::mirrored(&content.r, mesh[0], place[0], points);
+        let down = Stencil::one_sided(&content.z, mesh[1], place[1], points);
         let cells = content.slices[self.slices[0].0].cells;
-        let beyond = match self.smoothness {
-            Smoothness::Linear => 0,
-            Smoothness::Smooth => smooth::BEYOND,
-        };
+        let is_smooth = self.smoothness == Smoothness::Smooth;
+        let beyond = if is_smooth { smooth::BEYOND } else { 0 };
         let wanted = count
             .saturating_add(beyond)
             .saturating_mul(1 << self.coarsening);
@@ -200,7 +189,7 @@ impl Plan<'_> {
         let sum = |values: fn(&Slice) -> &[f32], length: usize, used: usize| {
             let mut sums = vec![0.0; FIELDS * used];
             for &(index, weight) in &self.slices {
-                let nodes: Vec<_> = nodes(across, down, content.z.len(), weight).collect();
+                let nodes: Vec<_> = nodes(&across, &down, content.z.len(), weight).collect();
                 Arch::new().dispatch(Rows {
                     values: values(&content.slices[index]),
                     length,
@@ -211,16 +200,13 @@ impl Plan<'_> {
             let cell = |k| std::array::from_fn(|field| sums[field * used + k]);
             (0..used).map(cell).collect()
         };
-        let in_cells = match self.smoothness {
-            Smoothness::Linear => 0,
-            Smoothness::Smooth => stored,
-        };
-        let numbers = Numbers {
-            averages: sum(|slice| &slice.remainder, cells, stored),
-            moments: sum(|slice| &slice.moment, cells, in_cells),
-            curvatures: sum(|slice| &slice.curvature, cells, in_cells),
-            tail: sum(|slice| &slice.tail, terms, terms),
-        };
-        Series::new(self.width, cells, numbers)
+        let in_cells = if is_smooth { stored } else { 0 };
+        let numbers: Numbers = [
+            sum(|slice| &slice.remainder, cells, stored),
+            sum(|slice| &slice.moment, cells, in_cells),
+            sum(|slice| &slice.curvature, cells, in_cells),
+            sum(|slice| &slice.tail, terms, terms),
+        ];
+        Ok(Series::new(self.width, cells, numbers))
     }
 }

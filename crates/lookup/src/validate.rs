@@ -5,9 +5,6 @@ use crate::error::{ContentError, shape, value};
 use crate::schema;
 use crate::series::stencil::MAX_POINTS;
 
-/// Cells outside this are those of no table.
-const CELL_WIDTHS: [f64; 2] = [1e-4, 1e2];
-
 /// Checks what a slice is read and interpolated by: axes, stencil, pulses, and what lies between slices.
 pub(crate) fn frame(content: &Content) -> Result<(), ContentError> {
     axis("r", &content.r)?;
@@ -20,8 +17,7 @@ pub(crate) fn frame(content: &Content) -> Result<(), ContentError> {
             return Err(value(&format!("{name}_max"), max, "one of the nodes but 0"));
         }
     }
-    let [narrowest, widest] = CELL_WIDTHS;
-    if !(narrowest..=widest).contains(&content.cell_width) {
+    if !(1e-4..=1e2).contains(&content.cell_width) {
         return Err(value("cell_width", content.cell_width, "[1e-4, 100]"));
     }
     if content.pulse_lengths.is_empty() {

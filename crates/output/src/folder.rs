@@ -2,14 +2,13 @@
 
 use crate::claim::{Existing, Output, Staged};
 use crate::error::OutputError;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// A folder that one run at a time writes into.
 #[derive(Debug)]
 pub struct Folder {
-    path: PathBuf,
-    /// The name that stands for the whole folder.
-    _claim: Output,
+    /// A name in it that stands for the whole folder.
+    claim: Output,
 }
 
 impl Folder {
@@ -30,10 +29,7 @@ impl Folder {
         let names = entries.filter_map(|entry| Some(entry.ok()?.path()));
         match names.filter(|path| !is_hidden(path)).min() {
             Some(path) if existing != Existing::Replace => Err(OutputError::Exists(path)),
-            Some(_) | None => Ok(Self {
-                path: path.to_owned(),
-                _claim: claim,
-            }),
+            Some(_) | None => Ok(Self { claim }),
         }
     }
 
@@ -53,7 +49,8 @@ impl Folder {
     ) -> Result<(), OutputError> {
         let mut claimed = Vec::new();
         for (name, bytes) in files {
-            let output = Output::claim(&self.path.join(name), Existing::Replace)?;
+            let path = self.claim.path.with_file_name(name);
+            let output = Output::claim(&path, Existing::Replace)?;
             claimed.push((output, bytes));
         }
         let mut staged: Vec<Staged<'_>> = Vec::new();

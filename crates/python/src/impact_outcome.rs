@@ -178,19 +178,8 @@ impl Outcome {
         Ok(Some(found))
     }
 
-    /// Writes the command's results file.
-    fn save(&self, py: Python<'_>, path: PathBuf, overwrite: bool) -> PyResult<()> {
-        self.write(py, path, overwrite, false)
-    }
-
-    /// Writes the command's table of text.
-    fn save_csv(&self, py: Python<'_>, path: PathBuf, overwrite: bool) -> PyResult<()> {
-        self.write(py, path, overwrite, true)
-    }
-}
-
-impl Outcome {
-    fn write(&self, py: Python<'_>, path: PathBuf, overwrite: bool, csv: bool) -> PyResult<()> {
+    /// Writes the command's results file, or its table of text.
+    fn save(&self, py: Python<'_>, path: PathBuf, overwrite: bool, csv: bool) -> PyResult<()> {
         let found = Arc::clone(&self.found);
         run(py, None, None, move |_| {
             let ending = if csv { CSV } else { HDF5 };

@@ -1,7 +1,7 @@
 //! The exact kernels at many places and times, in reduced units.
 
 use crate::errors::{check_memory, one_of, plain, raise};
-use crate::values::{Array, fields, frozen, numbers, vector};
+use crate::values::{Array, fields, numbers, vector};
 use crate::work::{Ticker, run, run_short};
 use halfspace::{
     Arrivals, Deflection, DomainError, Estimate, Kernel, Medium, Profile, Six, SurfaceResponse,
@@ -18,14 +18,11 @@ fn medium_of(nu: f64) -> PyResult<Medium> {
     Medium::new(nu).map_err(raise)
 }
 
-fn profile_of(name: &str) -> PyResult<Profile> {
-    let all = [
-        ("hertz", Profile::Hertz),
-        ("punch", Profile::Punch),
-        ("point", Profile::Point),
-    ];
-    one_of("profile", name, &all)
-}
+const PROFILES: [(&str, Profile); 3] = [
+    ("hertz", Profile::Hertz),
+    ("punch", Profile::Punch),
+    ("point", Profile::Point),
+];
 
 const DEFLECTIONS: [(&str, Deflection); 2] =
     [("centre", Deflection::Centre), ("mean", Deflection::Mean)];
@@ -85,7 +82,7 @@ pub(crate) fn kernel<'py>(
     progress: Option<Py<PyAny>>,
 ) -> PyResult<(Array<'py>, Array<'py>)> {
     let (at, _) = one_of("order", order, &ORDERS)?;
-    let profile = profile_of(profile)?;
+    let profile = one_of("profile", profile, &PROFILES)?;
     let kernel = Kernel::new(&medium_of(nu)?, profile, tolerance).map_err(raise)?;
     let rows = r.len()?;
     if z.len()? != rows || t.len()? != rows {
@@ -124,7 +121,7 @@ pub(crate) fn static_field<'py>(
     profile: &str,
 ) -> PyResult<Array<'py>> {
     // no quadrature: the tolerance is of no consequence
-    let profile = profile_of(profile)?;
+    let profile = one_of("profile", profile, &PROFILES)?;
     let kernel = Kernel::new(&medium_of(nu)?, profile, 1e-6).map_err(raise)?;
     let rows = r.len()?;
     check_memory(rows, 2 * 8 + 2 * 6 * 8)?;
@@ -132,7 +129,7 @@ pub(crate) fn static_field<'py>(
     let at = |(&r, &z): (&f64, &f64)| kernel.static_field(r, z);
     let found: Result<Vec<Six>, DomainError> =
         run_short(py, || r.iter().zip(&z).map(at).collect())?;
-    frozen(py, found.map_err(raise)?.into_flattened(), &[rows, 6])
+    fields(py, found.map_err(raise)?)
 }
 
 /// The deflection of the loaded surface over its static value, or its integral or impulse response.
@@ -194,7 +191,9 @@ pub(crate) fn arrivals<'py>(
     z: f64,
     profile: &str,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let found = Arrivals::new(&medium_of(nu)?, profile_of(profile)?, r, z).map_err(raise)?;
+    let medium = medium_of(nu)?;
+    let profile = one_of("profile", profile, &PROFILES)?;
+    let found = Arrivals::new(&medium, profile, r, z).map_err(raise)?;
     let waves = PyDict::new(py);
     waves.set_item("above", found.above)?;
     waves.set_item("p", found.p)?;

@@ -150,10 +150,8 @@ fn tell(py: Python<'_>, progress: Option<&Py<PyAny>>, ticker: &Ticker) -> PyResu
 /// Refuses more threads than a system has room for, and to work in a process that was forked from one whose threads it would wait for in vain.
 fn own() -> PyResult<()> {
     let asked = std::env::var("RAYON_NUM_THREADS").unwrap_or_default();
-    if asked
-        .parse()
-        .is_ok_and(|threads: usize| threads > MOST_THREADS)
-    {
+    let too_many = |threads: usize| threads > MOST_THREADS;
+    if asked.parse().is_ok_and(too_many) {
         let message = format!("RAYON_NUM_THREADS = {asked} is outside [1, {MOST_THREADS}]");
         return Err(plain("SceneError", &message));
     }

@@ -2,7 +2,6 @@
 
 use crate::block::{Kind, Row};
 use crate::error::BuildError;
-use crate::known::Known;
 use crate::measure::verify;
 use crate::numbers::NUMBERS_REVISION;
 use crate::rows::Work;
@@ -27,10 +26,6 @@ pub struct Summary {
     pub wall_s: f64,
     /// Blocks that an interrupted run had computed already.
     pub resumed_blocks: usize,
-    /// Lengths of the verification pulses in r0/c1.
-    pub pulse_lengths: Vec<f64>,
-    /// 99 % quantile of the relative error of the worst field on slices, for each pulse length.
-    pub p99_error: Vec<f64>,
     /// Relative errors by field, on slices and between them, for each pulse length.
     pub accuracy: Vec<Accuracy>,
 }
@@ -52,8 +47,6 @@ pub(crate) fn complete(
         wall_s: started.elapsed().as_secs_f64(),
         resumed_blocks: 0,
         accuracy: content.accuracy(),
-        pulse_lengths: content.pulse_lengths,
-        p99_error: content.origin.accuracy_reached,
     })
 }
 
@@ -104,14 +97,15 @@ pub(crate) fn assemble(work: &Work<'_>, rows: Vec<Row>) -> Result<Content, Build
         slice.verification = measured.verification;
     }
     let accuracy = content.accuracy();
-    let worst = accuracy.iter().map(|errors| errors.worst_on_slices().1.p99);
-    content.origin.accuracy_reached = worst.collect();
+    let worst = |errors: &Accuracy| lookup::worst(&errors.on_slices).1.p99;
+    content.origin.accuracy_reached = accuracy.iter().map(worst).collect();
     Ok(content)
 }
 
 /// The content before anything is measured, from the rows of nodes of each slice.
 fn unmeasured(work: &Work<'_>, nodes: Vec<Vec<Row>>) -> Result<Content, BuildError> {
     let Work { grid, known, .. } = *work;
+    let older = known.map(|known| known.content.origin.numbers_revision);
     let [(_, [r, z]), (_, probes), (ratios, between)] = work.points.clone();
     let [between_r, between_z] = if ratios.is_empty() {
         Default::default()
@@ -143,7 +137,7 @@ fn unmeasured(work: &Work<'_>, nodes: Vec<Vec<Row>>) -> Result<Content, BuildErr
             grid: grid.to_toml()?,
             format_version: schema::FORMAT_VERSION_VALUE.to_owned(),
             software_version: env!("CARGO_PKG_VERSION").to_owned(),
-            numbers_revision: known.map_or(NUMBERS_REVISION, Known::numbers_revision),
+            numbers_revision: older.unwrap_or(NUMBERS_REVISION).min(NUMBERS_REVISION),
             git_revision: env!("HERTZLAMB_GIT_REVISION").to_owned(),
             created_unix_s: creation_time(),
             accuracy_asked: grid.tolerance,

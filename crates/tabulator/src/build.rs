@@ -55,10 +55,8 @@ pub(crate) fn compute(
     work.add_known(&mut finished);
     let rows = work.rows(finished, Some(&journal))?;
     let summary = complete(work, rows, output, started)?;
-    journal
-        .into_inner()
-        .unwrap_or_else(PoisonError::into_inner)
-        .remove();
+    let journal = journal.into_inner().unwrap_or_else(PoisonError::into_inner);
+    journal.remove();
     Ok(Summary {
         resumed_blocks,
         ..summary
@@ -72,9 +70,7 @@ fn clear(work: &Work<'_>, path: &Path, settings: &str) -> Result<(), BuildError>
         return Ok(());
     };
     let mut found = HashMap::new();
-    records
-        .by_ref()
-        .all(|(_, kept)| work.take(&mut found, &kept));
+    records.all(|(_, kept)| work.take(&mut found, &kept));
     let whole = records.title.about == settings && found.len() == work.blocks.len();
     if whole && lookup::read(path).is_ok_and(|content| content.origin.grid == settings) {
         let _ = std::fs::remove_file(&journal);

@@ -1,7 +1,6 @@
 //! A finished table from which another takes the numbers that it already has.
 
 use crate::block::{Kind, Row};
-use crate::numbers::NUMBERS_REVISION;
 use lookup::{Content, Numbers, Slice, Verification};
 use std::ops::Range;
 
@@ -11,11 +10,6 @@ pub(crate) struct Known {
 }
 
 impl Known {
-    /// Revision of the numbers of a table that goes on from this one.
-    pub(crate) fn numbers_revision(&self) -> u64 {
-        NUMBERS_REVISION.min(self.content.origin.numbers_revision)
-    }
-
     pub(crate) fn slice(&self, poisson_ratio: f64) -> Option<&Slice> {
         let mut slices = self.content.slices.iter();
         slices.find(|slice| slice.poisson_ratio == poisson_ratio)
@@ -46,7 +40,7 @@ impl Known {
         };
         let (node, cells) = (i * content.z.len() + k, slice.cells);
         // their tails are computed anew
-        for (values, (_, stored)) in point.lists_mut().into_iter().zip(slice.lists()).take(3) {
+        for (values, (_, stored)) in point.iter_mut().zip(slice.lists()).take(3) {
             let stored = &stored[node * 6 * cells..][..6 * cells];
             for (f, list) in stored.chunks(cells).enumerate() {
                 for (six, &x) in values.iter_mut().zip(list) {

@@ -17,7 +17,7 @@
 //! };
 //! let folder = tempfile::tempdir()?;
 //! let summary = build(&grid, &folder.path().join("small.h5"), &Silent)?;
-//! let (field, errors) = summary.accuracy[0].worst_on_slices();
+//! let (field, errors) = lookup::worst(&summary.accuracy[0].on_slices);
 //! println!("{field:?}: p50 {:.1e}, p99 {:.1e}, max {:.1e}", errors.p50, errors.p99, errors.max);
 //! # assert!(errors.p99 < 0.1);
 //! # Ok::<(), Box<dyn std::error::Error>>(())

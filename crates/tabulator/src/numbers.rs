@@ -29,7 +29,7 @@ mod tests {
             // On the axis, near the surface, beside the disc's edge, far away.
             for (r, z) in [(0.0, 0.7), (0.4, 0.02), (1.05, 0.1), (2.5, 1.5)] {
                 let point = plan.compute(r, z).unwrap();
-                found.extend(point.lists().map(sum));
+                found.extend(point.each_ref().map(|list| sum(list)));
             }
         }
         assert_eq!(found.len(), SUMS.len(), "{found:?}");

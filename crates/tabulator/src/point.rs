@@ -3,7 +3,7 @@
 use crate::error::BuildError;
 use crate::grid::Grid;
 use halfspace::{Kernel, Medium, Profile, Six};
-use lookup::Numbers;
+use lookup::{Moments, Numbers};
 use std::f64::consts::PI;
 
 /// What is asked of every point of a slice; lengths in r0, times in r0/c1.
@@ -85,19 +85,12 @@ impl PointPlan {
         let part = |length: f64| (length / self.width).min(1.0);
         let tolerance = TRACE * self.kernel.tolerance();
         let trace = self.kernel.trace_under(r, z, end, (tolerance, &part))?;
-        let mut point = Numbers {
-            averages: Vec::with_capacity(self.cells),
-            moments: Vec::with_capacity(self.cells),
-            curvatures: Vec::with_capacity(self.cells),
-            tail: self.tail(r, z, end)?,
-        };
-        trace.for_each_cell(self.width, self.cells, |_, [average, first, second]| {
-            point.averages.push(average);
-            point.moments.push(first);
-            point.curvatures.push(second);
-        })?;
-        let quantum = quantum(&point.averages, &self.kernel.static_field(r, z)?);
-        for m in point.moments.iter_mut().chain(&mut point.curvatures) {
+        let tail = self.tail(r, z, end)?;
+        let mut cells = Moments::with_capacity(self.cells);
+        trace.for_each_cell(self.width, self.cells, |_, cell| cells.push(cell))?;
+        let mut point = [cells.averages, cells.first, cells.second, tail];
+        let quantum = quantum(&point[0], &self.kernel.static_field(r, z)?);
+        for m in point[1..3].iter_mut().flatten() {
             *m = std::array::from_fn(|f| (m[f] / quantum[f]).round() * quantum[f]);
         }
         self.check(r, z, &point)?;
@@ -125,7 +118,7 @@ impl PointPlan {
 
     fn check(&self, r: f64, z: f64, point: &Numbers) -> Result<(), BuildError> {
         let quantities = ["cell average", "moment", "curvature", "tail"];
-        for (quantity, values) in quantities.into_iter().zip(point.lists()) {
+        for (quantity, values) in quantities.into_iter().zip(point) {
             for value in values {
                 if let Some(f) = value.iter().position(|x| !x.is_finite()) {
                     let nu = self.kernel.medium().poisson_ratio();
@@ -189,7 +182,7 @@ mod tests {
             let rest = plan.kernel().static_field(r, z).unwrap();
             let size = rest.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
             for j in [0, 2, 3, 4, 6, 9, 13, 17, 22, 30, 31, 41, 56, 79] {
-                let found = [point.averages[j], point.moments[j], point.curvatures[j]];
+                let found = [point[0][j], point[1][j], point[2][j]];
                 let exact = summed(plan.kernel(), r, z, width, j);
                 for (order, (found, exact)) in found.iter().zip(exact).enumerate() {
                     for f in 0..6 {
@@ -249,11 +242,10 @@ mod tests {
                 let z = z * z / 6.0;
                 let [found, exact] = [&plan, &exact].map(|plan| plan.compute(r, z).unwrap());
                 for f in 0..6 {
-                    let largest = exact
-                        .averages
+                    let largest = exact[0]
                         .iter()
                         .fold(0.0, |most: f64, v| most.max(v[f].abs()));
-                    let pairs = found.averages.iter().zip(&exact.averages);
+                    let pairs = found[0].iter().zip(&exact[0]);
                     errors.extend(pairs.map(|(a, b)| (a[f] - b[f]).abs() / largest));
                 }
             }

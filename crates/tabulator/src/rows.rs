@@ -37,8 +37,7 @@ impl<'a> Work<'a> {
         progress: &'a dyn Progress,
     ) -> Result<Self, BuildError> {
         let slices: Vec<f64> = grid.slices().iter().map(|slice| slice.0).collect();
-        let between = (0..grid.intervals()).map(|interval| grid.between(interval));
-        let between: Vec<f64> = between.collect::<Result<_, _>>()?;
+        let between = grid.between()?;
         let points = Kind::ALL.map(|kind| {
             let ratios = match kind {
                 Kind::Nodes | Kind::Probes => &slices,
@@ -184,12 +183,12 @@ impl<'a> Work<'a> {
                 continue;
             }
             let mut point = plan.compute(r, z)?;
-            point.round();
+            lookup::round(&mut point);
             if let (Kind::Nodes, Some(known)) = (block.kind, self.known) {
                 known.keep(ratio, [r, z], &mut point);
             }
             for field in 0..6 {
-                for (list, values) in row.iter_mut().zip(point.lists()) {
+                for (list, values) in row.iter_mut().zip(&point) {
                     list.extend(values.iter().map(|six| six[field] as f32));
                 }
             }

@@ -1,7 +1,6 @@
 //! A table in parts: shards computed apart, joined into one.
 
 use crate::assemble::{Summary, complete};
-use crate::block::Block;
 use crate::error::BuildError;
 use crate::grid::Grid;
 use crate::journal::{records, title};
@@ -72,12 +71,9 @@ pub fn merge(
         }
         records.all(|(_, kept)| work.take(&mut found, &kept));
     }
-    let missing = work
-        .blocks
-        .iter()
-        .filter(|block| !found.contains_key(block));
-    let missing: Vec<&Block> = missing.collect();
-    if let Some(&&first) = missing.first() {
+    let mut missing = work.blocks.clone();
+    missing.retain(|block| !found.contains_key(block));
+    if let Some(&first) = missing.first() {
         let (missing, total, row) = (missing.len(), work.blocks.len(), first.row);
         let (poisson_ratio, ..) = work.place(first);
         let sentence = format!(

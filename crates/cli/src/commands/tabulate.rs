@@ -5,7 +5,7 @@ use crate::failure::{Failure, say, show};
 use crate::progress::Bar;
 use clap::Args;
 use formats::accuracy_report;
-use lookup::{Accuracy, Quantiles, schema};
+use lookup::{Accuracy, Quantiles, schema, worst};
 use output::{Existing, Output, OutputError, SHARD, TABLE, apart};
 use serde_json::json;
 use std::path::{Path, PathBuf};
@@ -161,6 +161,9 @@ fn grid(arguments: &Arguments) -> Result<Grid, Failure> {
 fn tell(grid: &Grid, arguments: &Arguments, summary: &Summary) -> Result<(), Failure> {
     let file = arguments.output.display().to_string();
     let (id, points, wall_s) = (&summary.id, summary.points, summary.wall_s);
+    let accuracy = &summary.accuracy[..];
+    let lengths: Vec<f64> = accuracy.iter().map(|errors| errors.pulse_length).collect();
+    let p99 = accuracy.iter().map(|errors| worst(&errors.on_slices).1.p99);
     let value = json!({
         "file": file,
         "id": id,
@@ -171,12 +174,12 @@ fn tell(grid: &Grid, arguments: &Arguments, summary: &Summary) -> Result<(), Fai
         "bytes": summary.bytes,
         "wall_s": wall_s,
         "resumed_blocks": summary.resumed_blocks,
-        "pulse_lengths": summary.pulse_lengths,
-        "p99_relative_error": summary.p99_error,
-        "relative_errors": accuracy_report(&summary.accuracy),
+        "pulse_lengths": lengths,
+        "p99_relative_error": p99.collect::<Vec<f64>>(),
+        "relative_errors": accuracy_report(accuracy),
     });
     let megabytes = summary.bytes as f64 / 1e6;
-    let errors = errors_in_words(&summary.accuracy);
+    let errors = errors_in_words(accuracy);
     let text =
         format!("{file}: {points} points, {megabytes:.1} MB, {wall_s:.1} s, id {id}\n{errors}");
     show(arguments.json, &value, text)
@@ -189,10 +192,11 @@ pub(crate) fn errors_in_words(accuracy: &[Accuracy]) -> String {
             .to_owned();
     for measured in accuracy {
         let length = measured.pulse_length;
-        let on = Some(("on slices", measured.worst_on_slices()));
-        let between = measured.worst_between_slices();
-        let between = between.map(|worst| ("between slices", worst));
-        for (region, (field, Quantiles { p50, p99, max })) in on.into_iter().chain(between) {
+        let on = Some(("on slices", &measured.on_slices));
+        let between = measured.between_slices.as_ref();
+        let between = between.map(|errors| ("between slices", errors));
+        for (region, errors) in on.into_iter().chain(between) {
+            let (field, Quantiles { p50, p99, max }) = worst(errors);
             let field = schema::FIELD_NAMES[field as usize];
             text += &format!(
                 "\n  pulses of {length:>5} r0/c1, {region:14}  {p50:.1e}  {p99:.1e}  {max:.1e}  {field}"

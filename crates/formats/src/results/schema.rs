@@ -2,7 +2,8 @@
 
 pub use crate::quantities::FIELDS;
 use crate::quantities::{Described, Labels, labels, labels_of};
-use impact::{EnergySeries, Outcome, ProbeFields, Series};
+use crate::report::{choices, kernel_name};
+use impact::{EnergySeries, Outcome, ProbeFields, Scene, Series};
 
 /// Value of the attribute `file_type`.
 pub const FILE_TYPE: &str = "hertzlamb results";
@@ -103,13 +104,10 @@ pub(crate) fn beside(name: &str, (_, unit, meaning): Labels<'_>, at: &str) -> [D
     })
 }
 
-/// The text attributes of the root that say what the file is and how its scene was computed: its
-/// [`choices`](crate::choices), its kernel, and what is known of the kernel.
-pub fn texts<'a>(
-    [model, scheme, static_share, deflection, reason]: [&'a str; 5],
-    kernel: &'a str,
-    outcome: &'a Outcome,
-) -> [(&'static str, &'a str); 13] {
+/// The text attributes of the root that say what the file is and how its scene was computed: its [`choices`], its kernel,
+/// and what is known of the kernel.
+pub fn texts<'a>(scene: &Scene, outcome: &'a Outcome) -> [(&'static str, &'a str); 13] {
+    let [model, scheme, static_share, deflection, reason] = choices(scene, outcome);
     let used = outcome.used.as_ref();
     let table = used.and_then(|used| used.table.as_ref());
     let [id, version] = table.map_or(["", ""], |table| table.each_ref().map(String::as_str));
@@ -122,7 +120,7 @@ pub fn texts<'a>(
         ("static_share", static_share),
         ("deflection_of", deflection),
         ("reason", reason),
-        ("kernel", kernel),
+        ("kernel", kernel_name(outcome)),
         ("kernel_reason", used.map_or("", |used| &used.reason)),
         (
             "convolution",

@@ -5,7 +5,7 @@ use super::schema;
 use super::section::{beside, waves, write_section};
 use crate::hdf::{attach_scales, new_file, numbers, reason, scalar, scale, text, vector};
 use crate::quantities::QUANTITIES;
-use crate::report::{choices, kernel_name, treatment};
+use crate::report::treatment;
 use crate::scene::resolved;
 use hdf5::{Dataset, File};
 use impact::{EnergySeries, Outcome, Peaks, ProbeFields, Scene};
@@ -122,8 +122,7 @@ pub fn peaks_of(scene: &Scene, time_s: &[f64], values: &[Vec<f64>]) -> Option<Pe
 }
 
 fn write_attributes(file: &File, scene: &Scene, outcome: &Outcome) -> Result<(), hdf5::Error> {
-    let (choices, kernel) = (choices(scene, outcome), kernel_name(outcome));
-    for (name, value) in schema::texts(choices, kernel, outcome) {
+    for (name, value) in schema::texts(scene, outcome) {
         text(file, name, value)?;
     }
     text(file, schema::WARNINGS, &outcome.warnings.join("\n"))?;

@@ -4,8 +4,8 @@ use super::open::{FileKind, Stored};
 use crate::error::SceneError;
 use crate::quantities::Described;
 use crate::results::schema::{
-    ARRIVALS, ENERGIES, ENERGY, ERROR_SUFFIX, MAP, MAP_SCALES, PEAK_SUFFIXES, PLACES, PROBES,
-    SCENE, SERIES, WARNINGS,
+    ENERGIES, ENERGY, ERROR_SUFFIX, MAP, MAP_SCALES, PEAK_SUFFIXES, PLACES, PROBES, SCENE, SERIES,
+    WARNINGS,
 };
 use crate::scene::bodies_of;
 use crate::scene::section::{as_number, parse};
@@ -115,10 +115,8 @@ impl StoredImpact {
         let path = |name: &str| format!("{PROBES}/{name}");
         let r_m = stored.vector(&path(PLACES[0].0))?;
         let z_m = stored.numbers(&path(PLACES[1].0), &[r_m.len()])?;
-        let arrivals = stored.numbers(&path(ARRIVALS.0), &[r_m.len(), 3])?;
         Ok(Some(StoredProbes {
             samples: self.series.time_s.len(),
-            arrival_s: arrivals.as_chunks().0.to_vec(),
             r_m,
             z_m,
             stored,
@@ -167,7 +165,7 @@ fn energy_of(stored: &Stored, samples: usize) -> Result<Option<EnergySeries>, Sc
     }))
 }
 
-/// The probes of a results file: places and arrivals; traces are read when they are asked for.
+/// The places of the probes of a results file; traces are read when they are asked for.
 #[derive(Debug, Clone)]
 pub struct StoredProbes {
     stored: Stored,
@@ -176,9 +174,6 @@ pub struct StoredProbes {
     pub r_m: Vec<f64>,
     /// Depths in m.
     pub z_m: Vec<f64>,
-    /// Times of the first P, S and Rayleigh wave in s, one row a probe; infinite for a
-    /// Rayleigh wave where there is none (files before version 1.6: of a load that begins at time zero, on the surface).
-    pub arrival_s: Vec<[f64; 3]>,
 }
 
 impl StoredProbes {

@@ -50,10 +50,8 @@ impl Values {
             let items = value.as_array().filter(|items| !items.is_empty())?.iter();
             let words = items.clone().map(|item| item.as_str().map(str::to_owned));
             let words: Option<Vec<String>> = words.collect();
-            let numbers = || items.map(as_number).collect::<Option<_>>();
-            words
-                .map(Self::Texts)
-                .or_else(|| numbers().map(Self::Numbers))
+            let numbers = || Some(Self::Numbers(items.map(as_number).collect::<Option<_>>()?));
+            words.map(Self::Texts).or_else(numbers)
         });
         values?.ok_or_else(|| section.missing(key, "a list of values"))
     }
@@ -124,20 +122,14 @@ impl Column {
 
     /// Puts a value into a scene.
     pub(super) fn put(&self, scene: &mut Table, value: Value) -> Result<(), SceneError> {
-        let section = scene
-            .entry(self.section.clone())
-            .or_insert_with(|| Value::Table(Table::new()));
-        match section {
-            Value::Table(table) => {
-                table.insert(self.key.clone(), value);
-                Ok(())
-            }
-            other => Err(SceneError::wrong_kind(
-                self.section.clone(),
-                other.to_string(),
-                "a section",
-            )),
-        }
+        let section = scene.entry(&self.section);
+        let section = section.or_insert_with(|| Value::Table(Table::new()));
+        let Value::Table(table) = section else {
+            let (name, shown) = (self.section.clone(), section.to_string());
+            return Err(SceneError::wrong_kind(name, shown, "a section"));
+        };
+        table.insert(self.key.clone(), value);
+        Ok(())
     }
 }
 

@@ -19,23 +19,14 @@ pub fn new_file() -> FileBuilder {
 
 /// What the system said, if it did, else the first line of what the library says.
 pub fn reason(error: &hdf5::Error) -> String {
-    let frames: Vec<String> = error
-        .stack()
-        .iter()
-        .flat_map(|stack| stack.iter().map(|frame| frame.desc().to_owned()))
-        .collect();
-    let system = frames
-        .iter()
-        .find_map(|text| text.split_once("error message = '")?.1.split_once('\''));
-    match system {
-        Some((message, _)) => message.to_owned(),
-        None => error
-            .to_string()
-            .lines()
-            .next()
-            .unwrap_or_default()
-            .to_owned(),
-    }
+    let (stack, said) = (error.stack(), error.to_string());
+    let mut frames = stack.iter().flat_map(|stack| stack.iter());
+    let system = frames.find_map(|frame| {
+        let (_, message) = frame.desc().split_once("error message = '")?;
+        Some(message.split_once('\'')?.0)
+    });
+    let first = || said.lines().next().unwrap_or_default();
+    system.unwrap_or_else(first).to_owned()
 }
 
 /// A text as files hold it; a NUL, which they cannot hold, becomes a blank.

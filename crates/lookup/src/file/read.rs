@@ -116,10 +116,8 @@ impl Source {
         self.check_seal()?;
         let (mut content, listed) = self.head()?;
         let whole = Window::all(&content);
-        let slices = listed
-            .iter()
-            .map(|slice| self.slice(&content, slice, &whole));
-        content.slices = slices.collect::<Result<_, _>>()?;
+        let slice = |slice| self.slice(&content, slice, &whole);
+        content.slices = listed.iter().map(slice).collect::<Result<_, _>>()?;
         Ok(content)
     }
 

@@ -112,9 +112,8 @@ impl TableFile {
                 }]
             }
             (_, _) => {
-                let slices = listed.iter();
-                let slices = slices.map(|slice| source.slice(&content, slice, &wanted));
-                slices.collect::<Result<_, _>>()?
+                let slice = |slice| source.slice(&content, slice, &wanted);
+                listed.iter().map(slice).collect::<Result<_, _>>()?
             }
         };
         cut(&mut content, &wanted);

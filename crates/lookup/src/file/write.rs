@@ -43,10 +43,8 @@ fn write_file(path: &Path, content: &Content) -> Result<(), hdf5::Error> {
     let r = scale(schema::R, &content.r)?;
     let z = scale(schema::Z, &content.z)?;
     let nodes = content.r.len() * content.z.len();
-    let terms = content
-        .slices
-        .first()
-        .map_or(0, |slice| slice.tail_terms(nodes));
+    let first = content.slices.first();
+    let terms = first.map_or(0, |slice| slice.tail_terms(nodes));
     let orders: Vec<f64> = (0..terms).map(|k| k as f64).collect();
     let term = scale(schema::TERM, &orders)?;
     let at_nodes = [&r, &z, &field, &term];
@@ -148,11 +146,8 @@ fn write_attributes(file: &File, content: &Content) -> Result<(), hdf5::Error> {
 
 /// Quantiles of relative errors, shape (pulse, field, quantile).
 fn write_errors(file: &File, name: &str, errors: &[[Quantiles; 6]]) -> Result<(), hdf5::Error> {
-    let numbers: Vec<f64> = errors
-        .iter()
-        .flatten()
-        .flat_map(|of_field| [of_field.p50, of_field.p99, of_field.max])
-        .collect();
+    let of_field = |&Quantiles { p50, p99, max }: &Quantiles| [p50, p99, max];
+    let numbers: Vec<f64> = errors.iter().flatten().flat_map(of_field).collect();
     array(file, name, &[errors.len(), FIELDS, 3], &numbers)
 }
 

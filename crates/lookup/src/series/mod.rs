@@ -73,49 +73,22 @@ impl Moments {
     }
 }
 
-/// The numbers of a [`Series`], cell by cell and term by term.
+/// The numbers of a [`Series`], in the order of [`Slice::lists`](crate::Slice::lists): averages, first and second moments,
+/// cell by cell, and coefficients of the tail, term by term.
 ///
-/// Moments and curvatures may be left empty where only [`Smoothness::Linear`] is asked for.
-#[derive(Debug, Clone, Default)]
-pub struct Numbers {
-    /// Averages over the cells.
-    pub averages: Vec<Six>,
-    /// First moments of the cells.
-    pub moments: Vec<Six>,
-    /// Second moments of the cells.
-    pub curvatures: Vec<Six>,
-    /// Coefficients of the tail.
-    pub tail: Vec<Six>,
-}
+/// Moments may be left empty where only [`Smoothness::Linear`] is asked for.
+pub type Numbers = [Vec<Six>; 4];
 
-impl Numbers {
-    /// All lists, in the order of [`Slice::lists`](crate::Slice::lists).
-    pub fn lists_mut(&mut self) -> [&mut Vec<Six>; 4] {
-        let Self {
-            averages,
-            moments,
-            curvatures,
-            tail,
-        } = self;
-        [averages, moments, curvatures, tail]
-    }
-
-    /// The same to read.
-    pub fn lists(&self) -> [&[Six]; 4] {
-        [&self.averages, &self.moments, &self.curvatures, &self.tail]
-    }
-
-    /// Rounds them to what a table holds.
-    pub fn round(&mut self) {
-        for field in 0..FIELDS {
-            let quantum = resolution(&self.averages, field);
-            for six in &mut self.averages {
-                six[field] = (six[field] / quantum).round() * quantum;
-            }
+/// Rounds numbers to what a table holds.
+pub fn round(numbers: &mut Numbers) {
+    for field in 0..FIELDS {
+        let quantum = resolution(&numbers[0], field);
+        for six in &mut numbers[0] {
+            six[field] = (six[field] / quantum).round() * quantum;
         }
-        for value in self.lists_mut().into_iter().flatten().flatten() {
-            *value = f64::from(*value as f32);
-        }
+    }
+    for value in numbers.iter_mut().flatten().flatten() {
+        *value = f64::from(*value as f32);
     }
 }
 
@@ -133,11 +106,11 @@ fn resolution(averages: &[Six], field: usize) -> f64 {
 
 impl Series {
     /// A series from its numbers; `width` is that of a cell, and the tail follows after `cells` of them.
-    pub fn new(width: f64, cells: usize, numbers: Numbers) -> Self {
+    pub fn new(width: f64, cells: usize, [averages, first, second, tail]: Numbers) -> Self {
         Self {
             width,
-            cells: [numbers.averages, numbers.moments, numbers.curvatures],
-            tail: Tail::new(cells as f64 * width, &numbers.tail),
+            cells: [averages, first, second],
+            tail: Tail::new(cells as f64 * width, &tail),
         }
     }
 
@@ -315,12 +288,12 @@ mod tests {
         let per_field = |f: fn(f64) -> f64| -> Vec<Six> {
             (0..16).map(|j| [f(f64::from(j) + 0.5); FIELDS]).collect()
         };
-        let numbers = Numbers {
-            averages: per_field(|t| t * t + 1.0 / 12.0),
-            moments: per_field(|t| t / 6.0),
-            curvatures: per_field(|_| 1.0 / 180.0),
-            tail: vec![[0.0; FIELDS]],
-        };
+        let numbers = [
+            per_field(|t| t * t + 1.0 / 12.0),
+            per_field(|t| t / 6.0),
+            per_field(|_| 1.0 / 180.0),
+            vec![[0.0; FIELDS]],
+        ];
         let series = Series::new(1.0, 16, numbers);
         // any width, also where edges cut table cells
         for width in [0.37, 1.0, 1.9, 2.0, 4.0, 8.0] {

@@ -13,12 +13,8 @@ pub fn locate(nodes: &[f64], x: f64) -> Option<usize> {
     if !(x >= nodes[0] && x <= last) {
         return None;
     }
-    Some(
-        nodes
-            .partition_point(|&node| node <= x)
-            .clamp(1, nodes.len() - 1)
-            - 1,
-    )
+    let above = nodes.partition_point(|&node| node <= x);
+    Some(above.clamp(1, nodes.len() - 1) - 1)
 }
 
 /// The nodes that take part in an interpolation and their weights.
@@ -35,21 +31,7 @@ pub struct Stencil {
 impl Stencil {
     /// Stencil of `points` (at most 8, at most the number of nodes) around `x` in `interval`, one-sided at both ends.
     pub fn one_sided(nodes: &[f64], interval: usize, x: f64, points: usize) -> Self {
-        let points = points.min(nodes.len()).min(MAX_POINTS);
-        let first = (interval + 1)
-            .saturating_sub(points / 2)
-            .min(nodes.len() - points);
-        let mut stencil = Self {
-            points,
-            node: [0; MAX_POINTS],
-            even: [0.0; MAX_POINTS],
-            odd: [0.0; MAX_POINTS],
-        };
-        for k in 0..points {
-            let weight = lagrange(|j| nodes[first + j], points, k, x);
-            (stencil.node[k], stencil.even[k], stencil.odd[k]) = (first + k, weight, weight);
-        }
-        stencil
+        Self::from_node(0, nodes, interval, x, points)
     }
 
     /// Stencil around `x` in `interval` on an axis that starts at r = 0, continued to negative r by its mirror image.
@@ -57,9 +39,14 @@ impl Stencil {
     /// A mirrored node -nodes\[i\] adds its weight to node i: with its sign for even fields
     /// ([`Self::even`]) and against it for odd ones ([`Self::odd`]).
     pub fn mirrored(nodes: &[f64], interval: usize, x: f64, points: usize) -> Self {
+        Self::from_node(isize::MIN, nodes, interval, x, points)
+    }
+
+    /// Stencil that begins with the node `least` or one behind it; those before the first are mirrored.
+    fn from_node(least: isize, nodes: &[f64], interval: usize, x: f64, points: usize) -> Self {
         let points = points.min(nodes.len()).min(MAX_POINTS);
-        let first =
-            (interval as isize + 1 - (points / 2) as isize).min((nodes.len() - points) as isize);
+        let first = (interval as isize + 1 - (points / 2) as isize).max(least);
+        let first = first.min((nodes.len() - points) as isize);
         let position = |j: usize| {
             let i = first + j as isize;
             if i < 0 {

@@ -293,7 +293,7 @@ fn sine(t: f64, length: f64) -> [f64; 2] {
 
 /// Cells corrected for the force's curvature from the numbers of one point.
 pub(crate) fn series(point: &lookup::Numbers, width: f64, count: usize) -> Vec<Six> {
-    let whole = lookup::Series::new(width, point.averages.len(), point.clone());
+    let whole = lookup::Series::new(width, point[0].len(), point.clone());
     let mut cells = vec![[0.0; 6]; count];
     whole.fill(Smooth, 0, &mut cells);
     cells

@@ -17,16 +17,12 @@ pub struct Axis {
     /// Largest spacing.
     pub spacing: f64,
     /// Where the nodes are densest.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub focus: Option<f64>,
     /// Spacing at the focus.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub focus_spacing: Option<f64>,
     /// Growth of the spacing with distance from the focus.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub growth: Option<f64>,
     /// Equal steps of the last spacing follow `max` until they reach this far.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub extended_to: Option<f64>,
 }
 
@@ -111,13 +107,7 @@ impl Axis {
         let steps = self.measure(length);
         let count = (steps - 1e-9).ceil().max(1.0);
         (0..=count as usize)
-            .map(|i| {
-                if i == 0 {
-                    0.0
-                } else {
-                    self.distance(steps * i as f64 / count).min(length)
-                }
-            })
+            .map(|i| self.distance(steps * i as f64 / count).min(length))
             .collect()
     }
 

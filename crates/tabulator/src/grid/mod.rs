@@ -76,10 +76,7 @@ impl Grid {
     pub fn parse(text: &str) -> Result<Self, BuildError> {
         let grid: Self = toml::from_str(text).map_err(|error| {
             let before = error.span().map_or(0, |span| span.start).min(text.len());
-            let line = 1 + text.as_bytes()[..before]
-                .iter()
-                .filter(|&&b| b == b'\n')
-                .count();
+            let line = text.as_bytes()[..before].split(|&b| b == b'\n').count();
             let message = error.message().replace('\n', " ");
             let sentence = format!("the settings are not a grid: line {line}: {message}");
             BuildError::refused(None, sentence)
@@ -138,20 +135,17 @@ impl Grid {
         slices
     }
 
-    /// Number of intervals between slices that interpolate.
-    pub(crate) fn intervals(&self) -> usize {
-        self.poisson_ratios.len().saturating_sub(1)
-    }
-
-    /// The Poisson ratio in the middle between slices `interval` and the next of [`Self::poisson_ratios`].
+    /// The Poisson ratios in the middle between each slice that interpolates and the next.
     ///
     /// # Errors
     /// [`BuildError::Domain`] for a ratio outside (-1, 0.5).
-    pub fn between(&self, interval: usize) -> Result<f64, BuildError> {
-        let ratios = &self.poisson_ratios;
-        let (low, high) = (ratios[interval], ratios[interval + 1]);
-        let middle = 0.5 * (lookup::ratio_coordinate(low)? + lookup::ratio_coordinate(high)?);
-        bisect(low, high, middle)
+    pub(crate) fn between(&self) -> Result<Vec<f64>, BuildError> {
+        let middle = |pair: &[f64]| {
+            let [low, high] = [pair[0], pair[1]];
+            let ends = lookup::ratio_coordinate(low)? + lookup::ratio_coordinate(high)?;
+            bisect(low, high, 0.5 * ends)
+        };
+        self.poisson_ratios.windows(2).map(middle).collect()
     }
 }
 

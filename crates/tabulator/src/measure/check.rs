@@ -72,11 +72,8 @@ pub fn check_table(path: &Path, sample: usize, seed: u64) -> Result<CheckReport,
     same_axes(&grid, grid.cells()?, content).map_err(wrong)?;
     let nodes = content.r.len() * content.z.len();
     let total = nodes * content.slices.len();
-    let plans = content
-        .slices
-        .iter()
-        .map(|slice| grid.point(slice.poisson_ratio))
-        .collect::<Result<Vec<_>, _>>()?;
+    let plan = |slice: &Slice| grid.point(slice.poisson_ratio);
+    let plans: Vec<_> = content.slices.iter().map(plan).collect::<Result<_, _>>()?;
     // of averages and tails, what single precision and the kernel's tolerance explain
     let limit = 2e-7 + 100.0 * grid.tolerance;
     let found: Vec<(f64, Vec<String>)> = picks(total, sample, seed)
@@ -143,24 +140,20 @@ fn compare(
         ALLOWED_OF_MOMENTS
     };
     let limits = [limit, of_moments, of_moments, limit];
-    let lists = exact.lists().into_iter().zip(limits);
+    let lists = exact.iter().zip(limits);
     let (mut largest, mut bad) = (0.0_f64, Vec::new());
     for ((dataset, values), (exact_values, limit)) in slice.lists().into_iter().zip(lists) {
         let each = exact_values.len();
         for (f, field) in schema::FIELD_NAMES.into_iter().enumerate() {
             let stored = &values[(node * 6 + f) * each..][..each];
             let group = if f < 2 { 0..2 } else { 2..6 };
-            let scale = exact
-                .averages
+            let scale = exact[0]
                 .iter()
                 .flat_map(|six| six[group.clone()].iter())
                 .fold(f64::MIN_POSITIVE, |most, x| most.max(x.abs()));
-            let most = stored
-                .iter()
-                .zip(exact_values)
-                .fold(0.0_f64, |most, (&a, b)| {
-                    most.max((f64::from(a) - b[f]).abs())
-                });
+            let pairs = stored.iter().zip(exact_values);
+            let differences = pairs.map(|(&a, b)| (f64::from(a) - b[f]).abs());
+            let most = differences.fold(0.0, f64::max);
             let relative_difference = most / scale;
             if dataset == schema::REMAINDER || dataset == schema::TAIL {
                 largest = largest.max(relative_difference);

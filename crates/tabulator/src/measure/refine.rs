@@ -72,10 +72,8 @@ fn measure(grid: &Grid, pulse_length: f64, progress: &dyn Progress) -> Result<f6
     };
     let work = Work::new(&slice, None, progress)?;
     let content = assemble(&work, work.rows(HashMap::new(), None)?)?;
-    let index = content
-        .pulse_lengths
-        .iter()
-        .position(|&x| x == pulse_length);
+    let is_asked = |&length: &f64| length == pulse_length;
+    let index = content.pulse_lengths.iter().position(is_asked);
     Ok(index.map_or(f64::NAN, |i| content.origin.accuracy_reached[i]))
 }
 

@@ -5,7 +5,7 @@ use crate::error::BuildError;
 use crate::known::Known;
 use crate::rows::Work;
 use halfspace::{Medium, Profile, Six};
-use lookup::{Content, Numbers, PulseSum, Series, Smoothness, Table, Verification};
+use lookup::{PulseSum, Series, Smoothness, Table, Verification};
 use rayon::prelude::*;
 
 /// A pulse is sampled by at least this many cells where the table has them.
@@ -29,25 +29,20 @@ pub(crate) fn verify<'a>(
         .zip(r)
         .map(|(row, &r)| {
             let mut part = Verification::default();
-            for (k, &z) in z.iter().enumerate() {
-                let probe_of = |known: &'a Known| known.probe(kind, poisson_ratio, [r, z]);
+            for (k, &depth) in z.iter().enumerate() {
+                let probe_of = |known: &'a Known| known.probe(kind, poisson_ratio, [r, depth]);
                 if let Some((measured, entries)) = work.known.and_then(probe_of) {
                     part.extend(measured, entries);
                     continue;
                 }
-                let exact = exact(table.content(), width, row, k);
-                let found = table.series(poisson_ratio, r, z)?;
-                let rest = medium.static_field(Profile::Hertz, r, z)?;
+                let exact = exact(width, row, k, z.len());
+                let found = table.series(poisson_ratio, r, depth)?;
+                let rest = medium.static_field(Profile::Hertz, r, depth)?;
                 let coarsening = |length: f64| (length / width / SAMPLES).log2().max(0.0) as u32;
                 let lengths = &table.content().pulse_lengths;
                 for lengths in lengths.chunk_by(|&a, &b| coarsening(a) == coarsening(b)) {
-                    let coarsening = coarsening(lengths[0]);
-                    probe(
-                        [&exact, &found],
-                        &rest,
-                        (coarsening, lengths, arrived),
-                        &mut part,
-                    );
+                    let pulses = (coarsening(lengths[0]), lengths, arrived);
+                    probe([&exact, &found], &rest, pulses, &mut part);
                 }
             }
             Ok(part)
@@ -60,25 +55,15 @@ pub(crate) fn verify<'a>(
     Ok(whole)
 }
 
-/// Exact series of depth `k` of a row of probes.
-fn exact(content: &Content, width: f64, row: &Row, k: usize) -> Series {
-    let (cells, terms) = (
-        content.slices[0].cells,
-        content.slices[0].tail_terms(content.r.len() * content.z.len()),
-    );
-    let part = |values: &[f32], length: usize| -> Vec<Six> {
+/// Exact series of depth `k` of a row of probes at so many depths.
+fn exact(width: f64, row: &Row, k: usize, depths: usize) -> Series {
+    let numbers = row.each_ref().map(|values| -> Vec<Six> {
+        let length = values.len() / (6 * depths);
         let values = &values[k * 6 * length..(k + 1) * 6 * length];
         let six = |i| std::array::from_fn(|f| f64::from(values[f * length + i]));
         (0..length).map(six).collect()
-    };
-    let [averages, moments, curvatures, tail] = row;
-    let numbers = Numbers {
-        averages: part(averages, cells),
-        moments: part(moments, cells),
-        curvatures: part(curvatures, cells),
-        tail: part(tail, terms),
-    };
-    Series::new(width, cells, numbers)
+    });
+    Series::new(width, numbers[0].len(), numbers)
 }
 
 /// The errors of pulses whose cells are 2^`coarsening` of the table's.

@@ -12,7 +12,7 @@ use super::observe::Observation;
 use super::uniform;
 use halfspace::gauss::rule;
 use halfspace::{Arrivals, Kernel, Medium, Profile, Six};
-use lookup::{Numbers, Series, Smoothness, Table};
+use lookup::{Series, Smoothness, Table};
 use rayon::prelude::*;
 use std::f64::consts::PI;
 use tabulator::BuildError;
@@ -175,13 +175,9 @@ impl Values {
             }
         }
         let [averages, moments, curvatures] = numbers;
-        let numbers = Numbers {
-            averages,
-            moments,
-            curvatures,
-            // the cells do not reach it
-            tail: vec![[0.0; 6]],
-        };
+        // the cells do not reach it
+        let tail = vec![[0.0; 6]];
+        let numbers = [averages, moments, curvatures, tail];
         let mut cells = vec![[0.0; 6]; self.cells];
         Series::new(self.width, stored, numbers).fill(Smoothness::Smooth, 0, &mut cells);
         cells

@@ -75,7 +75,7 @@ fn errors_at(
         for (&k, &weight) in down.nodes().iter().zip(down.even()) {
             let mut node = plan.compute(r_nodes[i], z_nodes[k])?;
             match storage {
-                Storage::Single => node.round(),
+                Storage::Single => lookup::round(&mut node),
                 Storage::Double => {}
             }
             found = found.added(&node, [even * weight, odd * weight]);
@@ -117,17 +117,12 @@ impl Sum {
     fn zero(grid: &Grid) -> Result<Self, BuildError> {
         let cells = grid.cells()?;
         Ok(Self {
-            numbers: Numbers {
-                averages: vec![[0.0; 6]; cells],
-                moments: vec![[0.0; 6]; cells],
-                curvatures: vec![[0.0; 6]; cells],
-                tail: vec![[0.0; 6]; grid.tail_terms],
-            },
+            numbers: [cells, cells, cells, grid.tail_terms].map(|count| vec![[0.0; 6]; count]),
         })
     }
 
     fn added(mut self, point: &Numbers, [even, odd]: [f64; 2]) -> Self {
-        for (sum, values) in self.numbers.lists_mut().into_iter().zip(point.lists()) {
+        for (sum, values) in self.numbers.iter_mut().zip(point) {
             for (f, field) in FIELDS.iter().enumerate() {
                 let weight = if field.is_odd_in_r() { odd } else { even };
                 for (s, six) in sum.iter_mut().zip(values) {

@@ -139,9 +139,8 @@ pub(super) fn footer_of(path: &Path) -> io::Result<(Option<Vec<u8>>, u64)> {
 pub(super) fn seal_in(footer: &[u8]) -> Option<Range<usize>> {
     let begin = find(footer, BEGIN)?;
     let start = begin + find(&footer[begin..], SEAL)? + SEAL.len();
-    footer
-        .get(start..start + DIGITS)
-        .map(|_| start..start + DIGITS)
+    let digits = start..start + DIGITS;
+    footer.get(digits.clone()).map(|_| digits)
 }
 
 /// SHA-256 of a footer whose seal is blank.
