@@ -15,7 +15,7 @@ use crate::units::INVERSE_MASS;
 pub struct SolvedContact {
     pub(crate) pieces: Vec<Piece>,
     /// When each piece ends.
-    ends: Vec<f64>,
+    pub ends: Vec<f64>,
     /// The results.
     pub summary: Summary,
     /// Their estimated errors.

@@ -33,6 +33,8 @@ const FAMILIES: usize = 2 * KINDS;
 /// Kernels for one excitation, a contact.
 pub(crate) struct Past<'a> {
     excitation: &'a Excitation,
+    /// Instants between which the force is one polynomial.
+    seams_s: Vec<f64>,
     /// Of a punch and of Hertz's pressure, for points that are far, and to fewer digits for others.
     punch: [Kernel; 2],
     hertz: [Kernel; 2],
@@ -54,6 +56,7 @@ impl<'a> Past<'a> {
         };
         Ok(Self {
             excitation,
+            seams_s: excitation.seams_s(),
             punch: kernels(Profile::Punch)?,
             hertz: kernels(Profile::Hertz)?,
             nodes: (-7.5 * tolerance.log10() - 10.5).clamp(8.0, 40.0) as usize,
@@ -257,22 +260,46 @@ impl<'a> Past<'a> {
             all.sort_by(f64::total_cmp);
             cuts = spans_s.map(|[from, to]| all.iter().map(|t| t.clamp(from, to)).collect());
         }
+        let panel =
+            |n: usize| -> [[f64; 2]; N] { std::array::from_fn(|i| [cuts[i][n - 1], cuts[i][n]]) };
+        let mut panels: Vec<[[f64; 2]; N]> = (1..cuts[0].len()).rev().map(panel).collect();
         let mut sums = [Six::default(); N];
-        for panel in 1..cuts[0].len() {
-            let pairs: [[f64; 2]; N] =
-                std::array::from_fn(|i| [cuts[i][panel - 1], cuts[i][panel]]);
+        while let Some(pairs) = panels.pop() {
             let counts = pairs.map(|pair| self.nodes(least, place_m, pair));
             let rule = gauss::rule(counts.into_iter().fold(0, usize::max));
-            for (i, pair) in pairs
+            let place = |[from, to]: [f64; 2], angle: f64| {
+                0.5 * (from + to) - 0.5 * (to - from) * angle.cos()
+            };
+            // at a seam of the force its rate jumps by its error, which a difference would have
+            let from = self.seams_s.partition_point(|&seam| seam <= pairs[0][0]);
+            let mut seams = self.seams_s[from..]
                 .iter()
+                .take_while(|&&seam| seam < pairs[N - 1][1]);
+            let parted = seams.find(|&&seam| {
+                let sides = |(angle, _)| pairs.map(|pair| place(pair, angle) < seam);
+                rule.on(0.0, PI)
+                    .map(sides)
+                    .any(|sides| sides[0] != sides[N - 1])
+            });
+            if let Some(&seam) = parted {
+                panels.push(pairs.map(|[from, to]| [seam.clamp(from, to), to]));
+                panels.push(pairs.map(|[from, to]| [from, seam.clamp(from, to)]));
+                continue;
+            }
+            for (i, pair) in pairs
+                .into_iter()
                 .enumerate()
-                .filter(|(_, pair)| pair[0] < pair[1])
+                .filter(|(_, [from, to])| from < to)
             {
-                let (middle, half) = (0.5 * (pair[0] + pair[1]), 0.5 * (pair[1] - pair[0]));
                 for (angle, weight) in rule.on(0.0, PI) {
-                    let past_s = middle - half * angle.cos();
-                    let weight = half * weight * angle.sin();
-                    self.add(place_m, times_s[i], past_s, weight, &mut sums[i])?;
+                    let weight = 0.5 * (pair[1] - pair[0]) * weight * angle.sin();
+                    self.add(
+                        place_m,
+                        times_s[i],
+                        place(pair, angle),
+                        weight,
+                        &mut sums[i],
+                    )?;
                 }
             }
         }
