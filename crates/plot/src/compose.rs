@@ -1,6 +1,6 @@
 //! From files to a figure.
 
-use crate::error::{PlotError, kind_of, only};
+use crate::error::{Drawn, PlotError, kind_of, only};
 use crate::impacts::{frames_of, of_impacts};
 use crate::request::{Kind, Request};
 use crate::sweep::of_sweep;
@@ -10,7 +10,7 @@ use formats::stored::{FileKind, StoredImpact, file_kind};
 use std::path::PathBuf;
 
 /// Composes a figure of one or several files of one kind; and sentences for its user: what is not shown, and how to see it.
-pub fn compose(paths: &[PathBuf], request: &Request) -> Result<(Figure, Vec<String>), PlotError> {
+pub fn compose(paths: &[PathBuf], request: &Request) -> Drawn<Figure> {
     let file = common_kind(paths)?;
     let unsuitable = |kind| Err(PlotError::unsuitable(&paths[0], file, kind));
     if let Some(kind) = request.kind.filter(|kind| kind.file() != file) {
@@ -93,10 +93,7 @@ fn show_sizes(image: &mut Image) {
 }
 
 /// Composes the frames of an animation of a section, one figure each; and sentences for its user.
-pub fn animate(
-    paths: &[PathBuf],
-    request: &Request,
-) -> Result<(Vec<Figure>, Vec<String>), PlotError> {
+pub fn animate(paths: &[PathBuf], request: &Request) -> Drawn<Vec<Figure>> {
     let file = common_kind(paths)?;
     let kind = request.kind.unwrap_or(Kind::Waves);
     if file != FileKind::Impact || kind != Kind::Waves {

@@ -35,6 +35,9 @@ pub enum PlotError {
     },
 }
 
+/// What is drawn, with sentences for its user.
+pub(crate) type Drawn<T> = Result<(T, Vec<String>), PlotError>;
+
 impl PlotError {
     /// What is asked for is not to be drawn.
     pub(crate) fn refused(file: Option<&Path>, sentence: String) -> Self {

@@ -3,7 +3,7 @@
 
 use super::frames::{Quantity, Section};
 use crate::error::PlotError;
-use crate::request::Request;
+use crate::request::{Kind, Request};
 use crate::series::curve;
 use crate::words::{axis, with_unit};
 use contact::KernelUnits;
@@ -16,11 +16,8 @@ use halfspace::{Kernel, Medium, Profile};
 const MOST_INSTANTS: usize = 600;
 
 /// Distances along the surface against time, or depths on the axis, with the fronts that pass there.
-pub(crate) fn space_time(
-    impact: &StoredImpact,
-    request: &Request,
-    is_surface: bool,
-) -> Result<Panel, PlotError> {
+pub(crate) fn space_time(impact: &StoredImpact, request: &Request) -> Result<Panel, PlotError> {
+    let is_surface = request.kind == Some(Kind::Surface);
     let section = Section::of(impact)?;
     let (frames, width) = (section.stored.time_s.len(), section.stored.r_m.len());
     let chosen = (0..frames).step_by(frames.div_ceil(MOST_INSTANTS));

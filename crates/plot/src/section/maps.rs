@@ -1,7 +1,7 @@
 //! Maps of a section: frames, chosen so that waves are seen, and the largest value over time at every place.
 
 use super::frames::{Quantity, Section, quantile_of_sizes};
-use crate::error::PlotError;
+use crate::error::{Drawn, PlotError};
 use crate::request::Request;
 use crate::words::{axis, with_unit};
 use figure::{ColourMap, Legend, Panel, Scale};
@@ -12,11 +12,7 @@ const FEW: usize = 9;
 
 /// Frames of a section at the times that are asked for, or `count` until the longitudinal wave leaves it; and
 /// what their user should know.
-pub(crate) fn frames(
-    impact: &StoredImpact,
-    request: &Request,
-    count: usize,
-) -> Result<(Vec<Panel>, Vec<String>), PlotError> {
+pub(crate) fn frames(impact: &StoredImpact, request: &Request, count: usize) -> Drawn<Vec<Panel>> {
     let section = Section::of(impact)?;
     let mut notes = Vec::new();
     let mut chosen = match request.times_s.as_slice() {

@@ -3,7 +3,7 @@
 use crate::failure::Failure;
 use crate::report::{short, si, understood};
 use contact::law::radiation::LOSS;
-use contact::{Choice, Collision, Model, Plasticity, Scheme, Shape, Striker};
+use contact::{Choice, Model, Plasticity, Scheme, Shape, Striker};
 use impact::{Impact, ImpactError, Run, Scene};
 
 /// The area dashpot's relative error in the loss over the square of the memory in collision times, and the memory up to
@@ -20,7 +20,6 @@ pub(super) struct Case {
     /// The bodies; of two balls one with the reduced mass and radius strikes.
     pub(super) impact: Impact,
     pub(super) run: Run,
-    pub(super) collision: Collision,
     /// Radius in m and mass in kg of each ball, the striker first.
     pub(super) balls: Vec<[f64; 2]>,
     /// C = J/(mu c2) of the area dashpot in m s/N; none of a contact that flows, of which a code has the restitution.
@@ -55,8 +54,7 @@ impl Case {
             notes.extend(onto_ball(&mut impact, &mut balls, diameter_m)?);
         }
         let run = impact.solve().map_err(ImpactError::from)?;
-        let collision = Collision::new(&impact.half_space, &impact.striker, impact.velocity_m_s);
-        let (groups, units) = (&run.solved.plan.groups, collision.units());
+        let (groups, units) = (&run.solved.plan.groups, impact.collision().units());
         let lag_m_s_n = run
             .solved
             .flow
@@ -69,7 +67,6 @@ impl Case {
             lag_m_s_n,
             impact,
             run,
-            collision,
             balls,
             notes,
         };

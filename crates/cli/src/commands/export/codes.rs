@@ -28,7 +28,8 @@ pub(super) fn lammps(case: &Case) -> String {
         text += &format!("variable {name:2} equal {value:<24?} # {what}\n");
     };
     variable("V", case.impact.velocity_m_s, "velocity of approach, m/s");
-    variable("ES", case.collision.effective_modulus_pa, "E*, Pa");
+    let modulus_pa = case.impact.collision().effective_modulus_pa;
+    variable("ES", modulus_pa, "E*, Pa");
     variable("E0", case.run.restitution, "restitution at V");
     if let Some(lag) = case.lag_m_s_n {
         variable("C", lag, "J/(mu c2) of the block, m s/N");
@@ -109,12 +110,13 @@ pub(super) fn yade(case: &Case) -> String {
         Some(lag) => (lag, 0.0),
         None => (0.0, damping(restitution)),
     };
-    let modulus_pa = case.collision.effective_modulus_pa;
+    let body = case.impact.collision();
+    let modulus_pa = body.effective_modulus_pa;
     let numbers = [
         ("V", case.impact.velocity_m_s, "velocity of approach, m/s"),
         ("E_STAR", modulus_pa, "1/E* = sum of (1 - nu^2)/E, Pa"),
-        ("R", case.collision.tip_radius_m, "radius of Hertz's law, m"),
-        ("M", case.collision.mass_kg, "mass of the motion, kg"),
+        ("R", body.tip_radius_m, "radius of Hertz's law, m"),
+        ("M", body.mass_kg, "mass of the motion, kg"),
         ("LAG", lag, "J/(mu c2) of the block, m s/N"),
         (
             "BETA",
