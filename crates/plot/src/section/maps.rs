@@ -3,7 +3,7 @@
 use super::frames::{Quantity, Section, quantile_of_sizes};
 use crate::error::{Drawn, PlotError};
 use crate::request::Request;
-use crate::words::{axis, with_unit};
+use crate::words::{axis, of_quantity, with_unit};
 use figure::{ColourMap, Legend, Panel, Scale};
 use formats::stored::StoredImpact;
 
@@ -80,7 +80,7 @@ pub(crate) fn peak(impact: &StoredImpact, request: &Request) -> Result<Panel, Pl
     for value in &mut values {
         *value = value.max(low);
     }
-    let words = format!("{}, largest over time", quantity.words);
+    let words = format!("{}, largest over time", of_quantity(&quantity.name));
     let colours = axis(&words, &quantity.unit, Scale::Logarithmic).range(low, high);
     Ok(section.map(values, colours, ColourMap::Sequential))
 }

@@ -34,20 +34,17 @@ impl Case {
         let strike = scene.strike().ok_or_else(|| {
             Failure::input("a force record has no rebound: give the scene a [striker]")
         })?;
-        let mut settings = scene.settings;
+        let settings = &scene.settings;
         let on_disc = settings.model.row().1 && settings.model != Model::Auto;
         if on_disc || settings.disc_radius_m.is_some() || settings.scheme == Scheme::Explicit {
             return Err(Failure::input(
                 "the contact of a particle code follows the load: leave contact.disc_radius_m, and a model or scheme of a fixed disc, out",
             ));
         }
-        settings.loss_tolerance.get_or_insert(LOSS_TOLERANCE);
-        let mut impact = Impact {
-            half_space: scene.target.clone(),
-            striker: strike.striker.clone(),
-            velocity_m_s: strike.velocity_m_s,
-            settings,
-        };
+        let (block, striker) = (scene.target.clone(), strike.striker.clone());
+        let mut impact = Impact::new(block, striker, strike.velocity_m_s);
+        impact.settings = *settings;
+        impact.settings.loss_tolerance.get_or_insert(LOSS_TOLERANCE);
         let mut balls = vec![[impact.striker.tip_radius_m, impact.striker.mass_kg]];
         let mut notes = vec![understood(scene)];
         if let Some(diameter_m) = target_diameter_m {
