@@ -119,18 +119,17 @@ fn open(paths: &[PathBuf]) -> Result<Vec<StoredImpact>, PlotError> {
 
 /// What all files are.
 fn common_kind(paths: &[PathBuf]) -> Result<FileKind, PlotError> {
-    let mut common: Option<(&PathBuf, FileKind)> = None;
-    for path in paths {
+    let first = file_kind(&paths[0])?;
+    for path in &paths[1..] {
         let second = file_kind(path)?;
-        let (first_path, first) = *common.get_or_insert((path, second));
         if second != first {
             let sentence = format!(
                 "{} is {first}, and {} is {second}: one picture shows files of one kind",
-                first_path.display(),
+                paths[0].display(),
                 path.display()
             );
             return Err(PlotError::refused(Some(path), sentence));
         }
     }
-    Ok(common.map_or(FileKind::Impact, |(_, kind)| kind))
+    Ok(first)
 }
