@@ -5,6 +5,7 @@ use crate::impacts::{frames_of, of_impacts};
 use crate::request::{Kind, Request};
 use crate::sweep::of_sweep;
 use crate::table::of_table;
+use contact::Choice;
 use figure::{Axis, ColourMap, Figure, Image, Layer, Scale};
 use formats::stored::{FileKind, StoredImpact, file_kind};
 use std::path::PathBuf;
@@ -12,7 +13,17 @@ use std::path::PathBuf;
 /// Composes a figure of one or several files of one kind; and sentences for its user: what is not shown, and how to see it.
 pub fn compose(paths: &[PathBuf], request: &Request) -> Drawn<Figure> {
     let file = common_kind(paths)?;
-    let unsuitable = |kind| Err(PlotError::unsuitable(&paths[0], file, kind));
+    // a kind of picture that a file of another kind does not give
+    let unsuitable = |kind| {
+        let kinds = Kind::ALL.iter().filter(|kind| kind.file() == file);
+        let allowed = match &kinds.map(|kind| kind.name()).collect::<Vec<_>>()[..] {
+            [] => "none".to_owned(),
+            names => names.join(", "),
+        };
+        let path = paths[0].display();
+        let sentence = format!("{path} is {file}, which has no picture {kind}; it has {allowed}");
+        Err(PlotError::refused(Some(&paths[0]), sentence))
+    };
     if let Some(kind) = request.kind.filter(|kind| kind.file() != file) {
         return unsuitable(kind);
     }
