@@ -39,21 +39,16 @@ pub(super) fn lammps(case: &Case) -> String {
         variable(&format!("M{number}"), *mass_kg, "its mass, kg");
     }
     variable("dt", case.run.contact_time_s / LAMMPS_STEPS, "time step, s");
-    text += LAMMPS_BALL;
-    if case.balls.len() == 2 {
-        text += LAMMPS_SECOND;
-    }
-    text += LAMMPS_PAIR;
-    if case.balls.len() == 1 {
-        if case.lag_m_s_n.is_some() {
-            text += LAMMPS_DASHPOT;
-        }
-        text += LAMMPS_BLOCK;
-    }
-    text + LAMMPS_RUN
+    let parts: &[&str] = match (case.balls.len(), case.lag_m_s_n) {
+        (1, Some(_)) => &[BALL, PAIR, DASHPOT, BLOCK, RUN],
+        (1, None) => &[BALL, PAIR, BLOCK, RUN],
+        _ => &[BALL, SECOND, PAIR, RUN],
+    };
+    text + &parts.concat()
 }
 
-const LAMMPS_BALL: &str = "
+/// The parts of an input of LAMMPS.
+const BALL: &str = "
 units       si
 atom_style  sphere
 atom_modify map yes
@@ -69,14 +64,14 @@ velocity    all set 0 0 $(-v_V)
 variable    e equal vz[1]/v_V
 ";
 
-const LAMMPS_SECOND: &str = "
+const SECOND: &str = "
 create_atoms 1 single 0 0 $(-v_R2)
 set         atom 2 diameter $(2*v_R2)
 set         atom 2 mass ${M2}
 variable    e equal (vz[1]-vz[2])/v_V
 ";
 
-const LAMMPS_PAIR: &str = "
+const PAIR: &str = "
 # balls on each other: Hertz's law with one restitution, without friction
 pair_style  granular
 pair_coeff  * * hertz $(4/3*v_ES) ${E0} tangential linear_nohistory 0 0 damping coeff_restitution
@@ -84,7 +79,7 @@ pair_coeff  * * hertz $(4/3*v_ES) ${E0} tangential linear_nohistory 0 0 damping 
 
 /// The dashpot on the contact's area needs no memory: it is a force on each ball above the plane z = 0. It stands before
 /// the stock block, which it makes a comment.
-const LAMMPS_DASHPOT: &str = "
+const DASHPOT: &str = "
 # the block below z = 0, for balls of any radius at any velocity; d is the depth, fz not below zero
 variable    d  atom \"(z<radius)*(radius-z)\"
 variable    f  atom \"4/3*v_ES*sqrt(radius)*v_d*sqrt(v_d)-4*v_C*v_ES^2*radius*v_d*vz\"
@@ -93,10 +88,10 @@ fix         block all addforce 0 0 v_fz
 # at V alone, the same by a stock model:
 # ";
 
-const LAMMPS_BLOCK: &str = "fix block all wall/gran granular hertz $(4/3*v_ES) ${E0} tangential linear_nohistory 0 0 damping coeff_restitution zplane 0 NULL
+const BLOCK: &str = "fix block all wall/gran granular hertz $(4/3*v_ES) ${E0} tangential linear_nohistory 0 0 damping coeff_restitution zplane 0 NULL
 ";
 
-const LAMMPS_RUN: &str = "
+const RUN: &str = "
 fix         motion all nve/sphere
 timestep    ${dt}
 run         500
