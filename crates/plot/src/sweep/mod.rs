@@ -310,8 +310,8 @@ fn restitution(shown: &Shown<'_>) -> Result<Panel, PlotError> {
     let mut panel = over_velocity(shown)?;
     let sweep = shown.view.sweep;
     let mut known = sweep.quantities().into_iter();
-    let yields = known.any(|quantity| quantity.name == AT_YIELD);
-    let at_yield = yields.then(|| sweep.values(AT_YIELD)).transpose()?;
+    let is_told = known.any(|quantity| quantity.name == AT_YIELD);
+    let at_yield = is_told.then(|| sweep.values(AT_YIELD)).transpose()?;
     let Some(yields) = at_yield.into_iter().flatten().find(|v| v.is_finite()) else {
         return Ok(panel);
     };
