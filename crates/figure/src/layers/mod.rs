@@ -148,10 +148,7 @@ pub(crate) enum Swatch {
 
 /// Whether a list is as long as it must be.
 fn count(panel: usize, what: &str, needed: usize, found: usize) -> Result<(), FigureError> {
-    let fault = || {
-        FigureError(format!(
-            "panel {panel}: {found} {what}, and {needed} are needed"
-        ))
-    };
-    (needed == found).then_some(()).ok_or_else(fault)
+    let fault = || format!("panel {panel}: {found} {what}, and {needed} are needed");
+    let is_right = needed == found;
+    is_right.then_some(()).ok_or_else(|| FigureError(fault()))
 }
