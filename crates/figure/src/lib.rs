@@ -52,33 +52,7 @@ pub use error::FigureError;
 pub use figure::{Figure, Legend, Panel, Sharing};
 pub use geometry::Rect;
 pub use layers::{Classes, Image, Layer, Line};
+pub use layout::draw as measure;
 pub use look::Style;
+pub use scene::Scene;
 pub use write::{to_gif, to_pdf, to_png, to_svg};
-
-/// What is known of a drawn figure.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Measured {
-    /// The canvas.
-    pub canvas: Rect,
-    /// The plots of the panels, without what is written around them.
-    pub plots: Vec<Rect>,
-    /// Every text with the rectangle that it covers; raised and lowered parts are written level.
-    pub texts: Vec<(String, Rect)>,
-}
-
-/// Measures a figure: no two texts overlap, and none leaves the canvas.
-///
-/// # Errors
-/// [`FigureError`] for a figure that cannot be drawn.
-pub fn measure(figure: &Figure) -> Result<Measured, FigureError> {
-    let scene = layout::draw(figure)?;
-    let texts = scene.items.iter().filter_map(|item| match item {
-        scene::Item::Text(text) => Some((text.plain(), text.bounds())),
-        scene::Item::Shape(_) | scene::Item::Picture(_) => None,
-    });
-    Ok(Measured {
-        canvas: scene.canvas,
-        texts: texts.collect(),
-        plots: scene.plots,
-    })
-}

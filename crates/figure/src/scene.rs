@@ -24,7 +24,7 @@ pub(crate) struct Stroke {
 }
 
 impl Stroke {
-    pub(crate) fn new(colour: u32, width: f64, dash: &'static [f64]) -> Self {
+    pub(crate) const fn new(colour: u32, width: f64, dash: &'static [f64]) -> Self {
         Self {
             colour,
             width,
@@ -32,7 +32,7 @@ impl Stroke {
         }
     }
 
-    pub(crate) fn solid(colour: u32, width: f64) -> Self {
+    pub(crate) const fn solid(colour: u32, width: f64) -> Self {
         Self::new(colour, width, &[])
     }
 }
@@ -220,14 +220,24 @@ pub(crate) enum Item {
 
 /// Everything that is drawn, later over earlier.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Scene {
-    pub(crate) canvas: Rect,
-    /// Areas of the plots.
-    pub(crate) plots: Vec<Rect>,
+pub struct Scene {
+    /// The canvas.
+    pub canvas: Rect,
+    /// The plots of the panels, without what is written around them.
+    pub plots: Vec<Rect>,
     pub(crate) items: Vec<Item>,
 }
 
 impl Scene {
+    /// Every text with the rectangle that it covers; raised and lowered parts are written level.
+    pub fn texts(&self) -> Vec<(String, Rect)> {
+        let texts = self.items.iter().filter_map(|item| match item {
+            Item::Text(text) => Some((text.plain(), text.bounds())),
+            Item::Shape(_) | Item::Picture(_) => None,
+        });
+        texts.collect()
+    }
+
     pub(crate) fn shape(&mut self, shape: Shape) {
         self.items.push(Item::Shape(shape));
     }

@@ -63,11 +63,12 @@ fn no_label_lies_over_another_or_leaves_the_canvas() {
         let own = [figure.width, figure.panels[0].height, figure.text];
         for size in SIZES.into_iter().chain([own]) {
             let found = measure(&sized(figure.clone(), size)).unwrap();
-            for (i, (text, area)) in found.texts.iter().enumerate() {
+            let texts = found.texts();
+            for (i, (text, area)) in texts.iter().enumerate() {
                 if !found.canvas.holds(area) {
                     faults.push(format!("{name} at {size:?}: \"{text}\" leaves the canvas"));
                 }
-                for (other, below) in &found.texts[..i] {
+                for (other, below) in &texts[..i] {
                     if overlap(area, below) {
                         faults.push(format!("{name} at {size:?}: \"{text}\" over \"{other}\""));
                     }
@@ -82,7 +83,7 @@ fn no_label_lies_over_another_or_leaves_the_canvas() {
 fn every_axis_and_mark_is_labelled() {
     for (name, figure) in gallery() {
         let found = measure(&figure).unwrap();
-        let written: String = found.texts.iter().map(|(text, _)| text.as_str()).collect();
+        let written: String = found.texts().into_iter().map(|(text, _)| text).collect();
         for panel in &figure.panels {
             for axis in [&panel.x, &panel.y] {
                 let first = axis.quantity.split(' ').next().unwrap();
@@ -96,7 +97,8 @@ fn every_axis_and_mark_is_labelled() {
         }
     }
     let found = measure(&fields::frames()).unwrap();
-    let bars = found.texts.iter().filter(|(t, _)| t.contains("[mm/s]"));
+    let texts = found.texts();
+    let bars = texts.iter().filter(|(t, _)| t.contains("[mm/s]"));
     assert_eq!(bars.count(), 1, "one colour bar for all frames");
 }
 

@@ -1,6 +1,6 @@
 //! The paper's bodies, Table 1 and the numbers of section 4, and the contacts that numbers and figures need.
 
-use contact::{HalfSpace, Material, Model, Scheme, Settings, Striker};
+use contact::{HalfSpace, Material, Model, Scheme, Striker};
 use fault::AnyError;
 use impact::{Impact, Run};
 use std::f64::consts::PI;
@@ -58,11 +58,8 @@ pub fn coupled(copper_pa: f64, radius_m: f64) -> Result<Impact, AnyError> {
     };
     let rod = Striker::new(copper, MASS_KG, radius_m)?;
     let mut impact = Impact::new(anvil()?, rod, VELOCITY_M_S).to_tolerance(TOLERANCE);
-    impact.settings = Settings {
-        model: Model::Wave,
-        disc_radius_m: Some(radius_m),
-        ..impact.settings
-    };
+    impact.settings.model = Model::Wave;
+    impact.settings.disc_radius_m = Some(radius_m);
     Ok(impact)
 }
 

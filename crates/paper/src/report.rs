@@ -2,7 +2,7 @@
 
 use crate::case::Runs;
 use crate::figures::{self, Claim, Redrawn};
-use crate::numbers::{Numbers, Row};
+use crate::numbers::Numbers;
 use fault::AnyError;
 use figure::{Figure, FigureError, Layer, to_png, to_svg};
 use output::Folder;
@@ -83,9 +83,7 @@ impl Redone {
             lines.extend(section.rows.iter().map(|row| {
                 let [paper, here, difference] = row.told();
                 let unit = if row.unit.is_empty() { "" } else { " " }.to_owned() + row.unit;
-                let Row {
-                    place, what, why, ..
-                } = row;
+                let (place, what, why) = (row.place, row.what, row.why);
                 format!(
                     "| {place} | {what} | {paper}{unit} | {here}{unit} | {difference} | {why} |"
                 )

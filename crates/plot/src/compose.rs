@@ -1,18 +1,29 @@
 //! From files to a figure.
 
-use crate::error::{PlotError, kind_of, only};
+use crate::error::{Drawn, PlotError, kind_of, only};
 use crate::impacts::{frames_of, of_impacts};
 use crate::request::{Kind, Request};
 use crate::sweep::of_sweep;
 use crate::table::of_table;
+use contact::Choice;
 use figure::{Axis, ColourMap, Figure, Image, Layer, Scale};
 use formats::stored::{FileKind, StoredImpact, file_kind};
 use std::path::PathBuf;
 
 /// Composes a figure of one or several files of one kind; and sentences for its user: what is not shown, and how to see it.
-pub fn compose(paths: &[PathBuf], request: &Request) -> Result<(Figure, Vec<String>), PlotError> {
+pub fn compose(paths: &[PathBuf], request: &Request) -> Drawn<Figure> {
     let file = common_kind(paths)?;
-    let unsuitable = |kind| Err(PlotError::unsuitable(&paths[0], file, kind));
+    // a kind of picture that a file of another kind does not give
+    let unsuitable = |kind| {
+        let kinds = Kind::ALL.iter().filter(|kind| kind.file() == file);
+        let allowed = match &kinds.map(|kind| kind.name()).collect::<Vec<_>>()[..] {
+            [] => "none".to_owned(),
+            names => names.join(", "),
+        };
+        let path = paths[0].display();
+        let sentence = format!("{path} is {file}, which has no picture {kind}; it has {allowed}");
+        Err(PlotError::refused(Some(&paths[0]), sentence))
+    };
     if let Some(kind) = request.kind.filter(|kind| kind.file() != file) {
         return unsuitable(kind);
     }
@@ -93,10 +104,7 @@ fn show_sizes(image: &mut Image) {
 }
 
 /// Composes the frames of an animation of a section, one figure each; and sentences for its user.
-pub fn animate(
-    paths: &[PathBuf],
-    request: &Request,
-) -> Result<(Vec<Figure>, Vec<String>), PlotError> {
+pub fn animate(paths: &[PathBuf], request: &Request) -> Drawn<Vec<Figure>> {
     let file = common_kind(paths)?;
     let kind = request.kind.unwrap_or(Kind::Waves);
     if file != FileKind::Impact || kind != Kind::Waves {
@@ -122,18 +130,17 @@ fn open(paths: &[PathBuf]) -> Result<Vec<StoredImpact>, PlotError> {
 
 /// What all files are.
 fn common_kind(paths: &[PathBuf]) -> Result<FileKind, PlotError> {
-    let mut common: Option<(&PathBuf, FileKind)> = None;
-    for path in paths {
+    let first = file_kind(&paths[0])?;
+    for path in &paths[1..] {
         let second = file_kind(path)?;
-        let (first_path, first) = *common.get_or_insert((path, second));
         if second != first {
             let sentence = format!(
                 "{} is {first}, and {} is {second}: one picture shows files of one kind",
-                first_path.display(),
+                paths[0].display(),
                 path.display()
             );
             return Err(PlotError::refused(Some(path), sentence));
         }
     }
-    Ok(common.map_or(FileKind::Impact, |(_, kind)| kind))
+    Ok(first)
 }

@@ -5,7 +5,6 @@ use contact::{Choice, nearest};
 use fault::{Class, Culprit, Fault};
 use formats::SceneError;
 use formats::quantities::Described;
-use formats::stored::FileKind;
 use halfspace::DomainError;
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
@@ -35,6 +34,9 @@ pub enum PlotError {
     },
 }
 
+/// What is drawn, with sentences for its user.
+pub(crate) type Drawn<T> = Result<(T, Vec<String>), PlotError>;
+
 impl PlotError {
     /// What is asked for is not to be drawn.
     pub(crate) fn refused(file: Option<&Path>, sentence: String) -> Self {
@@ -43,17 +45,6 @@ impl PlotError {
             file: file.map(Path::to_owned),
             suggestion: None,
         }
-    }
-
-    /// A kind of picture that a file of another kind does not give.
-    pub(crate) fn unsuitable(path: &Path, found: FileKind, kind: Kind) -> Self {
-        let allowed = match Kind::of(found).as_slice() {
-            [] => "none".to_owned(),
-            names => names.join(", "),
-        };
-        let file = path.display();
-        let sentence = format!("{file} is {found}, which has no picture {kind}; it has {allowed}");
-        Self::refused(Some(path), sentence)
     }
 
     /// What a picture shows is not in the file.

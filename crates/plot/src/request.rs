@@ -45,14 +45,6 @@ kinds! {
     Errors "errors" of Table => "errors of a kernel table, measured off its grid";
 }
 
-impl Kind {
-    /// Names of all kinds that show a file.
-    pub fn of(file: FileKind) -> Vec<&'static str> {
-        let kinds = Self::ALL.iter().filter(|kind| kind.file() == file);
-        kinds.map(|kind| kind.name()).collect()
-    }
-}
-
 impl fmt::Display for Kind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.name())

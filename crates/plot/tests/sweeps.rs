@@ -47,9 +47,10 @@ fn lines(figure: &Figure, panel: usize) -> Vec<(&str, &[(f64, f64)])> {
 fn check(figure: &Figure) {
     for width in [320.0, 700.0, 1200.0] {
         let measured = measure(&figure.clone().width(width)).unwrap();
-        for (i, (text, place)) in measured.texts.iter().enumerate() {
+        let texts = measured.texts();
+        for (i, (text, place)) in texts.iter().enumerate() {
             assert!(measured.canvas.holds(place), "{text} is cut off at {width}");
-            for (other, second) in &measured.texts[..i] {
+            for (other, second) in &texts[..i] {
                 assert!(!place.overlaps(second), "{text} over {other} at {width}");
             }
         }

@@ -57,6 +57,14 @@ fn time<T>(effort: Effort, values: f64, run: impl Fn() -> T) -> (T, [f64; 2]) {
 /// What a run found, and its work where that is counted.
 pub(crate) type Run<T> = Result<(T, Option<u64>), AnyError>;
 
+/// What a question measures.
+pub(crate) type Rows = Result<Vec<Record>, AnyError>;
+
+/// A tolerance as a setting.
+pub(crate) fn at(tolerance: f64) -> String {
+    format!("tolerance {tolerance:.0e}")
+}
+
 /// A scene of a question: what of a method is measured in it.
 pub(crate) struct Scene<'a, T> {
     pub(crate) effort: Effort,
@@ -108,16 +116,6 @@ impl<T> Scene<'_, T> {
             refusal,
         });
         Ok(&mut self.records[place])
-    }
-
-    /// The same with a tolerance as its setting.
-    pub(crate) fn at_tolerance(
-        &mut self,
-        method: &'static str,
-        tolerance: f64,
-        run: impl Fn() -> Run<T>,
-    ) -> Result<&mut Record, AnyError> {
-        self.add(method, format!("tolerance {tolerance:.0e}"), run)
     }
 }
 

@@ -3,17 +3,15 @@
 
 use crate::record::{Question, Record, by_scene, distinct, pareto_front};
 use contact::Choice;
-use figure::{Axis, Layer, Legend, Panel, Style};
+use figure::{Axis, Figure, Layer, Legend, Panel, Style};
 
 /// A picture of the chart.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Picture {
     /// Name of its files.
     pub name: &'static str,
-    /// Title.
-    pub title: String,
-    /// Axes and layers.
-    pub panel: Panel,
+    /// Its one panel with a title.
+    pub figure: Figure,
     /// Sentences for the report.
     pub caption: String,
 }
@@ -21,13 +19,16 @@ pub struct Picture {
 /// Height of a picture's plot in pixels.
 const HEIGHT: f64 = 478.0;
 
+/// Width of a picture in pixels.
+const WIDTH: f64 = 1020.0;
+
 impl Picture {
     /// An empty picture; both axes have a range.
     pub(crate) fn new(name: &'static str, title: &str, x: Axis, y: Axis) -> Self {
+        let panel = Panel::new(x, y).height(HEIGHT).legend(Legend::Outside);
         Self {
             name,
-            title: title.to_owned(),
-            panel: Panel::new(x, y).height(HEIGHT).legend(Legend::Outside),
+            figure: Figure::new(title).width(WIDTH).panel(panel),
             caption: String::new(),
         }
     }
@@ -39,19 +40,20 @@ impl Picture {
 
     /// Adds a layer.
     pub(crate) fn add(&mut self, layer: Layer) {
-        self.panel.layers.push(layer);
+        self.figure.panels[0].layers.push(layer);
     }
 
     /// What it is made of: the points of its curves, and the centres of the cells of its map under their classes.
     pub(crate) fn points(&self) -> Vec<(&str, f64, f64)> {
         let mut points = Vec::new();
-        for layer in &self.panel.layers {
+        let panel = &self.figure.panels[0];
+        for layer in &panel.layers {
             match layer {
                 Layer::Line(line) => {
                     points.extend(line.points.iter().map(|&(x, y)| (&*line.name, x, y)));
                 }
                 Layer::Classes(map) => {
-                    let axes = [&self.panel.x, &self.panel.y].map(Axis::interval);
+                    let axes = [&panel.x, &panel.y].map(Axis::interval);
                     let [x, y] = [0, 1].map(|k| axes[k].map(|axis| axis.cells(map.shape[k])));
                     let (x, y) = x.zip(y).unwrap_or_default();
                     let cells = y.iter().flat_map(|&y| x.iter().map(move |&x| (x, y)));

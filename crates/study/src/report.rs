@@ -7,15 +7,11 @@ use crate::ranking::{Ranking, rankings, why_not};
 use crate::record::{Question, Record, distinct};
 use contact::Choice;
 use fault::AnyError;
-use figure::Figure;
 use output::Folder;
 use paper::{csv_file, drawn};
 
 /// Columns of pictures.csv.
 pub const PICTURE_COLUMNS: &str = "picture name x y";
-
-/// Width of a picture in pixels.
-const WIDTH: f64 = 1020.0;
 
 impl Chart {
     /// Writes chart.csv, pictures.csv, report.md and the pictures into a folder.
@@ -33,9 +29,7 @@ impl Chart {
                 [name.to_owned(), curve.to_owned(), x, y]
             }));
             let failed = |source| format!("the picture {name} cannot be drawn: {source}");
-            let figure = Figure::new(&picture.title).width(WIDTH);
-            let figure = figure.panel(picture.panel.clone());
-            files.extend(drawn(name, &figure).map_err(failed)?);
+            files.extend(drawn(name, &picture.figure).map_err(failed)?);
         }
         files.push(csv_file("pictures.csv", PICTURE_COLUMNS, points)?);
         files.push(("report.md".to_owned(), markdown(self).into_bytes()));
@@ -75,7 +69,7 @@ fn markdown(chart: &Chart) -> String {
     }
     lines.push("## Where methods fail\n".to_owned());
     for picture in &chart.maps {
-        lines.push(format!("### {}\n", picture.title));
+        lines.push(format!("### {}\n", picture.figure.title));
         let sentences = picture.caption.split(". ");
         lines.extend(sentences.map(|sentence| format!("{}.", sentence.trim_end_matches('.'))));
         lines.push(format!("\n{}", shown(picture)));
@@ -85,7 +79,7 @@ fn markdown(chart: &Chart) -> String {
 }
 
 fn shown(picture: &Picture) -> String {
-    format!("![{}]({}.png)\n", picture.title, picture.name)
+    format!("![{}]({}.png)\n", picture.figure.title, picture.name)
 }
 
 /// Methods that are ahead somewhere, with the reason why the program does not take them.

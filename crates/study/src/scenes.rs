@@ -48,20 +48,12 @@ impl Density {
     pub(crate) fn build(poisson_ratio: f64, spacing: Option<f64>) -> Result<Self, AnyError> {
         let folder = tempfile::tempdir()?;
         let path = folder.path().join("table.h5");
-        let demo = Grid::demo();
-        let axis = |own: &Axis| match spacing {
-            None => Axis {
-                max: EXTENT,
-                ..own.clone()
-            },
-            Some(spacing) => Axis::uniform(EXTENT, spacing),
-        };
-        let grid = Grid {
-            poisson_ratios: vec![poisson_ratio],
-            r: axis(&demo.r),
-            z: axis(&demo.z),
-            ..demo
-        };
+        let most = [Some(EXTENT), Some(EXTENT), None];
+        let mut grid = Grid::demo().with(Some(vec![poisson_ratio]), most);
+        if let Some(spacing) = spacing {
+            let uniform = Axis::uniform(EXTENT, spacing);
+            (grid.r, grid.z) = (uniform.clone(), uniform);
+        }
         tabulator::build(&grid, &path, &Silent)?;
         Ok(Self {
             spacing,

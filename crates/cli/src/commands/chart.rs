@@ -1,7 +1,7 @@
 //! `hertzlamb chart`: speed against accuracy, and where methods fail.
 
 use crate::arguments::Overwrite;
-use crate::failure::{Failure, print, say};
+use crate::failure::{Failure, print};
 use crate::progress::Bar;
 use clap::Args;
 use output::Folder;
@@ -39,13 +39,6 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         Effort::Full
     };
     let folder = Folder::claim(&arguments.output, arguments.overwrite.existing())?;
-    let old = arguments.output.join("chart.h5");
-    if old.exists() {
-        let old = old.display();
-        say(format!(
-            "note: {old} is of an earlier version and stays; this one writes CSV files"
-        ));
-    }
     let chart = Chart::run(effort, &Bar::new()).map_err(Failure::in_part)?;
     chart.write(&folder).map_err(Failure::in_part)?;
     let report = arguments.output.join("report.md");

@@ -120,19 +120,19 @@ fn check_complete(path: &Path, grid: &Grid) -> Result<(), Failure> {
 
 /// What to add to the output, if it exists and no new table was asked for.
 fn extension(arguments: &Arguments) -> Option<Extension> {
-    let most = [arguments.r_max, arguments.z_max, arguments.time_factor];
-    let more = arguments.nu.is_some() || most.iter().any(Option::is_some);
+    let extension = Extension {
+        exact_ratios: arguments.nu.clone().unwrap_or_default(),
+        r_max: arguments.r_max,
+        z_max: arguments.z_max,
+        time_factor: arguments.time_factor,
+    };
+    let more = extension != Extension::default();
     let new = arguments.grid.is_some()
         || arguments.overwrite.force
         || arguments.skip_complete
         || arguments.shard.is_some()
         || arguments.tol.is_some();
-    (more && !new && arguments.output.exists()).then(|| Extension {
-        exact_ratios: arguments.nu.clone().unwrap_or_default(),
-        r_max: arguments.r_max,
-        z_max: arguments.z_max,
-        time_factor: arguments.time_factor,
-    })
+    (more && !new && arguments.output.exists()).then_some(extension)
 }
 
 /// The settings of a new table.

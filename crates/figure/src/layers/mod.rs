@@ -149,7 +149,6 @@ pub(crate) enum Swatch {
 /// Whether a list is as long as it must be.
 fn count(panel: usize, what: &str, needed: usize, found: usize) -> Result<(), FigureError> {
     let fault = || format!("panel {panel}: {found} {what}, and {needed} are needed");
-    (needed == found)
-        .then_some(())
-        .ok_or_else(|| FigureError(fault()))
+    let is_right = needed == found;
+    is_right.then_some(()).ok_or_else(|| FigureError(fault()))
 }

@@ -50,9 +50,7 @@ impl FittedAxis {
 }
 
 /// The thin line around a plot and of its ticks.
-pub(crate) fn thin() -> Stroke {
-    Stroke::solid(BLACK, 1.0)
-}
+pub(super) const THIN: Stroke = Stroke::solid(BLACK, 1.0);
 
 /// Both axes fitted to a plot.
 #[derive(Debug, Clone, PartialEq)]
@@ -138,8 +136,8 @@ impl Axes {
             let y = frame.down(value);
             [(area.left - length, y), (area.left, y)]
         });
-        scene.shape(Shape::lines(below.chain(beside)).stroked(thin()));
-        scene.shape(Shape::rectangle(area).stroked(thin()));
+        scene.shape(Shape::lines(below.chain(beside)).stroked(THIN));
+        scene.shape(Shape::rectangle(area).stroked(THIN));
         let middle = area.centre();
         if self.labelled[0] {
             let mut line = area.bottom + faces.tick_length() + 0.2 * faces.tick + faces.tick;

@@ -1,6 +1,6 @@
 //! The colour bar beside a panel or beside all of them, fitted and drawn.
 
-use super::axes::{FittedAxis, thin};
+use super::axes::{FittedAxis, THIN};
 use crate::geometry::Rect;
 use crate::layers::Colours;
 use crate::scene::{Item, Picture, START, Scene, Shape, Text};
@@ -69,7 +69,7 @@ impl Bar {
             let y = down(value);
             [(right, y), (right + length, y)]
         });
-        scene.shape(Shape::lines(ticks).stroked(thin()));
+        scene.shape(Shape::lines(ticks).stroked(THIN));
         let mut line = plot.right + self.text + 0.3 * faces.label;
         for label in &self.axis.label {
             scene.text(Text::upward(label, (line, plot.centre().1), faces.label));
@@ -117,7 +117,7 @@ impl Bar {
                 (left, body.bottom),
             ]),
         };
-        scene.shape(outline.stroked(thin()));
+        scene.shape(outline.stroked(THIN));
         body
     }
 }

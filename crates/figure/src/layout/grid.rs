@@ -12,28 +12,31 @@ use crate::geometry::{Frame, Rect};
 use crate::scene::{Item, MIDDLE, START, Scene, Shape, Text};
 use crate::text::{LINE, Typeface, wrap};
 
-/// Everything that a figure shows, with places in pixels.
-pub(crate) fn draw(figure: &Figure) -> Result<Scene, FigureError> {
+/// Everything that a figure shows, with places in pixels: no two texts overlap, and none leaves the canvas.
+///
+/// # Errors
+/// [`FigureError`] for a figure that cannot be drawn.
+pub fn draw(figure: &Figure) -> Result<Scene, FigureError> {
     figure.check()?;
-    let faces = Typeface::new(figure.text);
+    let faces = &Typeface::new(figure.text);
     let plans = plan(figure);
     let first = plans.first().filter(|_| figure.has_common_bar);
     let common = first.and_then(|plan| plan.colours.as_ref());
     // a bar needs the width of its numbers, which depend on the height, which depends on the width
     let mut reserved = 0.0;
     let (mut scene, panels, plots, bar) = loop {
-        let (scene, panels) = arrange(figure, &plans, &faces, reserved);
+        let (scene, panels) = arrange(figure, &plans, reserved);
         let plots = plots(&panels);
-        match common.map(|colours| Bar::new(colours, plots.height(), &faces)) {
+        match common.map(|colours| Bar::new(colours, plots.height(), faces)) {
             Some(bar) if bar.width > reserved => reserved = bar.width,
             bar => break (scene, panels, plots, bar),
         }
     };
     for panel in &panels {
-        panel.draw(&mut scene, &faces);
+        panel.draw(&mut scene, faces);
     }
     if let Some(bar) = bar {
-        bar.draw(&mut scene, plots, &faces);
+        bar.draw(&mut scene, plots, faces);
     }
     Ok(scene)
 }
@@ -42,12 +45,8 @@ pub(crate) fn draw(figure: &Figure) -> Result<Scene, FigureError> {
 /// the right.
 ///
 /// All plots are equally wide; the width of the figure is exceeded rather than that they vanish.
-fn arrange<'a>(
-    figure: &Figure,
-    plans: &'a [PanelPlan<'a>],
-    faces: &Typeface,
-    bar: f64,
-) -> (Scene, Vec<Fitted<'a>>) {
+fn arrange<'a>(figure: &Figure, plans: &'a [PanelPlan<'a>], bar: f64) -> (Scene, Vec<Fitted<'a>>) {
+    let faces = &Typeface::new(figure.text);
     let count = figure.columns.min(plans.len());
     let legend_width = (0.34 * figure.width / count as f64).min(22.0 * faces.tick);
     let gap = 1.4 * faces.tick;
@@ -151,13 +150,13 @@ fn size(plan: &PanelPlan<'_>, width: f64) -> [f64; 2] {
 
 /// A panel fitted around its plot.
 #[derive(Debug, Clone, PartialEq)]
-struct Fitted<'a> {
-    plan: &'a PanelPlan<'a>,
-    frame: Frame,
+pub(super) struct Fitted<'a> {
+    pub(super) plan: &'a PanelPlan<'a>,
+    pub(super) frame: Frame,
     axes: Axes,
     title: Vec<String>,
-    marks: Vec<Label>,
-    legend: Option<Legend>,
+    pub(super) marks: Vec<Label>,
+    pub(super) legend: Option<Legend>,
     bar: Option<Bar>,
     needs: Needs,
 }
@@ -204,7 +203,7 @@ impl<'a> Fitted<'a> {
         for (layer, &numbers) in plan.panel.layers.iter().zip(&plan.numbers) {
             layer.draw(scene, frame, plan.colours.as_ref(), numbers);
         }
-        labels::draw_marks(scene, plan, frame, &self.marks, faces);
+        labels::draw_marks(scene, self, faces);
         self.axes.draw(scene, frame, faces);
         let mark_rows = labels::rows(&self.marks);
         let mut line = frame.area.top - faces.gap() - Typeface::lines(faces.mark, mark_rows);
@@ -213,10 +212,8 @@ impl<'a> Fitted<'a> {
             scene.text(Text::new(title, at, faces.label, MIDDLE));
             line -= LINE * faces.label;
         }
-        let legend = self.legend.as_ref();
-        let taken = legend.and_then(|legend| legend.covered(frame.area));
-        labels::draw_points(scene, plan, frame, taken, faces.tick);
-        if let Some(legend) = legend {
+        labels::draw_points(scene, self, faces.tick);
+        if let Some(legend) = &self.legend {
             legend.draw(scene, frame.area, faces.legend);
         }
         if let Some(bar) = &self.bar {

@@ -1,6 +1,7 @@
 //! What is written over a plot and above it: vertical lines with their labels side by side above the panel, and single
 //! points with labels beside them, where a plot is empty.
 
+use super::grid::Fitted;
 use super::plan::PanelPlan;
 use crate::colour::{MARK, WHITE};
 use crate::figure::Panel;
@@ -96,14 +97,8 @@ fn stacked(marks: &[(f64, &str)], width: f64, faces: &Typeface) -> Vec<Label> {
 }
 
 /// Draws the lines of a panel and their labels.
-pub(super) fn draw_marks(
-    scene: &mut Scene,
-    plan: &PanelPlan<'_>,
-    frame: &Frame,
-    labels: &[Label],
-    faces: &Typeface,
-) {
-    let area = frame.area;
+pub(super) fn draw_marks(scene: &mut Scene, fitted: &Fitted<'_>, faces: &Typeface) {
+    let (plan, frame, area) = (fitted.plan, &fitted.frame, fitted.frame.area);
     for (x, _) in lines(plan) {
         let x = frame.across(x);
         let line = Shape::polyline(&[(x, area.bottom), (x, area.top)]);
@@ -112,7 +107,7 @@ pub(super) fn draw_marks(
         }
         scene.shape(line.stroked(Stroke::new(MARK, 1.0, &[3.0, 3.0])));
     }
-    for label in labels {
+    for label in &fitted.marks {
         let rise = faces.gap() + (label.row as f64 + 0.2) * LINE * faces.mark;
         let at = (area.left + label.centre, area.top - rise);
         scene.text(Text::new(&label.text, at, faces.mark, MIDDLE));
@@ -161,13 +156,8 @@ fn spread(boxes: &[Point], width: f64) -> Vec<f64> {
 const STAR: f64 = 7.0;
 
 /// Draws the points of a panel, each label where it covers least and no place that is taken, such as by the legend.
-pub(super) fn draw_points(
-    scene: &mut Scene,
-    plan: &PanelPlan<'_>,
-    frame: &Frame,
-    taken: Option<Rect>,
-    size: f64,
-) {
+pub(super) fn draw_points(scene: &mut Scene, fitted: &Fitted<'_>, size: f64) {
+    let (plan, frame) = (fitted.plan, &fitted.frame);
     let mut points: Vec<(&str, bool, Point)> = Vec::new();
     for layer in &plan.panel.layers {
         if let Layer::Point {
@@ -191,8 +181,10 @@ pub(super) fn draw_points(
     for &at in &stars {
         star(scene, at, STAR);
     }
+    let legend = fitted.legend.as_ref();
+    let taken = legend.and_then(|legend| legend.covered(frame.area));
     let mut written: Vec<Rect> = taken.into_iter().collect();
-    for (label, is_starred, place) in points {
+    for point in points {
         let cost = |lines: &Vec<Text>| {
             let bounds = bounds(lines);
             let hidden = stars.iter().filter(|&&s| bounds.grown(STAR - 1.0).has(s));
@@ -203,7 +195,7 @@ pub(super) fn draw_points(
             let bounds = bounds(lines);
             frame.area.holds(&bounds) && !written.iter().any(|b| b.grown(1.0).overlaps(&bounds))
         };
-        let candidates = candidates(label, is_starred, place, frame.area, size).into_iter();
+        let candidates = candidates(point, frame.area, size).into_iter();
         let best = candidates.filter(is_free).min_by_key(cost);
         // a plot too small for all labels shows the stars alone
         for mut text in best.into_iter().flatten() {
@@ -215,13 +207,8 @@ pub(super) fn draw_points(
 }
 
 /// Labels around a point, the nearest first, moved into the plot and broken to its width.
-fn candidates(
-    label: &str,
-    is_starred: bool,
-    (x, y): Point,
-    area: Rect,
-    size: f64,
-) -> Vec<Vec<Text>> {
+fn candidates(point: (&str, bool, Point), area: Rect, size: f64) -> Vec<Vec<Text>> {
+    let (label, is_starred, (x, y)) = point;
     let lines = wrap(label, size, area.width() - 4.0);
     let mut found = Vec::new();
     let rises = [0.0, -1.2, 1.2, -2.4, 2.4, -4.0, 4.0, -6.0, 6.0, -9.0, 9.0];

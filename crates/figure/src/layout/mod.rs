@@ -10,4 +10,4 @@ mod labels;
 mod legend;
 mod plan;
 
-pub(crate) use grid::draw;
+pub use grid::draw;

@@ -43,8 +43,25 @@ pub fn to_pdf(figure: &Figure) -> Result<Vec<u8>, FigureError> {
     let mut painted = Content::new();
     // pixels from the upper left corner
     painted.transform([POINT, 0.0, 0.0, -POINT, 0.0, POINT * height]);
-    let (pictures, opacities) = paint(&mut painted, &scene, &subset);
-    let pictures: Vec<_> = pictures.into_iter().map(|p| (next.bump(), p)).collect();
+    // pictures by their names, and opacities
+    let (mut pictures, mut opacities) = (Vec::new(), BTreeSet::new());
+    for item in &scene.items {
+        painted.save_state();
+        match item {
+            Item::Shape(shape) => opacities.extend(draw_shape(&mut painted, shape)),
+            Item::Picture(picture) => {
+                let area = picture.area;
+                // a picture stands on its lower side in a unit square
+                let (width, height) = (area.width() as f32, area.height() as f32);
+                let place = [area.left as f32, area.bottom as f32];
+                painted.transform([width, 0.0, 0.0, -height, place[0], place[1]]);
+                painted.x_object(Name(format!("I{}", pictures.len()).as_bytes()));
+                pictures.push((next.bump(), picture));
+            }
+            Item::Text(text) => draw_text(&mut painted, text, &subset),
+        }
+        painted.restore_state();
+    }
     let mut pdf = Pdf::new();
     pdf.catalog(catalog).pages(tree);
     pdf.pages(tree).kids([page]).count(1);
@@ -166,33 +183,6 @@ impl Subset {
         let data = compressed(&self.file);
         pdf.stream(file, &data).filter(Filter::FlateDecode);
     }
-}
-
-/// Paints everything, in pixels from the upper left corner; and the pictures in the order of their names, and opacities.
-fn paint<'a>(
-    content: &mut Content,
-    scene: &'a Scene,
-    font: &Subset,
-) -> (Vec<&'a Picture>, BTreeSet<u32>) {
-    let (mut pictures, mut opacities) = (Vec::new(), BTreeSet::new());
-    for item in &scene.items {
-        content.save_state();
-        match item {
-            Item::Shape(shape) => opacities.extend(draw_shape(content, shape)),
-            Item::Picture(picture) => {
-                let area = picture.area;
-                // a picture stands on its lower side in a unit square
-                let (width, height) = (area.width() as f32, area.height() as f32);
-                let place = [area.left as f32, area.bottom as f32];
-                content.transform([width, 0.0, 0.0, -height, place[0], place[1]]);
-                content.x_object(Name(format!("I{}", pictures.len()).as_bytes()));
-                pictures.push(picture);
-            }
-            Item::Text(text) => draw_text(content, text, font),
-        }
-        content.restore_state();
-    }
-    (pictures, opacities)
 }
 
 fn rgb(colour: u32) -> [f32; 3] {

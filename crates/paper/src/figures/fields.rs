@@ -151,12 +151,9 @@ pub(super) fn figures(runs: &Runs) -> Result<Vec<Redrawn>, AnyError> {
 
 /// The fields of a run at the points of all figures, each once.
 fn fields(run: &Run) -> Result<Vec<([f64; 2], FieldHistory)>, AnyError> {
-    let mut places: Vec<[f64; 2]> = Vec::new();
-    for place in SHOWN.iter().flat_map(Shown::places) {
-        if !places.contains(&place) {
-            places.push(place);
-        }
-    }
+    let mut places: Vec<[f64; 2]> = SHOWN.iter().flat_map(Shown::places).collect();
+    places.sort_by_key(|place| place.map(f64::to_bits));
+    places.dedup();
     let fields = run
         .excitation()
         .fields(1e-2 * TOLERANCE)?

@@ -3,7 +3,7 @@
 use crate::error::{PlotError, chosen};
 use crate::series::{curve, end_s, waves_of};
 use crate::words::{axis, component, of_quantity, with_unit};
-use contact::{Model, Settings};
+use contact::Model;
 use figure::{Axis, Layer, Legend, Panel, Scale, Style};
 use formats::quantities::Described;
 use formats::stored::{StoredImpact, StoredProbes};
@@ -120,10 +120,7 @@ fn hertz(impact: &StoredImpact, end_s: f64) -> Option<Vec<(f64, f64)>> {
     }
     let target = impact.target.clone();
     let mut alone = Impact::new(target, strike.striker.clone(), strike.velocity_m_s);
-    alone.settings = Settings {
-        model: Model::Hertz,
-        ..Settings::default()
-    };
+    alone.settings.model = Model::Hertz;
     let run = alone.solve().ok()?;
     let time = |i: u32| end_s * f64::from(i) / f64::from(POINTS);
     let points = (0..=POINTS).map(|i| (time(i), run.excitation().force_n(time(i))));

@@ -7,7 +7,7 @@ mod histories;
 mod labels;
 mod spectrum;
 
-use crate::error::{PlotError, kind_of, only};
+use crate::error::{Drawn, PlotError, kind_of, only};
 use crate::request::{Kind, Request};
 use crate::section::{axis_profile, frames, peak, space_time};
 use crate::words::with_unit;
@@ -24,10 +24,7 @@ use std::slice;
 const MOST_FRAMES: usize = 120;
 
 /// The figure of some impacts, and what its user should know.
-pub(crate) fn of_impacts(
-    impacts: &[StoredImpact],
-    request: &Request,
-) -> Result<(Figure, Vec<String>), PlotError> {
+pub(crate) fn of_impacts(impacts: &[StoredImpact], request: &Request) -> Drawn<Figure> {
     let suits = match impacts {
         [only] if only.section()?.is_some() => Kind::Waves,
         _ => Kind::Impact,
@@ -39,8 +36,7 @@ pub(crate) fn of_impacts(
         Kind::Spectrum => spectrum(impacts, &labels(impacts))?,
         Kind::Peak => peak(one()?, request)?,
         Kind::Axis => axis_profile(one()?, request)?,
-        Kind::Surface => space_time(one()?, request, true)?,
-        Kind::Depth => space_time(one()?, request, false)?,
+        Kind::Surface | Kind::Depth => space_time(one()?, request)?,
         Kind::Waves => {
             let (panels, notes) = frames(one()?, request, request.frames.unwrap_or(4))?;
             let columns = if panels.len() > 4 { 3 } else { 2 };
@@ -55,10 +51,7 @@ pub(crate) fn of_impacts(
 }
 
 /// The frames of an animation, a figure each, and what its user should know.
-pub(crate) fn frames_of(
-    impact: &StoredImpact,
-    request: &Request,
-) -> Result<(Vec<Figure>, Vec<String>), PlotError> {
+pub(crate) fn frames_of(impact: &StoredImpact, request: &Request) -> Drawn<Vec<Figure>> {
     let (panels, notes) = frames(impact, request, request.frames.unwrap_or(MOST_FRAMES))?;
     let base = headed(slice::from_ref(impact), request, 1).width(720.0);
     let figures = panels.into_iter().map(|panel| base.clone().panel(panel));
@@ -71,11 +64,7 @@ fn headed(impacts: &[StoredImpact], request: &Request, columns: usize) -> Figure
 }
 
 /// Contacts and probes over time.
-fn histories(
-    impacts: &[StoredImpact],
-    kind: Kind,
-    request: &Request,
-) -> Result<(Figure, Vec<String>), PlotError> {
+fn histories(impacts: &[StoredImpact], kind: Kind, request: &Request) -> Drawn<Figure> {
     let labels = labels(impacts);
     let is_all = kind == Kind::Probes;
     let most = if is_all { usize::MAX } else { FEW };

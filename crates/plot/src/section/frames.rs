@@ -120,7 +120,7 @@ impl<'a> Section<'a> {
             (false, true) => (Scale::Logarithmic, 1e-3 * largest, ColourMap::Sequential),
             (false, false) => (Scale::Linear, 0.0, ColourMap::Sequential),
         };
-        let axis = axis(&quantity.words, &quantity.unit, scale);
+        let axis = axis(&of_quantity(&quantity.name), &quantity.unit, scale);
         (axis.range(low, largest), map)
     }
 
@@ -234,8 +234,6 @@ pub(super) fn quantile_of_sizes(values: impl Iterator<Item = f64>, fraction: f64
 pub(super) struct Quantity {
     /// Name, as users give it.
     pub(super) name: String,
-    /// What it is, for an axis.
-    pub(super) words: String,
     /// Unit without a prefix.
     pub(super) unit: String,
     /// What it is made of: itself where it is stored, the components of a length, or all stresses.
@@ -275,7 +273,6 @@ impl Quantity {
         };
         Ok(Self {
             name: name.to_owned(),
-            words: of_quantity(name),
             unit: unit.to_owned(),
             parts: parts.iter().map(|&part| part.to_owned()).collect(),
             stress,

@@ -3,9 +3,9 @@
 
 use super::frames::{Quantity, Section};
 use crate::error::PlotError;
-use crate::request::Request;
+use crate::request::{Kind, Request};
 use crate::series::curve;
-use crate::words::{axis, with_unit};
+use crate::words::{axis, of_quantity, with_unit};
 use contact::KernelUnits;
 use figure::{Axis, Image, Layer, Legend, Panel, Scale, Style};
 use formats::results::schema::FIELDS;
@@ -16,11 +16,8 @@ use halfspace::{Kernel, Medium, Profile};
 const MOST_INSTANTS: usize = 600;
 
 /// Distances along the surface against time, or depths on the axis, with the fronts that pass there.
-pub(crate) fn space_time(
-    impact: &StoredImpact,
-    request: &Request,
-    is_surface: bool,
-) -> Result<Panel, PlotError> {
+pub(crate) fn space_time(impact: &StoredImpact, request: &Request) -> Result<Panel, PlotError> {
+    let is_surface = request.kind == Some(Kind::Surface);
     let section = Section::of(impact)?;
     let (frames, width) = (section.stored.time_s.len(), section.stored.r_m.len());
     let chosen = (0..frames).step_by(frames.div_ceil(MOST_INSTANTS));
@@ -99,9 +96,10 @@ pub(crate) fn axis_profile(impact: &StoredImpact, request: &Request) -> Result<P
     let depth = Axis::logarithmic("depth")
         .unit("mm")
         .range(1e3 * first_m, 1e3 * last_m);
+    let words = of_quantity(&quantity.name);
     let words = match quantity.has_sign() {
-        true => format!("size of the {}", quantity.words),
-        false => quantity.words.clone(),
+        true => format!("size of the {words}"),
+        false => words,
     };
     let size = axis(&words, &quantity.unit, Scale::Logarithmic);
     let mut panel = Panel::new(depth, size).height(380.0);

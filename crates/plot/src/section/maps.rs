@@ -1,9 +1,9 @@
 //! Maps of a section: frames, chosen so that waves are seen, and the largest value over time at every place.
 
 use super::frames::{Quantity, Section, quantile_of_sizes};
-use crate::error::PlotError;
+use crate::error::{Drawn, PlotError};
 use crate::request::Request;
-use crate::words::{axis, with_unit};
+use crate::words::{axis, of_quantity, with_unit};
 use figure::{ColourMap, Legend, Panel, Scale};
 use formats::stored::StoredImpact;
 
@@ -12,11 +12,7 @@ const FEW: usize = 9;
 
 /// Frames of a section at the times that are asked for, or `count` until the longitudinal wave leaves it; and
 /// what their user should know.
-pub(crate) fn frames(
-    impact: &StoredImpact,
-    request: &Request,
-    count: usize,
-) -> Result<(Vec<Panel>, Vec<String>), PlotError> {
+pub(crate) fn frames(impact: &StoredImpact, request: &Request, count: usize) -> Drawn<Vec<Panel>> {
     let section = Section::of(impact)?;
     let mut notes = Vec::new();
     let mut chosen = match request.times_s.as_slice() {
@@ -84,7 +80,7 @@ pub(crate) fn peak(impact: &StoredImpact, request: &Request) -> Result<Panel, Pl
     for value in &mut values {
         *value = value.max(low);
     }
-    let words = format!("{}, largest over time", quantity.words);
+    let words = format!("{}, largest over time", of_quantity(&quantity.name));
     let colours = axis(&words, &quantity.unit, Scale::Logarithmic).range(low, high);
     Ok(section.map(values, colours, ColourMap::Sequential))
 }

@@ -309,12 +309,10 @@ fn loss(shown: &Shown<'_>) -> Result<Panel, PlotError> {
 fn restitution(shown: &Shown<'_>) -> Result<Panel, PlotError> {
     let mut panel = over_velocity(shown)?;
     let sweep = shown.view.sweep;
-    let known = sweep.quantities();
-    let at_yield = match known.iter().any(|quantity| quantity.name == AT_YIELD) {
-        true => sweep.values(AT_YIELD)?,
-        false => Vec::new(),
-    };
-    let Some(yields) = at_yield.into_iter().find(|v| v.is_finite()) else {
+    let mut known = sweep.quantities().into_iter();
+    let is_told = known.any(|quantity| quantity.name == AT_YIELD);
+    let at_yield = is_told.then(|| sweep.values(AT_YIELD)).transpose()?;
+    let Some(yields) = at_yield.into_iter().flatten().find(|v| v.is_finite()) else {
         return Ok(panel);
     };
     let name = "velocity of approach over that of yield";
@@ -335,21 +333,20 @@ fn restitution(shown: &Shown<'_>) -> Result<Panel, PlotError> {
 /// How often values occur, with their quantiles.
 fn histogram(shown: &Shown<'_>) -> Result<Panel, PlotError> {
     let view = shown.view;
-    let slices = match view.drawn {
-        Some(_) => few(view, view.slices(&[]), MOST_HISTOGRAMS)?,
-        None => Vec::new(),
-    };
     let scale = shown.axis.scale;
     let mut panel = Panel::new(shown.axis.clone(), Axis::linear("scenes")).height(240.0);
     let of = |slice: Slice| {
         let rows = view.rows(&slice, &[]).into_iter();
         (slice.label, rows.map(|row| shown.values[row]).collect())
     };
-    let mut groups: Vec<(String, Vec<f64>)> = slices.into_iter().map(of).collect();
-    if groups.is_empty() {
-        // without draws all scenes are counted
-        groups.push((String::new(), shown.values.clone()));
-    }
+    let groups: Vec<(String, Vec<f64>)> = match view.drawn {
+        Some(_) => {
+            let slices = few(view, view.slices(&[]), MOST_HISTOGRAMS)?;
+            slices.into_iter().map(of).collect()
+        }
+        // all scenes are counted
+        None => vec![(String::new(), shown.values.clone())],
+    };
     for (label, found) in &groups {
         let bins = (2.0 * (found.len() as f64).cbrt()).ceil().clamp(5.0, 60.0) as usize;
         panel = panel.layer(Layer::Line(Line::histogram(label, found, bins, scale)));

@@ -52,11 +52,7 @@ impl<'a> View<'a> {
     }
 
     /// The numbers along an axis: those of the key that is asked for, or of the first that has numbers.
-    pub(super) fn numbers(
-        &self,
-        axis: usize,
-        asked: Option<&str>,
-    ) -> Option<(&'a Column, &'a [f64])> {
+    pub(super) fn numbers(&self, axis: usize, asked: Option<&str>) -> Option<(&Column, &[f64])> {
         let columns = self.sweep.axes[axis].columns.iter();
         let mut asked = columns.filter(|column| asked.is_none_or(|name| name == column.name()));
         asked.find_map(|column| match &column.values {

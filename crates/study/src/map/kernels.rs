@@ -2,6 +2,8 @@
 
 use crate::measure::Effort;
 use crate::picture::Picture;
+use crate::question::kernels::ALL;
+use crate::record::{off, peaks, sizes};
 use fault::AnyError;
 use figure::{Axis, Interval, Layer, Style};
 use halfspace::gauss::Rule;
@@ -97,17 +99,15 @@ pub(super) fn incompressible_error(distance: f64) -> Result<f64, AnyError> {
     let fine = Kernel::new(&medium, Profile::Hertz, 1e-13)?;
     let (r, z) = (0.5, 0.6);
     let rest = fine.static_field(r, z)?;
-    let (mut scale, mut errors) = (rest.map(f64::abs), [0.0_f64; 6]);
+    let (mut found, mut exact, mut whole) = (Vec::new(), Vec::new(), vec![rest]);
     for shear_time in [0.3, 0.7, 1.0, 1.6, 2.5, 6.0] {
         let t = shear_time / medium.kappa();
-        let a = coarse.remainder(r, z, t)?.value;
-        let b = fine.remainder(r, z, t)?.value;
-        for f in 0..6 {
-            scale[f] = scale[f].max((b[f] + rest[f]).abs());
-            errors[f] = errors[f].max((a[f] - b[f]).abs());
-        }
+        let value = fine.remainder(r, z, t)?.value;
+        found.push(coarse.remainder(r, z, t)?.value);
+        exact.push(value);
+        whole.push(std::array::from_fn(|f| value[f] + rest[f]));
     }
-    Ok((0..6).fold(0.0, |most, f| most.max(errors[f] / scale[f])))
+    Ok(sizes(&off(&found, &exact, &peaks(&whole), &ALL))[0])
 }
 
 /// W at T = 0.7 for a ratio, from the program and from the closed form.

@@ -11,8 +11,8 @@
 //! ```
 
 use super::kernels::{ALL, POISSON_RATIO};
-use crate::measure::{Effort, Run, Scene};
-use crate::record::{Question, Record, off, peaks};
+use crate::measure::{Effort, Rows, Run, Scene};
+use crate::record::{Question, off, peaks};
 use crate::scenes::Density;
 use fault::AnyError;
 use halfspace::gauss::Rule;
@@ -52,11 +52,7 @@ const SCENES: [(&str, &str, [f64; 2], f64); 3] = [
 ];
 
 /// Measures every method in every scene.
-pub(crate) fn measure(
-    effort: Effort,
-    densities: &[Density],
-    advance: &dyn Fn(),
-) -> Result<Vec<Record>, AnyError> {
+pub(crate) fn measure(effort: Effort, densities: &[Density], advance: &dyn Fn()) -> Rows {
     let medium = Medium::new(POISSON_RATIO)?;
     let count = effort.pick(8, 16);
     let mut records = Vec::new();

@@ -4,7 +4,7 @@
 //! peak displacement against the converged march of the fullest model of its family.
 
 use super::marching::{Order, errors, march};
-use crate::measure::{Effort, Run, Scene};
+use crate::measure::{Effort, Rows, Run, Scene, at};
 use crate::record::{Question, Record};
 use crate::scenes::{ball, paper_disc, paper_response};
 use contact::law::area_dashpot::AreaDashpot;
@@ -30,7 +30,7 @@ pub(crate) const DISC: &str = "copper rod on steel, fixed disc";
 pub(crate) const BALL: &str = "steel ball on steel at 1 m/s, growing contact";
 
 /// Measures every method in both scenes.
-pub(crate) fn measure(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Record>, AnyError> {
+pub(crate) fn measure(effort: Effort, advance: &dyn Fn()) -> Rows {
     let response = paper_response()?;
     let disc = paper_disc(TABLE_1_PA, &response)?;
     let on_disc_exact = refine(|step| march_implicit(&disc, step), 0.02, 2e-11)?.summary;
@@ -153,7 +153,7 @@ fn halved<'a>(
     [duration, memory]: [f64; 2],
     march: impl Fn(f64) -> Result<History, MarchError>,
 ) -> Result<&'a mut Record, AnyError> {
-    scene.at_tolerance(method, tolerance, || {
+    scene.add(method, at(tolerance), || {
         let accuracy = Accuracy::from(tolerance);
         let total = Cell::new(0);
         let counted = |step| {
@@ -197,7 +197,7 @@ fn to_tolerance(scene: &mut Scene<'_, Summary>, disc: &FixedDisc<'_>) -> Result<
             Ok((found.summary, Some(work)))
         };
         let method = "wave implicit, as in sweeps";
-        let row = scene.at_tolerance(method, tolerance, in_sweep)?;
+        let row = scene.add(method, at(tolerance), in_sweep)?;
         row.default_path = true;
     }
     Ok(())
@@ -218,7 +218,7 @@ fn from_series(scene: &mut Scene<'_, Summary>, impact: &Impact) -> Result<(), An
         };
         solve()?;
         let method = "series, as in large sweeps";
-        scene.at_tolerance(method, tolerance, solve)?.default_path = true;
+        scene.add(method, at(tolerance), solve)?.default_path = true;
     }
     Ok(())
 }
@@ -255,7 +255,7 @@ fn following(
             Ok((solved.summary, Some(solved.pieces() as u64)))
         };
         let method = "growing, polynomial pieces";
-        scene.at_tolerance(method, tolerance, solve)?.default_path = true;
+        scene.add(method, at(tolerance), solve)?.default_path = true;
     }
     Ok(())
 }

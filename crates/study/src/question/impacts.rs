@@ -5,8 +5,8 @@
 
 use super::fields;
 use super::kernels::POISSON_RATIO;
-use crate::measure::{Effort, Scene};
-use crate::record::{Question, Record, peaks};
+use crate::measure::{Effort, Rows, Scene, at};
+use crate::record::{Question, peaks};
 use crate::scenes::Density;
 use contact::Model;
 use fault::AnyError;
@@ -33,11 +33,7 @@ const CONVERGED: f64 = 1e-9;
 const FIELDS_CONVERGED: f64 = 1e-8;
 
 /// Measures every way in every scene.
-pub(crate) fn measure(
-    effort: Effort,
-    densities: &[Density],
-    advance: &dyn Fn(),
-) -> Result<Vec<Record>, AnyError> {
+pub(crate) fn measure(effort: Effort, densities: &[Density], advance: &dyn Fn()) -> Rows {
     let own = densities.iter().find(|d| d.is_default(Density::points()));
     let mut records = Vec::new();
     for probed in scenes()? {
@@ -52,7 +48,7 @@ pub(crate) fn measure(
         let tolerances: &[f64] = effort.pick(&[1e-3, 1e-5], &[1e-2, 1e-3, 1e-4, 1e-5, 1e-6]);
         for &tolerance in tolerances {
             let run = || Ok((probed.computed(tolerance)?, None));
-            scene.at_tolerance("computed", tolerance, run)?.default_path = true;
+            scene.add("computed", at(tolerance), run)?.default_path = true;
         }
         if probed.impact.settings.model == Model::Wave {
             for halvings in effort.pick(vec![3], vec![1, 3, 5, 7]) {
@@ -67,7 +63,7 @@ pub(crate) fn measure(
             for &tolerance in tolerances.iter().filter(|_| probed.is_within(&table)) {
                 let source = KernelSource::Table(table.clone());
                 let run = || Ok((probed.fields(tolerance, source.clone())?, None));
-                let row = scene.at_tolerance("looked up", tolerance, run)?;
+                let row = scene.add("looked up", at(tolerance), run)?;
                 row.default_path = true;
             }
         }
@@ -160,7 +156,7 @@ impl Probed {
         let count = effort.pick(12, 40);
         let [first, ..] = self.reference.arrivals_s(self.place_m);
         let end = self.end_s(&self.reference);
-        let mut errors = vec![0.0_f64; 6];
+        let mut errors = Vec::new();
         for i in 0..count {
             // denser after the arrival
             let x = (f64::from(i) + 0.5) / f64::from(count);
@@ -172,11 +168,9 @@ impl Probed {
             let reference = &self.reference;
             let exact = reference.instant(self.place_m, *time, FIELDS_CONVERGED)?;
             let exact = exact.unwrap_or([f64::NAN; 6]);
-            for f in 0..6 {
-                let error = (fields[f] - exact[f]).abs() / self.peaks[f].max(f64::MIN_POSITIVE);
-                errors[f] = errors[f].max(error);
-            }
+            let error = |f: usize| (fields[f] - exact[f]) / self.peaks[f].max(f64::MIN_POSITIVE);
+            errors.push(std::array::from_fn(error));
         }
-        Ok(errors)
+        Ok(peaks(&errors).to_vec())
     }
 }

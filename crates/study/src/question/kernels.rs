@@ -4,8 +4,8 @@
 //! integral at a tolerance of 1e-14, or the closed form of Kausel (2012) at the centre of the surface.
 
 use crate::inversion::Inversion;
-use crate::measure::{Effort, Scene};
-use crate::record::{Question, Record, off, peaks, sizes};
+use crate::measure::{Effort, Rows, Scene, at};
+use crate::record::{Question, off, peaks, sizes};
 use crate::scenes::Density;
 use fault::AnyError;
 use halfspace::{Arrivals, Deflection, Kernel, Medium, Profile, Six, SurfaceResponse, kausel};
@@ -145,11 +145,7 @@ impl KernelScene {
 }
 
 /// Measures every method in every scene.
-pub(crate) fn measure(
-    effort: Effort,
-    densities: &[Density],
-    progress: &dyn Progress,
-) -> Result<Vec<Record>, AnyError> {
+pub(crate) fn measure(effort: Effort, densities: &[Density], progress: &dyn Progress) -> Rows {
     let medium = Medium::new(POISSON_RATIO)?;
     let count = effort.pick(8, 40);
     let near = effort.pick(&NEAR[..1], &NEAR[..]);
@@ -175,7 +171,7 @@ pub(crate) fn measure(
             let tolerance = 10.0_f64.powi(-digits);
             let kernel = Kernel::new(&medium, Profile::Hertz, tolerance)?;
             let run = || Ok((scene.by_kernel(&kernel)?, None));
-            let row = rows.at_tolerance("single integral", tolerance, run)?;
+            let row = rows.add("single integral", at(tolerance), run)?;
             row.default_path = scene.place[1] > 0.0;
         }
         progress.advance(1);
@@ -196,31 +192,26 @@ pub(crate) fn measure(
             rows.add(reference, "no settings", closed)?;
         }
     }
-    tables(&medium, &scenes[0], densities, effort, &mut records)?;
+    records.extend(tables(&scenes[0], densities, effort)?);
     Ok(records)
 }
 
 /// Averages over time cells, looked up in tables of several densities with stencils of several orders.
-fn tables(
-    medium: &Medium,
-    scene: &KernelScene,
-    densities: &[Density],
-    effort: Effort,
-    records: &mut Vec<Record>,
-) -> Result<(), AnyError> {
+fn tables(scene: &KernelScene, densities: &[Density], effort: Effort) -> Rows {
+    let mut records = Vec::new();
     let [r, z] = scene.place;
     let last = scene.times[scene.times.len() - 1];
-    let exact_kernel = Kernel::new(medium, Profile::Hertz, 1e-12)?;
+    let (nu, linear) = (POISSON_RATIO, Smoothness::Linear);
+    let exact_kernel = Kernel::new(&Medium::new(nu)?, Profile::Hertz, 1e-12)?;
     for density in densities {
         for points in effort.pick(vec![4, Density::points()], vec![2, 4, 6, 8]) {
             let table = density.with_stencil(points)?;
-            let width = table.cell_width(medium.poisson_ratio())?;
+            let width = table.cell_width(nu)?;
             let count = (last / width) as usize;
             let mut exact = vec![[0.0; 6]; count];
             exact_kernel
                 .trace(r, z, count as f64 * width)?
                 .for_each_cell(width, count, |j, [average, ..]| exact[j] = average)?;
-            let (nu, linear) = (medium.poisson_ratio(), Smoothness::Linear);
             let run = || {
                 let mut cells = vec![[0.0; 6]; count];
                 table.trace(linear, nu, r, z, 0, &mut cells)?;
@@ -232,11 +223,11 @@ fn tables(
                 name: scene.name,
                 values: count as f64,
                 errors: &|cells: &Vec<Six>| Ok(off(cells, &exact, &scene.scale, &ALL)),
-                records: &mut *records,
+                records: &mut records,
             };
             let setting = format!("{}, {points} points", density.label());
             rows.add("table", setting, run)?.default_path = density.is_default(points);
         }
     }
-    Ok(())
+    Ok(records)
 }

@@ -3,7 +3,7 @@
 use crate::failure::Failure;
 use crate::report::{short, si, understood};
 use contact::law::radiation::LOSS;
-use contact::{Choice, Collision, Model, Plasticity, Scheme, Shape, Striker};
+use contact::{Choice, Model, Plasticity, Scheme, Shape, Striker};
 use impact::{Impact, ImpactError, Run, Scene};
 
 /// The area dashpot's relative error in the loss over the square of the memory in collision times, and the memory up to
@@ -20,7 +20,6 @@ pub(super) struct Case {
     /// The bodies; of two balls one with the reduced mass and radius strikes.
     pub(super) impact: Impact,
     pub(super) run: Run,
-    pub(super) collision: Collision,
     /// Radius in m and mass in kg of each ball, the striker first.
     pub(super) balls: Vec<[f64; 2]>,
     /// C = J/(mu c2) of the area dashpot in m s/N; none of a contact that flows, of which a code has the restitution.
@@ -35,28 +34,24 @@ impl Case {
         let strike = scene.strike().ok_or_else(|| {
             Failure::input("a force record has no rebound: give the scene a [striker]")
         })?;
-        let mut settings = scene.settings;
+        let settings = &scene.settings;
         let on_disc = settings.model.row().1 && settings.model != Model::Auto;
         if on_disc || settings.disc_radius_m.is_some() || settings.scheme == Scheme::Explicit {
             return Err(Failure::input(
                 "the contact of a particle code follows the load: leave contact.disc_radius_m, and a model or scheme of a fixed disc, out",
             ));
         }
-        settings.loss_tolerance.get_or_insert(LOSS_TOLERANCE);
-        let mut impact = Impact {
-            half_space: scene.target.clone(),
-            striker: strike.striker.clone(),
-            velocity_m_s: strike.velocity_m_s,
-            settings,
-        };
+        let (block, striker) = (scene.target.clone(), strike.striker.clone());
+        let mut impact = Impact::new(block, striker, strike.velocity_m_s);
+        impact.settings = *settings;
+        impact.settings.loss_tolerance.get_or_insert(LOSS_TOLERANCE);
         let mut balls = vec![[impact.striker.tip_radius_m, impact.striker.mass_kg]];
         let mut notes = vec![understood(scene)];
         if let Some(diameter_m) = target_diameter_m {
             notes.extend(onto_ball(&mut impact, &mut balls, diameter_m)?);
         }
         let run = impact.solve().map_err(ImpactError::from)?;
-        let collision = Collision::new(&impact.half_space, &impact.striker, impact.velocity_m_s);
-        let (groups, units) = (&run.solved.plan.groups, collision.units());
+        let (groups, units) = (&run.solved.plan.groups, impact.collision().units());
         let lag_m_s_n = run
             .solved
             .flow
@@ -69,7 +64,6 @@ impl Case {
             lag_m_s_n,
             impact,
             run,
-            collision,
             balls,
             notes,
         };

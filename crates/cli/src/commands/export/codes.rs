@@ -28,7 +28,8 @@ pub(super) fn lammps(case: &Case) -> String {
         text += &format!("variable {name:2} equal {value:<24?} # {what}\n");
     };
     variable("V", case.impact.velocity_m_s, "velocity of approach, m/s");
-    variable("ES", case.collision.effective_modulus_pa, "E*, Pa");
+    let modulus_pa = case.impact.collision().effective_modulus_pa;
+    variable("ES", modulus_pa, "E*, Pa");
     variable("E0", case.run.restitution, "restitution at V");
     if let Some(lag) = case.lag_m_s_n {
         variable("C", lag, "J/(mu c2) of the block, m s/N");
@@ -38,21 +39,16 @@ pub(super) fn lammps(case: &Case) -> String {
         variable(&format!("M{number}"), *mass_kg, "its mass, kg");
     }
     variable("dt", case.run.contact_time_s / LAMMPS_STEPS, "time step, s");
-    text += LAMMPS_BALL;
-    if case.balls.len() == 2 {
-        text += LAMMPS_SECOND;
-    }
-    text += LAMMPS_PAIR;
-    if case.balls.len() == 1 {
-        if case.lag_m_s_n.is_some() {
-            text += LAMMPS_DASHPOT;
-        }
-        text += LAMMPS_BLOCK;
-    }
-    text + LAMMPS_RUN
+    let parts: &[&str] = match (case.balls.len(), case.lag_m_s_n) {
+        (1, Some(_)) => &[BALL, PAIR, DASHPOT, BLOCK, RUN],
+        (1, None) => &[BALL, PAIR, BLOCK, RUN],
+        _ => &[BALL, SECOND, PAIR, RUN],
+    };
+    text + &parts.concat()
 }
 
-const LAMMPS_BALL: &str = "
+/// The parts of an input of LAMMPS.
+const BALL: &str = "
 units       si
 atom_style  sphere
 atom_modify map yes
@@ -68,14 +64,14 @@ velocity    all set 0 0 $(-v_V)
 variable    e equal vz[1]/v_V
 ";
 
-const LAMMPS_SECOND: &str = "
+const SECOND: &str = "
 create_atoms 1 single 0 0 $(-v_R2)
 set         atom 2 diameter $(2*v_R2)
 set         atom 2 mass ${M2}
 variable    e equal (vz[1]-vz[2])/v_V
 ";
 
-const LAMMPS_PAIR: &str = "
+const PAIR: &str = "
 # balls on each other: Hertz's law with one restitution, without friction
 pair_style  granular
 pair_coeff  * * hertz $(4/3*v_ES) ${E0} tangential linear_nohistory 0 0 damping coeff_restitution
@@ -83,7 +79,7 @@ pair_coeff  * * hertz $(4/3*v_ES) ${E0} tangential linear_nohistory 0 0 damping 
 
 /// The dashpot on the contact's area needs no memory: it is a force on each ball above the plane z = 0. It stands before
 /// the stock block, which it makes a comment.
-const LAMMPS_DASHPOT: &str = "
+const DASHPOT: &str = "
 # the block below z = 0, for balls of any radius at any velocity; d is the depth, fz not below zero
 variable    d  atom \"(z<radius)*(radius-z)\"
 variable    f  atom \"4/3*v_ES*sqrt(radius)*v_d*sqrt(v_d)-4*v_C*v_ES^2*radius*v_d*vz\"
@@ -92,10 +88,10 @@ fix         block all addforce 0 0 v_fz
 # at V alone, the same by a stock model:
 # ";
 
-const LAMMPS_BLOCK: &str = "fix block all wall/gran granular hertz $(4/3*v_ES) ${E0} tangential linear_nohistory 0 0 damping coeff_restitution zplane 0 NULL
+const BLOCK: &str = "fix block all wall/gran granular hertz $(4/3*v_ES) ${E0} tangential linear_nohistory 0 0 damping coeff_restitution zplane 0 NULL
 ";
 
-const LAMMPS_RUN: &str = "
+const RUN: &str = "
 fix         motion all nve/sphere
 timestep    ${dt}
 run         500
@@ -109,12 +105,13 @@ pub(super) fn yade(case: &Case) -> String {
         Some(lag) => (lag, 0.0),
         None => (0.0, damping(restitution)),
     };
-    let modulus_pa = case.collision.effective_modulus_pa;
+    let body = case.impact.collision();
+    let modulus_pa = body.effective_modulus_pa;
     let numbers = [
         ("V", case.impact.velocity_m_s, "velocity of approach, m/s"),
         ("E_STAR", modulus_pa, "1/E* = sum of (1 - nu^2)/E, Pa"),
-        ("R", case.collision.tip_radius_m, "radius of Hertz's law, m"),
-        ("M", case.collision.mass_kg, "mass of the motion, kg"),
+        ("R", body.tip_radius_m, "radius of Hertz's law, m"),
+        ("M", body.mass_kg, "mass of the motion, kg"),
         ("LAG", lag, "J/(mu c2) of the block, m s/N"),
         (
             "BETA",

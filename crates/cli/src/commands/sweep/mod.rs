@@ -118,9 +118,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     match (&arguments.action, &run.sweep, &run.output) {
         (Some(Action::Status(arguments)), _, _) => status::run(arguments),
         (Some(Action::Merge(arguments)), _, _) => merge::run(arguments),
-        (None, Some(sweep), _) if run.plan => {
-            plan::run(sweep, &spec(run, sweep)?, run.shards, run.json)
-        }
+        (None, Some(sweep), _) if run.plan => plan::run(run, sweep, &spec(run, sweep)?),
         (None, Some(sweep), Some(output)) => compute(run, sweep, output),
         (None, _, _) => Err(Failure::input("give a sweep file and -o OUT")),
     }

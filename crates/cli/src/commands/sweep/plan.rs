@@ -1,5 +1,6 @@
 //! `hertzlamb sweep --plan`: what a sweep takes, measured on a few of its rows.
 
+use super::Run;
 use crate::failure::{Failure, lines, show};
 use formats::sweep::{Spec, column_names, compute_rows, grain, row_bytes};
 use output::processor_s;
@@ -16,12 +17,7 @@ const MEASURED_S: f64 = 1.0;
 /// Rows of the first measurement.
 const FIRST_ROWS: usize = 64;
 
-pub(crate) fn run(
-    sweep: &Path,
-    spec: &Spec,
-    shards: Option<u32>,
-    json: bool,
-) -> Result<(), Failure> {
+pub(crate) fn run(arguments: &Run, sweep: &Path, spec: &Spec) -> Result<(), Failure> {
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     let (measured_rows, rows_per_second) =
         measure(spec, threads).map_err(|error| error.in_file(sweep))?;
@@ -31,7 +27,7 @@ pub(crate) fn run(
     let grains = rows.div_ceil(grain);
     let wished = (seconds / SHARD_S).ceil() as usize;
     let own = wished.clamp(1, MOST_SHARDS).min(grains);
-    let count = shards.map_or(own, |count| count as usize);
+    let count = arguments.shards.map_or(own, |count| count as usize);
     let rows_per_shard = (grains.div_ceil(count) * grain).min(rows);
     let (bytes, kept) = row_bytes(spec);
     // 32 bytes of its seal for each 8192
@@ -70,7 +66,7 @@ pub(crate) fn run(
         ("rate", rate),
         ("disk", format!("{disk} a shard while it is written")),
     ]);
-    show(json, &value, text)
+    show(arguments.json, &value, text)
 }
 
 /// Rows spread over the sweep, and how many of them a second takes; time is that of the processor, which other work on
