@@ -24,6 +24,10 @@ const SMOOTH: f64 = 0.02;
 /// Terms of the force in the root of time.
 const DEGREE: usize = 12;
 
+/// How far beside a jump its sides are read: parts of its time and of the zone, in which a force with the power 3/2 is nothing.
+const ROUNDING: f64 = 4e-15;
+const START: f64 = 1e-20;
+
 /// Nodes of the rule, side by side.
 const NODES: usize = 10;
 
@@ -32,6 +36,8 @@ pub(crate) struct Zone {
     /// Each ends at the sample of its number.
     pub(crate) cells: Range<usize>,
     parts: Vec<Part>,
+    /// When the pair of forces jumps, in s, and by how much, such as the rate of a contact that begins to yield.
+    jumps: Vec<(f64, [f64; 2])>,
 }
 
 /// A part of a zone on one side of a beginning or an end.
@@ -62,11 +68,23 @@ pub(crate) fn zones(
             Some(_) | None => zones.push(Zone {
                 cells: cell..cell + 1,
                 parts: Vec::new(),
+                jumps: Vec::new(),
             }),
         }
     }
     for zone in &mut zones {
         let [from_s, to_s] = span_s(&zone.cells);
+        let mut ends: Vec<f64> = contacts.as_flattened().to_vec();
+        ends.dedup();
+        for at_s in ends
+            .into_iter()
+            .filter(|at_s| from_s <= *at_s && *at_s < to_s)
+        {
+            let beside_s = ROUNDING * at_s + START * (to_s - from_s);
+            let [before, after] = [-beside_s, beside_s].map(|s| force(at_s + s));
+            let jump = [0, 1].map(|k| after[k] - before[k]);
+            zone.jumps.push((at_s, jump));
+        }
         for &[begin_s, end_s] in contacts {
             let [low, high] = [from_s.max(begin_s), to_s.min(end_s)];
             if low >= high {
@@ -203,6 +221,19 @@ impl Zone {
         let mut sums = [Six::default(); 2];
         for part in &self.parts {
             part.add(time_s, past_s, (trace, unit_s), &mut sums);
+        }
+        let [from_s, to_s] = [past_s[0], past_s[1].min(time_s)];
+        for (at_s, jump) in self
+            .jumps
+            .iter()
+            .filter(|one| from_s <= one.0 && one.0 < to_s)
+        {
+            let value = trace.at((time_s - at_s) / unit_s);
+            for (sum, jump) in sums.iter_mut().zip(jump) {
+                for f in 0..6 {
+                    sum[f] += jump * value[f];
+                }
+            }
         }
         sums
     }
