@@ -24,9 +24,9 @@ const SMOOTH: f64 = 0.02;
 /// Terms of the force in the root of time.
 const DEGREE: usize = 12;
 
-/// How far beside a jump its sides are read: parts of its time and of the zone, in which a force with the power 3/2 is nothing.
+/// How far beside a jump its sides are read: parts of its time and of the zone.
 const ROUNDING: f64 = 4e-15;
-const START: f64 = 1e-20;
+const START: f64 = 1e-10;
 
 /// Nodes of the rule, side by side.
 const NODES: usize = 10;
@@ -81,7 +81,10 @@ pub(crate) fn zones(
             .filter(|at_s| from_s <= *at_s && *at_s < to_s)
         {
             let beside_s = ROUNDING * at_s + START * (to_s - from_s);
-            let [before, after] = [-beside_s, beside_s].map(|s| force(at_s + s));
+            // free of what grows as the root of the distance
+            let side = |s: f64| [force(at_s + s), force(at_s + 4.0 * s)];
+            let sides = [beside_s, -beside_s].map(side);
+            let [after, before] = sides.map(|[near, far]| [0, 1].map(|k| 2.0 * near[k] - far[k]));
             let jump = [0, 1].map(|k| after[k] - before[k]);
             zone.jumps.push((at_s, jump));
         }
