@@ -72,16 +72,21 @@ pub(crate) struct Pressed {
 }
 
 impl Pressed {
-    /// The rate of something, by its difference over a part of the force.
+    /// The rate of something, by its difference over a part of the force or of the square of the radius.
     pub(crate) fn rate_of<const N: usize, E>(
         self,
         part: f64,
         of: impl Fn(Self) -> Result<[f64; N], E>,
     ) -> Result<[f64; N], E> {
-        if self.force_n == 0.0 || self.rate == 0.0 {
+        let lasts = [[self.force_n, self.rate], [self.square, self.square_rate]];
+        let half_s = part
+            * lasts
+                .map(|[x, rate]| (x / rate).abs())
+                .into_iter()
+                .fold(f64::INFINITY, f64::min);
+        if half_s == 0.0 || half_s.is_infinite() {
             return Ok([0.0; N]);
         }
-        let half_s = part * self.force_n / self.rate;
         let [more, less] = [half_s, -half_s].map(|seconds| {
             of(Self {
                 force_n: self.force_n + seconds * self.rate,
