@@ -205,8 +205,9 @@ impl Forecast {
                 (TABLE_S + DECODED_S * decoded, looked_up_s)
             }
         };
+        let deflection_s = (products * PRODUCT_S).min(1e-9 * transform_ns(2.0 * samples));
         Ok(Self {
-            seconds: loaded_s + fields_s / threads + products * PRODUCT_S,
+            seconds: loaded_s + fields_s / threads + deflection_s,
             ..Self::of(scene, samples, threads)
         })
     }

@@ -5,6 +5,7 @@
 //!
 //! Theory: `docs/theory.md` (T55).
 
+use crate::evaluator::convolve::{Transform, rises};
 use crate::evaluator::projection::{CellNodes, Node};
 use crate::kernels::Pulse;
 use crate::record::ForceRecord;
@@ -461,8 +462,15 @@ impl Excitation {
         let static_m_per_n = response.disc.static_compliance * self.units.displacement_m_per_n();
         let factor = share.factor();
         let above_n: Vec<f64> = force_n.iter().map(|p| p - base_n).collect();
-        let of = |n: usize| factor * force_n[n] - weights.delayed(&above_n[..=n]);
-        let all = (0..force_n.len()).map(|n| static_m_per_n * of(n));
-        all.collect()
+        let (rises, count) = (rises(0.0, &above_n), force_n.len());
+        let delayed = match Transform::if_faster(&rises, weights.values.len(), count) {
+            Some(transform) => transform.convolve_one(weights.values.iter().copied().take(count)),
+            None => (0..count)
+                .map(|n| weights.delayed(&above_n[..=n]))
+                .collect(),
+        };
+        let all = force_n.iter().zip(delayed);
+        all.map(|(p, delayed)| static_m_per_n * (factor * p - delayed))
+            .collect()
     }
 }

@@ -198,15 +198,22 @@ impl Transform {
         wanted: &[usize],
     ) -> [Vec<f64>; 6] {
         std::array::from_fn(|field| {
-            let mut product = self.spectrum(averages.iter().take(count).map(|cell| cell[field]));
-            for (a, b) in product.iter_mut().zip(&self.load) {
-                *a *= b;
-            }
-            let mut time = self.backward.make_output_vec();
-            // A spectrum that is not finite is all that can be wrong: so is the field then, which is refused as a result.
-            let _ = self.backward.process(&mut product, &mut time);
-            wanted.iter().map(|&n| time[n] / self.size as f64).collect()
+            let time = self.convolve_one(averages.iter().take(count).map(|cell| cell[field]));
+            wanted.iter().map(|&n| time[n]).collect()
         })
+    }
+
+    /// The same of one field, at all samples and some more; of no more cells than there are samples.
+    pub(crate) fn convolve_one(&self, averages: impl Iterator<Item = f64>) -> Vec<f64> {
+        let mut product = self.spectrum(averages);
+        for (a, b) in product.iter_mut().zip(&self.load) {
+            *a *= b;
+        }
+        let mut time = self.backward.make_output_vec();
+        // A spectrum that is not finite is all that can be wrong: so is the field then, which is refused as a result.
+        let _ = self.backward.process(&mut product, &mut time);
+        time.iter_mut().for_each(|x| *x /= self.size as f64);
+        time
     }
 }
 
