@@ -2,6 +2,7 @@
 
 use crate::arguments::{MemoryLimit, Overwrite, say_complete};
 use crate::failure::{Failure, say, show};
+use crate::process;
 use crate::progress::Bar;
 use clap::Args;
 use formats::accuracy_report;
@@ -70,6 +71,11 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     if let Some(grid) = arguments.grid.as_deref().filter(|name| is_file(name)) {
         apart(&[&arguments.output], &[("the grid", grid.into())])?;
     }
+    let beside = arguments.shard.map_or(".journal", |_| "");
+    let place = format!("{}{beside}", arguments.output.display());
+    process::say_then(move || {
+        format!("what is finished is kept in {place}; the same command goes on with it")
+    });
     if let Some(extension) = extension(arguments) {
         let summary = extend(&arguments.output, &extension, &Bar::new()).map_err(failure)?;
         let content = lookup::read(&arguments.output).map_err(Failure::work)?;
