@@ -151,12 +151,12 @@ fn size(plan: &PanelPlan<'_>, width: f64) -> [f64; 2] {
 /// A panel fitted around its plot.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Fitted<'a> {
-    pub(super) plan: &'a PanelPlan<'a>,
-    pub(super) frame: Frame,
+    plan: &'a PanelPlan<'a>,
+    frame: Frame,
     axes: Axes,
     title: Vec<String>,
-    pub(super) marks: Vec<Label>,
-    pub(super) legend: Option<Legend>,
+    marks: Vec<Label>,
+    legend: Option<Legend>,
     bar: Option<Bar>,
     needs: Needs,
 }
@@ -203,7 +203,7 @@ impl<'a> Fitted<'a> {
         for (layer, &numbers) in plan.panel.layers.iter().zip(&plan.numbers) {
             layer.draw(scene, frame, plan.colours.as_ref(), numbers);
         }
-        labels::draw_marks(scene, self, faces);
+        labels::draw_marks(scene, (plan, frame), &self.marks, faces);
         self.axes.draw(scene, frame, faces);
         let mark_rows = labels::rows(&self.marks);
         let mut line = frame.area.top - faces.gap() - Typeface::lines(faces.mark, mark_rows);
@@ -212,8 +212,10 @@ impl<'a> Fitted<'a> {
             scene.text(Text::new(title, at, faces.label, MIDDLE));
             line -= LINE * faces.label;
         }
-        labels::draw_points(scene, self, faces.tick);
-        if let Some(legend) = &self.legend {
+        let legend = self.legend.as_ref();
+        let taken = legend.and_then(|legend| legend.covered(frame.area));
+        labels::draw_points(scene, (plan, frame), taken, faces.tick);
+        if let Some(legend) = legend {
             legend.draw(scene, frame.area, faces.legend);
         }
         if let Some(bar) = &self.bar {

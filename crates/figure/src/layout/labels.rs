@@ -1,7 +1,6 @@
 //! What is written over a plot and above it: vertical lines with their labels side by side above the panel, and single
 //! points with labels beside them, where a plot is empty.
 
-use super::grid::Fitted;
 use super::plan::PanelPlan;
 use crate::colour::{MARK, WHITE};
 use crate::figure::Panel;
@@ -97,8 +96,13 @@ fn stacked(marks: &[(f64, &str)], width: f64, faces: &Typeface) -> Vec<Label> {
 }
 
 /// Draws the lines of a panel and their labels.
-pub(super) fn draw_marks(scene: &mut Scene, fitted: &Fitted<'_>, faces: &Typeface) {
-    let (plan, frame, area) = (fitted.plan, &fitted.frame, fitted.frame.area);
+pub(super) fn draw_marks(
+    scene: &mut Scene,
+    (plan, frame): (&PanelPlan<'_>, &Frame),
+    labels: &[Label],
+    faces: &Typeface,
+) {
+    let area = frame.area;
     for (x, _) in lines(plan) {
         let x = frame.across(x);
         let line = Shape::polyline(&[(x, area.bottom), (x, area.top)]);
@@ -107,7 +111,7 @@ pub(super) fn draw_marks(scene: &mut Scene, fitted: &Fitted<'_>, faces: &Typefac
         }
         scene.shape(line.stroked(Stroke::new(MARK, 1.0, &[3.0, 3.0])));
     }
-    for label in &fitted.marks {
+    for label in labels {
         let rise = faces.gap() + (label.row as f64 + 0.2) * LINE * faces.mark;
         let at = (area.left + label.centre, area.top - rise);
         scene.text(Text::new(&label.text, at, faces.mark, MIDDLE));
@@ -156,8 +160,12 @@ fn spread(boxes: &[Point], width: f64) -> Vec<f64> {
 const STAR: f64 = 7.0;
 
 /// Draws the points of a panel, each label where it covers least and no place that is taken, such as by the legend.
-pub(super) fn draw_points(scene: &mut Scene, fitted: &Fitted<'_>, size: f64) {
-    let (plan, frame) = (fitted.plan, &fitted.frame);
+pub(super) fn draw_points(
+    scene: &mut Scene,
+    (plan, frame): (&PanelPlan<'_>, &Frame),
+    taken: Option<Rect>,
+    size: f64,
+) {
     let mut points: Vec<(&str, bool, Point)> = Vec::new();
     for layer in &plan.panel.layers {
         if let Layer::Point {
@@ -181,8 +189,6 @@ pub(super) fn draw_points(scene: &mut Scene, fitted: &Fitted<'_>, size: f64) {
     for &at in &stars {
         star(scene, at, STAR);
     }
-    let legend = fitted.legend.as_ref();
-    let taken = legend.and_then(|legend| legend.covered(frame.area));
     let mut written: Vec<Rect> = taken.into_iter().collect();
     for point in points {
         let cost = |lines: &Vec<Text>| {

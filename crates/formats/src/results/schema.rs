@@ -2,8 +2,7 @@
 
 pub use crate::quantities::FIELDS;
 use crate::quantities::{Described, Labels, labels, labels_of};
-use crate::report::{choices, kernel_name};
-use impact::{EnergySeries, Outcome, ProbeFields, Scene, Series};
+use impact::{EnergySeries, ProbeFields, Series};
 
 /// Value of the attribute `file_type`.
 pub const FILE_TYPE: &str = "hertzlamb results";
@@ -102,33 +101,6 @@ pub(crate) fn beside(name: &str, (_, unit, meaning): Labels<'_>, at: &str) -> [D
         unit: unit.to_owned(),
         meaning: format!("{what}{at}: {meaning}"),
     })
-}
-
-/// The text attributes of the root that say what the file is and how its scene was computed: its [`choices`], its kernel,
-/// and what is known of the kernel.
-pub fn texts<'a>(scene: &Scene, outcome: &'a Outcome) -> [(&'static str, &'a str); 13] {
-    let [model, scheme, static_share, deflection, reason] = choices(scene, outcome);
-    let used = outcome.used.as_ref();
-    let table = used.and_then(|used| used.table.as_ref());
-    let [id, version] = table.map_or(["", ""], |table| table.each_ref().map(String::as_str));
-    [
-        ("file_type", FILE_TYPE),
-        ("format_version", FORMAT_VERSION),
-        ("software_version", env!("CARGO_PKG_VERSION")),
-        ("model", model),
-        ("scheme", scheme),
-        ("static_share", static_share),
-        ("deflection_of", deflection),
-        ("reason", reason),
-        ("kernel", kernel_name(outcome)),
-        ("kernel_reason", used.map_or("", |used| &used.reason)),
-        (
-            "convolution",
-            used.map_or("", |used| used.convolution.name()),
-        ),
-        ("table_id", id),
-        ("table_format_version", version),
-    ]
 }
 
 /// The samples of [`SERIES`], without those of a striker where there is none.

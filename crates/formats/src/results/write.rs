@@ -5,7 +5,7 @@ use super::schema;
 use super::section::{beside, waves, write_section};
 use crate::hdf::{attach_scales, new_file, numbers, reason, scalar, scale, text, vector};
 use crate::quantities::QUANTITIES;
-use crate::report::treatment;
+use crate::report::{choices, kernel_name, treatment};
 use crate::scene::resolved;
 use hdf5::{Dataset, File};
 use impact::{EnergySeries, Outcome, Peaks, ProbeFields, Scene};
@@ -122,7 +122,7 @@ pub fn peaks_of(scene: &Scene, time_s: &[f64], values: &[Vec<f64>]) -> Option<Pe
 }
 
 fn write_attributes(file: &File, scene: &Scene, outcome: &Outcome) -> Result<(), hdf5::Error> {
-    for (name, value) in schema::texts(scene, outcome) {
+    for (name, value) in texts(scene, outcome) {
         text(file, name, value)?;
     }
     text(file, schema::WARNINGS, &outcome.warnings.join("\n"))?;
@@ -189,4 +189,31 @@ fn ending(unit: &str) -> String {
         "_{}",
         unit.to_lowercase().replace('/', "_").replace('^', "")
     )
+}
+
+/// The text attributes of the root that say what the file is and how its scene was computed: its [`choices`], its kernel,
+/// and what is known of the kernel.
+fn texts<'a>(scene: &Scene, outcome: &'a Outcome) -> [(&'static str, &'a str); 13] {
+    let [model, scheme, static_share, deflection, reason] = choices(scene, outcome);
+    let used = outcome.used.as_ref();
+    let table = used.and_then(|used| used.table.as_ref());
+    let [id, version] = table.map_or(["", ""], |table| table.each_ref().map(String::as_str));
+    [
+        ("file_type", schema::FILE_TYPE),
+        ("format_version", schema::FORMAT_VERSION),
+        ("software_version", env!("CARGO_PKG_VERSION")),
+        ("model", model),
+        ("scheme", scheme),
+        ("static_share", static_share),
+        ("deflection_of", deflection),
+        ("reason", reason),
+        ("kernel", kernel_name(outcome)),
+        ("kernel_reason", used.map_or("", |used| &used.reason)),
+        (
+            "convolution",
+            used.map_or("", |used| used.convolution.name()),
+        ),
+        ("table_id", id),
+        ("table_format_version", version),
+    ]
 }
