@@ -271,19 +271,19 @@ impl<'a> Past<'a> {
                 0.5 * (from + to) - 0.5 * (to - from) * angle.cos()
             };
             // at a seam of the force its rate jumps by its error, which a difference would have
-            let from = self.seams_s.partition_point(|&seam| seam <= pairs[0][0]);
-            let mut seams = self.seams_s[from..]
-                .iter()
-                .take_while(|&&seam| seam < pairs[N - 1][1]);
+            let first = self
+                .seams_s
+                .partition_point(|seam| pairs.iter().any(|pair| *seam <= pair[0]));
+            let within = |seam: &&f64| pairs.iter().all(|pair| **seam < pair[1]);
+            let mut seams = self.seams_s[first..].iter().take_while(within);
             let parted = seams.find(|&&seam| {
                 let sides = |(angle, _)| pairs.map(|pair| place(pair, angle) < seam);
-                rule.on(0.0, PI)
-                    .map(sides)
-                    .any(|sides| sides[0] != sides[N - 1])
+                let mut sides = rule.on(0.0, PI).map(sides);
+                sides.any(|sides| sides[0] != sides[N - 1])
             });
             if let Some(&seam) = parted {
-                panels.push(pairs.map(|[from, to]| [seam.clamp(from, to), to]));
-                panels.push(pairs.map(|[from, to]| [from, seam.clamp(from, to)]));
+                panels.push(pairs.map(|[_, to]| [seam, to]));
+                panels.push(pairs.map(|[from, _]| [from, seam]));
                 continue;
             }
             for (i, pair) in pairs
