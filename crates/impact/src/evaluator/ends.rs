@@ -35,14 +35,13 @@ const NODES: usize = 10;
 pub(crate) struct Zone {
     /// Each ends at the sample of its number.
     pub(crate) cells: Range<usize>,
-    /// None where polynomials do not follow the force: its cells are not replaced.
-    pub(crate) parts: Vec<Part>,
+    parts: Vec<Part>,
     /// When the pair of forces jumps, in s, and by how much, such as the rate of a contact that begins to yield.
     jumps: Vec<(f64, [f64; 2])>,
 }
 
 /// A part of a zone on one side of a beginning or an end.
-pub(crate) struct Part {
+struct Part {
     origin_s: f64,
     /// Of time from the origin: 1 after a beginning, -1 before an end.
     sign: f64,
@@ -89,7 +88,6 @@ pub(crate) fn zones(
             let jump = [0, 1].map(|k| after[k] - before[k]);
             zone.jumps.push((at_s, jump));
         }
-        let mut followed = true;
         for &[begin_s, end_s] in contacts {
             let [low, high] = [from_s.max(begin_s), to_s.min(end_s)];
             if low >= high {
@@ -102,26 +100,24 @@ pub(crate) fn zones(
             };
             for side in [(low, 1.0), (high, -1.0)] {
                 let roots = [0.0, (middle - side.0).abs().sqrt()];
-                followed &=
-                    roots[1] == 0.0 || Part::push(side, roots, &force, sure, &mut zone.parts);
+                if roots[1] > 0.0 {
+                    Part::push(side, roots, &force, sure, &mut zone.parts);
+                }
             }
-        }
-        if !followed {
-            zone.parts.clear();
         }
     }
     zones
 }
 
 impl Part {
-    /// Adds what lies on a side of an origin, halved until a polynomial follows the force; whether one does.
+    /// Adds what lies on a side of an origin, halved until a polynomial follows the force.
     fn push(
         (origin_s, sign): (f64, f64),
         roots: [f64; 2],
         force: &impl Fn(f64) -> [f64; 2],
         allowed: f64,
         parts: &mut Vec<Self>,
-    ) -> bool {
+    ) {
         /// Parts are halved no more once there are so many.
         const MOST: usize = 16;
         let (middle, half) = (0.5 * (roots[0] + roots[1]), 0.5 * (roots[1] - roots[0]));
@@ -135,10 +131,11 @@ impl Part {
             2.0 * terms.map(|(value, cosine)| value[k] * cosine).sum::<f64>() / DEGREE as f64
         };
         let left = |k| term(k, DEGREE - 1).abs() + term(k, DEGREE - 2).abs();
-        if left(0).max(left(1)) > allowed {
-            let mut halves = [[roots[0], middle], [middle, roots[1]]].into_iter();
-            return parts.len() < MOST
-                && halves.all(|roots| Self::push((origin_s, sign), roots, force, allowed, parts));
+        if left(0).max(left(1)) > allowed && parts.len() < MOST {
+            for roots in [[roots[0], middle], [middle, roots[1]]] {
+                Self::push((origin_s, sign), roots, force, allowed, parts);
+            }
+            return;
         }
         // the derivative of each series, by its recurrence
         let mut series = [[0.0; 2]; DEGREE];
@@ -154,7 +151,6 @@ impl Part {
             roots,
             series,
         });
-        true
     }
 
     /// dF/dx, in the sense of time.

@@ -325,8 +325,7 @@ impl<'a> Sum<'a> {
         let mut change = [Six::default(); 2];
         for zone in &own.zones {
             let part = zone.cells.start.max(among.start)..zone.cells.end.min(among.end);
-            let left_out = part.is_empty() || zone.parts.is_empty();
-            let (Some(trace), false) = (&cells.trace, left_out) else {
+            let (Some(trace), false) = (&cells.trace, part.is_empty()) else {
                 continue;
             };
             let past_s = self.forcing.span_s(&self.forcing.runs[run], &part);
@@ -350,15 +349,12 @@ impl<'a> Sum<'a> {
         if std::mem::replace(&mut self.integrated[i], true) {
             return;
         }
-        let runs = self.forces.iter().flat_map(|force| &force.runs);
-        let mut zones = runs.flat_map(|run| &run.zones);
-        let followed = zones.all(|zone| !zone.parts.is_empty());
         for (k, cells) in cells.iter().enumerate() {
             let [change, last] = self.by_zones(i, k, cells, &(0..usize::MAX));
             for f in 0..self.components() {
                 self.values[f][i] += change[f];
                 self.left[f][i] += last[f];
-                self.rough[f][i] *= f64::from(u8::from(!followed));
+                self.rough[f][i] = 0.0;
             }
         }
     }
