@@ -461,13 +461,14 @@ impl Excitation {
         let weights = Weights::of_samples(&response, step_s, self.units.time_s(), force_n.len());
         let static_m_per_n = response.disc.static_compliance * self.units.displacement_m_per_n();
         let factor = share.factor();
-        let above_n: Vec<f64> = force_n.iter().map(|p| p - base_n).collect();
-        let (rises, count) = (rises(0.0, &above_n), force_n.len());
-        let delayed = match Transform::if_faster(&rises, weights.values.len(), count) {
-            Some(transform) => transform.convolve_one(weights.values.iter().copied().take(count)),
-            None => (0..count)
-                .map(|n| weights.delayed(&above_n[..=n]))
-                .collect(),
+        let count = force_n.len();
+        let delayed = if Transform::is_faster(count, weights.values.len(), count) {
+            let transform = Transform::new(&rises(base_n, force_n));
+            transform.convolve_one(weights.values.iter().copied().take(count))
+        } else {
+            let above_n: Vec<f64> = force_n.iter().map(|p| p - base_n).collect();
+            let all = (0..count).map(|n| weights.delayed(&above_n[..=n]));
+            all.collect()
         };
         let all = force_n.iter().zip(delayed);
         all.map(|(p, delayed)| static_m_per_n * (factor * p - delayed))

@@ -55,9 +55,8 @@ impl Convolver {
     /// As [`Convolver::new`], with the summation method given.
     pub fn by(force: &[f64], method: Method) -> Self {
         let mut convolver = Self::new(force);
-        let size = (2 * force.len()).next_power_of_two();
-        convolver.transform =
-            (method == Method::Transform).then(|| Transform::new(&convolver.rises, size));
+        let is_asked = method == Method::Transform;
+        convolver.transform = is_asked.then(|| Transform::new(&convolver.rises));
         convolver
     }
 
@@ -66,7 +65,8 @@ impl Convolver {
         let rises = rises(base, force);
         let live = rises.iter().rposition(|&d| d != 0.0).map_or(0, |i| i + 1);
         Self {
-            transform: Transform::if_faster(&rises, live, wanted.len()),
+            transform: Transform::is_faster(rises.len(), live, wanted.len())
+                .then(|| Transform::new(&rises)),
             force: force.to_vec(),
             rises,
             live,
@@ -161,7 +161,8 @@ pub(crate) struct Transform {
 }
 
 impl Transform {
-    fn new(rise: &[f64], size: usize) -> Self {
+    pub(crate) fn new(rise: &[f64]) -> Self {
+        let size = Self::size(rise.len());
         let mut transform = PLANNER.with_borrow_mut(|planner| Self {
             size,
             forward: planner.plan_fft_forward(size),
@@ -172,11 +173,14 @@ impl Transform {
         transform
     }
 
-    /// Of increments of which so many are not zero, where the sum over these for the samples wanted would take longer.
-    pub(crate) fn if_faster(rise: &[f64], live: usize, wanted: usize) -> Option<Self> {
-        let size = (2 * rise.len()).next_power_of_two();
-        let direct = direct_ns(wanted as f64, live as f64);
-        (transform_ns(size as f64) < direct).then(|| Self::new(rise, size))
+    /// So that the end of a convolution of so many samples does not come round to its beginning.
+    fn size(samples: usize) -> usize {
+        (2 * samples).next_power_of_two()
+    }
+
+    /// Whether the sum over increments of which so many are not zero, for the samples wanted, would take longer.
+    pub(crate) fn is_faster(samples: usize, live: usize, wanted: usize) -> bool {
+        transform_ns(Self::size(samples) as f64) < direct_ns(wanted as f64, live as f64)
     }
 
     fn spectrum(&self, samples: impl Iterator<Item = f64>) -> Vec<Complex<f64>> {
@@ -233,7 +237,7 @@ mod tests {
             .collect();
         for wanted in [(0..300).collect::<Vec<_>>(), vec![0, 7, 150, 299]] {
             let mut convolver = Convolver::from_base(0.0, &force, wanted);
-            convolver.transform = Some(Transform::new(&convolver.rises, 1024));
+            convolver.transform = Some(Transform::new(&convolver.rises));
             let b = convolver.fields(&[1.0; 6], &averages);
             convolver.transform = None;
             let a = convolver.fields(&[1.0; 6], &averages);

@@ -271,17 +271,14 @@ impl<'a> Past<'a> {
                 0.5 * (from + to) - 0.5 * (to - from) * angle.cos()
             };
             // at a seam of the force its rate jumps by its error, which a difference would have
-            let first = self
-                .seams_s
-                .partition_point(|seam| pairs.iter().any(|pair| *seam <= pair[0]));
-            let within = |seam: &&f64| pairs.iter().all(|pair| **seam < pair[1]);
-            let mut seams = self.seams_s[first..].iter().take_while(within);
-            let parted = seams.find(|&&seam| {
-                let sides = |(angle, _)| pairs.map(|pair| place(pair, angle) < seam);
-                let mut sides = rule.on(0.0, PI).map(sides);
-                sides.any(|sides| sides[0] != sides[N - 1])
+            let piece = |t: f64| self.seams_s.partition_point(|&seam| seam <= t);
+            let parted = rule.on(0.0, PI).filter(|_| N > 1).find_map(|(angle, _)| {
+                let pieces = pairs.map(|pair| piece(place(pair, angle)));
+                let seam = *self.seams_s[..pieces[0].max(pieces[N - 1])].last()?;
+                let inside = |[from, to]: &[f64; 2]| *from < seam && seam < *to;
+                (pieces[0] != pieces[N - 1] && pairs.iter().all(inside)).then_some(seam)
             });
-            if let Some(&seam) = parted {
+            if let Some(seam) = parted {
                 panels.push(pairs.map(|[_, to]| [seam, to]));
                 panels.push(pairs.map(|[from, _]| [from, seam]));
                 continue;

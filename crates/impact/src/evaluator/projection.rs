@@ -78,19 +78,16 @@ impl Projection {
                 }
             }
         }
-        let mut series = [vec![0.0; samples.len()], vec![0.0; samples.len()]];
-        let others = &mut found.unabsorbed[2];
-        for one in others
-            .iter()
-            .filter(|one| one.cell + BEFORE < samples.len() as isize)
-        {
-            let place = (one.cell + BEFORE) as usize;
-            (series[0][place], series[1][place]) = (one.slope, one.bend);
-        }
-        let [slopes, bends] = series.map(|own| Transform::if_faster(&own, others.len(), wanted));
-        found.transforms = slopes.zip(bends).map(|(slopes, bends)| [slopes, bends]);
-        if found.transforms.is_some() {
-            others.clear();
+        let (count, others) = (samples.len(), &mut found.unabsorbed[2]);
+        if Transform::is_faster(count, others.len(), wanted) {
+            let mut series = [vec![0.0; count], vec![0.0; count]];
+            for one in others.drain(..) {
+                let place = (one.cell + BEFORE) as usize;
+                if place < count {
+                    (series[0][place], series[1][place]) = (one.slope, one.bend);
+                }
+            }
+            found.transforms = Some(series.map(|own| Transform::new(&own)));
         }
         found
     }
