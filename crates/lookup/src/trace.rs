@@ -1,14 +1,13 @@
 //! The remainder at any point of a table: interpolated cells, tail, exact static part, error estimate.
 
-use crate::content::{FIELDS, Slice};
+use crate::content::Slice;
 use crate::error::LookupError;
 use crate::ratio;
-use crate::series::gather::{Rows, nodes};
+use crate::series::gather::Nodes;
 use crate::series::stencil::Stencil;
 use crate::series::{Moments, Numbers, Series, Smoothness, smooth};
 use crate::table::Table;
 use halfspace::{Medium, Profile, Six};
-use pulp::Arch;
 
 /// Largest coarsening: a cell of 2^20 table cells.
 const MAX_COARSENING: u32 = 20;
@@ -186,19 +185,11 @@ impl Plan<'_> {
             .saturating_mul(1 << self.coarsening);
         let stored = wanted.min(cells);
         let terms = content.slices[self.slices[0].0].tail_terms(content.r.len() * content.z.len());
+        let nodes = Nodes::new(&across, &down, content.z.len());
         let sum = |values: fn(&Slice) -> &[f32], length: usize, used: usize| {
-            let mut sums = vec![0.0; FIELDS * used];
-            for &(index, weight) in &self.slices {
-                let nodes: Vec<_> = nodes(&across, &down, content.z.len(), weight).collect();
-                Arch::new().dispatch(Rows {
-                    values: values(&content.slices[index]),
-                    length,
-                    nodes: &nodes,
-                    sums: &mut sums,
-                });
-            }
-            let cell = |k| std::array::from_fn(|field| sums[field * used + k]);
-            (0..used).map(cell).collect()
+            let weighted = |&(slice, weight)| (values(&content.slices[slice]), weight);
+            let slices: Vec<_> = self.slices.iter().map(weighted).collect();
+            nodes.sums(&slices, length, used)
         };
         let in_cells = if is_smooth { stored } else { 0 };
         let numbers: Numbers = [

@@ -2,66 +2,127 @@
 
 use crate::content::FIELDS;
 use crate::series::stencil::Stencil;
-use halfspace::Field;
-use pulp::{Simd, WithSimd};
+use halfspace::{Field, Six};
+use pulp::{Arch, Simd, WithSimd};
 
-/// Rows of numbers that are added at a time, so that the sums are loaded and stored an eighth as often.
+/// Rows of numbers that are added at a time.
 const ROWS: usize = 8;
 
-/// Nodes of a patch `across` by `down`, of a grid with `depths` depths, each with `weight` times its weights for fields even
-/// and odd across r = 0; those that weigh nothing are left out.
-pub(crate) fn nodes(
-    across: &Stencil,
-    down: &Stencil,
-    depths: usize,
-    weight: f64,
-) -> impl Iterator<Item = (usize, [f64; 2])> {
-    let columns = across.nodes().iter().zip(across.even()).zip(across.odd());
-    columns.flat_map(move |((&i, &even), &odd)| {
-        let rows = down.nodes().iter().zip(down.even());
-        rows.filter_map(move |(&k, &own)| {
-            let row = weight * own;
-            let weights = [even * row, odd * row];
-            (weights != [0.0; 2]).then_some((i * depths + k, weights))
-        })
-    })
+/// The nodes of a patch.
+pub(crate) struct Nodes {
+    /// Whole groups of them, each node with its weights for fields even and odd across r = 0.
+    groups: Vec<([usize; ROWS], [[f64; ROWS]; 2])>,
+    /// Factor with which a constant stays what it is.
+    scale: f64,
 }
 
-/// What is added of the nodes: the first numbers of each field, in vector registers; the same bits on every machine.
-pub(crate) struct Rows<'a> {
-    /// Of all nodes, `length` for each field.
-    pub(crate) values: &'a [f32],
-    pub(crate) length: usize,
-    pub(crate) nodes: &'a [(usize, [f64; 2])],
-    /// Of shape (field, time).
-    pub(crate) sums: &'a mut [f64],
+impl Nodes {
+    /// Those of a patch `across` by `down` of a grid with `depths` depths; nodes that weigh nothing are left out.
+    pub(crate) fn new(across: &Stencil, down: &Stencil, depths: usize) -> Self {
+        let most = across.nodes().len() * down.nodes().len();
+        let mut groups: Vec<([usize; ROWS], [[f64; ROWS]; 2])> =
+            Vec::with_capacity(most.div_ceil(ROWS));
+        let (mut slot, mut rounded) = (ROWS, 0.0);
+        for ((&i, &even), &odd) in across.nodes().iter().zip(across.even()).zip(across.odd()) {
+            for (&k, &own) in down.nodes().iter().zip(down.even()) {
+                let (node, weights) = (i * depths + k, [even * own, odd * own].map(exact_weight));
+                if weights == [0.0; 2] {
+                    continue;
+                }
+                if slot == ROWS {
+                    // places that stay empty are the first node at no weight
+                    groups.push(([node; ROWS], [[0.0; ROWS]; 2]));
+                    slot = 0;
+                }
+                if let Some((places, [even, odd])) = groups.last_mut() {
+                    places[slot] = node;
+                    [even[slot], odd[slot]] = weights;
+                }
+                slot += 1;
+                rounded += weights[0];
+            }
+        }
+        Self {
+            groups,
+            scale: 1.0 / rounded,
+        }
+    }
+
+    /// The sums of the first `used` of `length` numbers of each field, of slices with their weights; in vector registers, with
+    /// the same bits on every machine.
+    pub(crate) fn sums(&self, slices: &[(&[f32], f64)], length: usize, used: usize) -> Vec<Six> {
+        if used == 0 {
+            return Vec::new();
+        }
+        let work = Work(self, slices, [length, used]);
+        // longer registers convert no faster
+        #[cfg(target_arch = "x86_64")]
+        if let Some(simd) = pulp::x86::V3::try_new() {
+            return Simd::vectorize(simd, work);
+        }
+        Arch::new().dispatch(work)
+    }
 }
 
-impl WithSimd for Rows<'_> {
-    type Output = ();
+/// A weight of so few digits, 29 of 53, that its product with a number in single precision is exact.
+fn exact_weight(weight: f64) -> f64 {
+    const HALF: u64 = 1 << (f64::MANTISSA_DIGITS - 29 - 1);
+    f64::from_bits((weight.to_bits() + HALF) & !(2 * HALF - 1))
+}
+
+struct Work<'a>(&'a Nodes, &'a [(&'a [f32], f64)], [usize; 2]);
+
+impl WithSimd for Work<'_> {
+    type Output = Vec<Six>;
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) {
-        let used = (self.sums.len() / FIELDS).max(1);
-        for group in self.nodes.chunks(ROWS) {
-            for (field, sums) in self.sums.chunks_exact_mut(used).enumerate() {
-                // a group that is not full is filled with its first node at no weight
-                let node = |slot: usize| group.get(slot).unwrap_or(&group[0]);
-                let start = |slot| (node(slot).0 * FIELDS + field) * self.length;
-                let weight = |slot: usize| match group.get(slot) {
-                    Some((_, weights)) => weights[usize::from(ODD[field])],
-                    None => 0.0,
-                };
-                let weights: [f64; ROWS] = std::array::from_fn(weight);
-                let rows: [_; ROWS] =
-                    std::array::from_fn(|slot| &self.values[start(slot)..][..sums.len()]);
-                for (t, sum) in sums.iter_mut().enumerate() {
-                    let [a, b, c, d, e, f, g, h]: [f64; ROWS] =
-                        std::array::from_fn(|i| weights[i] * f64::from(rows[i][t]));
-                    *sum += ((a + b) + (c + d)) + ((e + f) + (g + h));
+    fn with_simd<S: Simd>(self, _: S) -> Vec<Six> {
+        // the product is exact, see `exact_weight`: fused or not, the sum has the same bits
+        let add = |weight: f64, value: f32, sum: f64| {
+            if S::IS_SCALAR || cfg!(target_family = "wasm") {
+                weight * f64::from(value) + sum
+            } else {
+                weight.mul_add(f64::from(value), sum)
+            }
+        };
+        let Self(nodes, slices, [length, used]) = self;
+        let is_even = (nodes.groups.iter()).all(|(_, [even, odd])| even == odd);
+        let mut found = vec![Six::default(); used];
+        for &(values, weight) in slices {
+            // a register that lies across two lines of the cache takes twice as long
+            let mut room = vec![0.0; FIELDS * used + ROWS];
+            let start = room.as_ptr().align_offset(64).min(ROWS);
+            let sums = &mut room[start..][..FIELDS * used];
+            let mut field = 0;
+            while field < FIELDS {
+                // fields of the same weights whose numbers follow each other are added in one run
+                let same = |&end: &usize| is_even || ODD[end] == ODD[field];
+                let others = (field + 1..FIELDS).take_while(same).count();
+                let fields = if used == length { 1 + others } else { 1 };
+                let count = fields * used;
+                let sums = &mut sums[field * used..][..count];
+                for (places, weights) in &nodes.groups {
+                    let row = |node| &values[(node * FIELDS + field) * length..][..count];
+                    let (rows, own) = (places.map(row), weights[usize::from(ODD[field])]);
+                    for (t, sum) in sums.iter_mut().enumerate() {
+                        let mut total = *sum;
+                        for k in 0..ROWS {
+                            total = add(own[k], rows[k][t], total);
+                        }
+                        *sum = total;
+                    }
+                }
+                field += fields;
+            }
+            let weight = weight * nodes.scale;
+            let fields: [&[f64]; FIELDS] = std::array::from_fn(|f| &sums[f * used..][..used]);
+            for (t, found) in found.iter_mut().enumerate() {
+                for (found, sums) in found.iter_mut().zip(fields) {
+                    *found += weight * sums[t];
                 }
             }
         }
+        found
     }
 }
 

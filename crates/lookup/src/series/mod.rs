@@ -11,7 +11,7 @@ use crate::content::FIELDS;
 use crate::series::tail::Tail;
 use halfspace::Six;
 use pulp::{Arch, Simd, WithSimd};
-use std::iter;
+use std::ops::Range;
 
 /// What is assumed of the force between samples one cell apart.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -124,8 +124,10 @@ impl Series {
         let (part, count) = (f64::from(coarsening).exp2(), cells.len());
         match smoothness {
             Smoothness::Linear => {
+                let whole = self.whole(part, count);
+                cells[..whole].copy_from_slice(&self.cells[0][..whole]);
                 let keep = |j: usize, [average]: [Six; 1]| cells[j] = average;
-                self.dispatch(part, count, keep);
+                self.dispatch(part, whole..count, keep);
             }
             Smoothness::Smooth => {
                 let moments = self.moments(part * self.width, count + smooth::BEYOND);
@@ -151,13 +153,28 @@ impl Series {
             part
         };
         let mut found = Moments::with_capacity(count);
-        self.dispatch(part, count, |_, cell| found.push(cell));
+        let whole = self.whole(part, count);
+        found.averages.extend_from_slice(&self.cells[0][..whole]);
+        found.first.extend_from_slice(&self.cells[1][..whole]);
+        found.second.extend_from_slice(&self.cells[2][..whole]);
+        self.dispatch(part, whole..count, |_, cell| found.push(cell));
         found
     }
 
+    /// How many of `count` cells that are `part` table cells wide are those of the table.
+    fn whole(&self, part: f64, count: usize) -> usize {
+        let stored = if part == 1.0 { self.cells[0].len() } else { 0 };
+        stored.min(count)
+    }
+
     /// [`Self::for_each_cell`] in vector registers; the same bits on every machine.
-    fn dispatch<const N: usize>(&self, part: f64, count: usize, keep: impl FnMut(usize, [Six; N])) {
-        struct Work<'a, F, const N: usize>(&'a Series, f64, usize, F);
+    fn dispatch<const N: usize>(
+        &self,
+        part: f64,
+        cells: Range<usize>,
+        keep: impl FnMut(usize, [Six; N]),
+    ) {
+        struct Work<'a, F, const N: usize>(&'a Series, f64, Range<usize>, F);
         impl<F: FnMut(usize, [Six; N]), const N: usize> WithSimd for Work<'_, F, N> {
             type Output = ();
 
@@ -166,37 +183,35 @@ impl Series {
                 self.0.for_each_cell(self.1, self.2, self.3);
             }
         }
-        Arch::new().dispatch(Work(self, part, count, keep));
+        Arch::new().dispatch(Work(self, part, cells, keep));
     }
 
-    /// Tells `keep` the first `N` numbers of each of `count` cells that are `part` table cells wide.
+    /// Tells `keep` the first `N` numbers of each of some cells that are `part` table cells wide.
     #[inline(always)]
     fn for_each_cell<const N: usize>(
         &self,
         part: f64,
-        count: usize,
+        cells: Range<usize>,
         mut keep: impl FnMut(usize, [Six; N]),
     ) {
         let stored = self.cells[0].len() as f64;
         let ends = |j: usize| [j as f64 * part, (j + 1) as f64 * part];
         // after the last arrival R is smooth: differences of thirds
-        let thirds: &[f64] = if N > 1 { &[1.0, 2.0, 3.0] } else { &[3.0] };
-        let edge = |j: usize, i: f64| {
-            let [from, to] = ends(j);
+        let parts = if N > 1 { 3 } else { 1 };
+        let first = cells.clone().find(|&j| ends(j)[1] > stored);
+        let first = first.unwrap_or(cells.end);
+        let edge = |n: usize| {
+            let [from, to] = ends(first + n / parts);
             let start = from.max(stored);
-            (start + (to - start) * i / 3.0) * self.width
+            (start + (to - start) * (n % parts) as f64 / parts as f64) * self.width
         };
-        let first = (0..count).position(|j| ends(j)[1] > stored);
-        let first = first.unwrap_or(count);
-        let others = (first..count).flat_map(|j| thirds.iter().map(move |&i| edge(j, i)));
-        let edges: Vec<f64> = iter::once(edge(first, 0.0)).chain(others).collect();
+        let mut edges = vec![0.0; 1 + (cells.end - first) * parts];
+        for (n, own) in edges.iter_mut().enumerate() {
+            *own = edge(n);
+        }
         let integrals = self.tail.integrals(&edges);
-        for j in 0..count {
+        for j in cells {
             let [from, to] = ends(j);
-            if part == 1.0 && to <= stored {
-                keep(j, std::array::from_fn(|i| self.cells[i][j]));
-                continue;
-            }
             let mut sums = [[0.0; FIELDS]; N];
             let (width, centre) = (to - from, 0.5 * (from + to));
             let mut start = from;
@@ -218,20 +233,17 @@ impl Series {
             }
             if to > stored {
                 let start = from.max(stored);
-                let at = &integrals[(j - first) * thirds.len()..];
-                let over = |[from, to]: [&Six; 2], [start, end]: [f64; 2]| -> Six {
-                    let duration = edge(j, end) - edge(j, start);
-                    std::array::from_fn(|f| self.tail.average(from[f] - to[f], duration))
+                let n = (j - first) * parts;
+                let over = |n: usize, end: usize, duration: f64| -> Six {
+                    let (scale, from, to) =
+                        (self.tail.scale(duration), &integrals[n], &integrals[end]);
+                    std::array::from_fn(|f| scale * (from[f] - to[f]))
                 };
                 let mut own = [[0.0; FIELDS]; N];
-                let duration = edge(j, 3.0) - edge(j, 0.0);
-                let nominal = (to - start) * self.width;
-                let whole = over([&at[0], &at[thirds.len()]], [0.0, 3.0]);
-                own[0] = whole.map(|a| a * duration / nominal);
+                own[0] = over(n, n + parts, (to - start) * self.width);
                 if N > 1 {
-                    let a = over([&at[0], &at[1]], [0.0, 1.0]);
-                    let b = over([&at[1], &at[2]], [1.0, 2.0]);
-                    let c = over([&at[2], &at[3]], [2.0, 3.0]);
+                    let third = |n: usize| over(n, n + 1, edges[n + 1] - edges[n]);
+                    let [a, b, c] = [n, n + 1, n + 2].map(third);
                     own[1] = std::array::from_fn(|f| (c[f] - a[f]) / 8.0);
                     own[2] = std::array::from_fn(|f| (a[f] - 2.0 * b[f] + c[f]) / 40.0);
                 }

@@ -2,8 +2,7 @@
 //!
 //! Theory: `docs/theory.md` (T21).
 
-use crate::content::FIELDS;
-use halfspace::Six;
+use halfspace::{Six, chebyshev_each};
 
 /// Times at which a series is summed side by side.
 const LANES: usize = 8;
@@ -27,15 +26,14 @@ impl Tail {
     /// The tail after `time_end` with the coefficients c_k.
     pub(super) fn new(time_end: f64, coefficients: &[Six]) -> Self {
         // int T_k(x) dx with x = 2u - 1, du = dx/2: G = sum_k C_k T_k, the constant is irrelevant.
+        let c = |k: usize| *coefficients.get(k).unwrap_or(&Six::default());
         let term = |k: usize| -> Six {
-            std::array::from_fn(|f| {
-                let c = |k: usize| coefficients.get(k).map_or(0.0, |c| c[f]);
-                match k {
-                    0 => 0.0,
-                    1 => 0.25 * (2.0 * c(0) - c(2)),
-                    _ => 0.5 * (c(k - 1) - c(k + 1)) / (2.0 * k as f64),
-                }
-            })
+            let (before, after, part) = match k {
+                0 => return Six::default(),
+                1 => (c(0).map(|c| 2.0 * c), c(2), 0.25),
+                _ => (c(k - 1), c(k + 1), 0.25 / k as f64),
+            };
+            std::array::from_fn(|f| part * (before[f] - after[f]))
         };
         Self {
             time_end,
@@ -44,31 +42,23 @@ impl Tail {
     }
 
     /// G at some times, eight of them side by side.
-    #[inline(always)]
     pub(super) fn integrals(&self, times: &[f64]) -> Vec<Six> {
         let mut found = vec![Six::default(); times.len()];
         for (found, times) in found.chunks_mut(LANES).zip(times.chunks(LANES)) {
             let time = |i| times.get(i).unwrap_or(&self.time_end);
             let x: [f64; LANES] = std::array::from_fn(|i| 2.0 * (self.time_end / time(i)) - 1.0);
-            for f in 0..FIELDS {
-                let [mut b1, mut b2] = [[0.0; LANES]; 2];
-                for c in self.terms[1..].iter().rev() {
-                    for i in 0..LANES {
-                        (b1[i], b2[i]) = (2.0 * x[i] * b1[i] - b2[i] + c[f], b1[i]);
-                    }
-                }
-                for (i, found) in found.iter_mut().enumerate() {
-                    found[f] = x[i] * b1[i] - b2[i] + self.terms[0][f];
-                }
+            let sums = chebyshev_each(&self.terms, x);
+            for (i, found) in found.iter_mut().enumerate() {
+                *found = sums.map(|sum| sum[i]);
             }
         }
         found
     }
 
-    /// The average of R over a time that long, between whose ends G differs by `difference`.
+    /// The average of R over a time that long for each unit that G differs by between its ends.
     #[inline(always)]
-    pub(super) fn average(&self, difference: f64, duration: f64) -> f64 {
-        self.time_end * difference / duration
+    pub(super) fn scale(&self, duration: f64) -> f64 {
+        self.time_end / duration
     }
 }
 
@@ -79,7 +69,7 @@ mod tests {
     fn average(tail: &Tail, from: f64, to: f64) -> Six {
         let ends = tail.integrals(&[from, to]);
         let (near, far) = (ends[0], ends[1]);
-        std::array::from_fn(|f| tail.average(near[f] - far[f], to - from))
+        std::array::from_fn(|f| tail.scale(to - from) * (near[f] - far[f]))
     }
 
     #[test]
