@@ -163,8 +163,7 @@ const FRAME_POINT: f64 = 4.0 * 6.0;
 /// Bytes of a point of a section whatever the frames: arrivals and errors.
 const POINT: f64 = 8.0 * 9.0;
 
-/// Products of the sum for the deflection of the disc at most, and seconds that one takes.
-const MOST_PRODUCTS: f64 = 1e11;
+/// Seconds that a product of the sum for the deflection of the disc takes.
 const PRODUCT_S: f64 = 1e-9;
 
 impl Forecast {
@@ -174,28 +173,17 @@ impl Forecast {
     }
 
     /// Of a scene whose force and times are known, among so many threads.
-    ///
-    /// # Errors
-    /// [`ImpactError::TooMuchWork`].
     pub(crate) fn new(
         scene: &Scene,
         grid: &Grid<'_>,
         source: Option<&KernelSource>,
         threads: f64,
-    ) -> Result<Self, ImpactError> {
+    ) -> Self {
         let (excitation, samples) = (grid.excitation, grid.count() as f64);
         // as long as a Rayleigh wave takes from the edge to the centre
         let memory_s = excitation.units().time_s() / excitation.medium().rayleigh_speed();
         let cells = memory_s / grid.step_s;
         let products = samples * cells.min(samples);
-        if products > MOST_PRODUCTS {
-            return Err(ImpactError::TooMuchWork {
-                products,
-                limit: MOST_PRODUCTS,
-                cells,
-                samples,
-            });
-        }
         let [computed_s, looked_up_s] = fields_s(scene, excitation, samples);
         let (loaded_s, fields_s) = match source {
             None => (0.0, 0.0),
@@ -206,10 +194,10 @@ impl Forecast {
             }
         };
         let deflection_s = (products * PRODUCT_S).min(1e-9 * transform_ns(2.0 * samples));
-        Ok(Self {
+        Self {
             seconds: loaded_s + fields_s / threads + deflection_s,
             ..Self::of(scene, samples, threads)
-        })
+        }
     }
 
     fn of(scene: &Scene, samples: f64, threads: f64) -> Self {

@@ -76,20 +76,6 @@ pub enum ImpactError {
         /// What to change.
         change: &'static str,
     },
-    /// The deflection of the disc needs more products than can be waited for.
-    #[error(
-        "the deflection of the disc is a sum of {products:.1e} products, more than {limit:.0e}: its memory spans {cells:.2e} of the output's {samples:.2e} samples; ask for a larger step_s, a smaller duration_s or a smaller disc_radius_m"
-    )]
-    TooMuchWork {
-        /// Products needed.
-        products: f64,
-        /// Products allowed.
-        limit: f64,
-        /// Samples of the disc's memory.
-        cells: f64,
-        /// Samples of the output.
-        samples: f64,
-    },
     /// Whoever asked for the scene has seen the forecast and does not want it.
     #[error("the scene was given up before it was begun: it takes about {seconds:.1e} s")]
     GivenUp {
@@ -148,10 +134,7 @@ impl Fault for ImpactError {
             Self::OutsideTable { source, .. } => source.culprit(),
             Self::OutsideBlock { source, .. } | Self::Domain(source) => source.culprit(),
             Self::TooMuchMemory { .. } => Culprit::of(Class::Memory),
-            Self::TooManySamples { .. }
-            | Self::TooMuchWork { .. }
-            | Self::GivenUp { .. }
-            | Self::NotFinite { .. } => culprit,
+            Self::TooManySamples { .. } | Self::GivenUp { .. } | Self::NotFinite { .. } => culprit,
             Self::NoDisc => culprit.key("disc_radius_m"),
             Self::TooWide {
                 radius_m,

@@ -160,7 +160,7 @@ fn begin<'e>(
     let chosen = choose_source(scene, kernels, excitation)?;
     let source = chosen.as_ref().map(|(source, _)| source);
     let grid = Grid::new(&Wanted::of(scene), excitation, source)?;
-    let forecast = Forecast::new(scene, &grid, source, busy(scene.points()))?;
+    let forecast = Forecast::new(scene, &grid, source, busy(scene.points()));
     forecast.check(scene, allowance.memory_bytes)?;
     if !(allowance.go_on)(&forecast) {
         let seconds = forecast.seconds;

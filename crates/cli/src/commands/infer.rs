@@ -55,8 +55,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         given.unwrap_or_else(|| ("bounces", arguments.bounces.clone().unwrap_or_default()));
     let (found, value) = formats::infer(&scene, (name, &values), arguments.error, unknown)?;
     let (name, results) = (unknown.name(), &found.results);
-    let end = |end: Option<f64>| end.map_or("beyond yield".to_owned(), |x| format!("{x:.4e}"));
-    let [low, high] = found.band.map(end);
+    let end = |end: Option<f64>, none: &str| end.map_or(none.to_owned(), |x| format!("{x:.4e}"));
+    let [low, high] = found.band;
+    let (low, high) = (end(low, "no lower bound"), end(high, "no upper bound"));
     let text = format!(
         "{name}  {:.6e}  ({low} to {high})\nvelocity over that of yield  {:.4}\nrestitution  {:.4}\ncontact time  {:.4e} s\npeak force  {:.4e} N",
         found.value,

@@ -226,7 +226,7 @@ pub(crate) fn peaks_at_probes(
     found.looked_up = matches!(source, KernelSource::Table(_));
     let grid = Grid::new(&Wanted::of(scene), excitation, Some(source))?;
     // on its own thread: whether a row fails depends on the row alone
-    Forecast::new(scene, &grid, Some(source), 1.0)?.check(scene, MOST_BYTES)?;
+    Forecast::new(scene, &grid, Some(source), 1.0).check(scene, MOST_BYTES)?;
     let time_s: Vec<f64> = grid.times_s().collect();
     let wanted: Vec<usize> = (0..time_s.len()).collect();
     let evaluator = Evaluator::new(source, &grid, &wanted, &scene.quantities, &|| {})?;
