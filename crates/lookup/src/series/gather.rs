@@ -136,3 +136,67 @@ const ODD: [bool; FIELDS] = {
     }
     odd
 };
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const LENGTH: usize = 11;
+    const SIDE: usize = 9;
+
+    fn values(seed: f64) -> Vec<f32> {
+        let one = |i: usize| (seed * (1.0 + i as f64)).sin() as f32;
+        (0..SIDE * SIDE * FIELDS * LENGTH).map(one).collect()
+    }
+
+    fn axis() -> Vec<f64> {
+        (0..SIDE).map(|i| 0.1 * (i * i + i) as f64).collect()
+    }
+
+    #[test]
+    fn sums_are_those_of_the_weights_with_the_same_bits_fused_or_not() {
+        let (axis, lists) = (axis(), [values(0.37), values(0.11)]);
+        let slices = [(&lists[0][..], 1.3), (&lists[1][..], -0.3)];
+        // beside the axis weights of odd fields are others, and groups are not full
+        for (mesh, x) in [(0, 0.03), (4, 2.1)] {
+            let across = Stencil::mirrored(&axis, mesh, x, 8);
+            let down = Stencil::one_sided(&axis, 3, 1.7, 8);
+            let nodes = Nodes::new(&across, &down, SIDE);
+            for used in [3, LENGTH] {
+                let found = nodes.sums(&slices, LENGTH, used);
+                let work = Work(&nodes, &slices, [LENGTH, used]);
+                assert_eq!(found, Simd::vectorize(pulp::Scalar::new(), work));
+                for (t, six) in found.iter().enumerate() {
+                    for (field, &sum) in six.iter().enumerate() {
+                        let mut exact = 0.0;
+                        for (a, &i) in across.nodes().iter().enumerate() {
+                            for (b, &k) in down.nodes().iter().enumerate() {
+                                let weights = if ODD[field] {
+                                    across.odd()
+                                } else {
+                                    across.even()
+                                };
+                                let place = ((i * SIDE + k) * FIELDS + field) * LENGTH + t;
+                                for (values, weight) in slices {
+                                    let own = weight * weights[a] * down.even()[b];
+                                    exact += own * f64::from(values[place]);
+                                }
+                            }
+                        }
+                        assert!((sum - exact).abs() < 1e-8, "{sum} {exact}");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_constant_stays_what_it_is() {
+        let (axis, ones) = (axis(), vec![1.0; SIDE * SIDE * FIELDS * LENGTH]);
+        let across = Stencil::mirrored(&axis, 4, 2.3, 8);
+        let down = Stencil::one_sided(&axis, 0, 0.1, 8);
+        let found = Nodes::new(&across, &down, SIDE).sums(&[(&ones, 1.0)], LENGTH, LENGTH);
+        let is_one = |x: &f64| (x - 1.0).abs() < 1e-14;
+        assert!(found.iter().flatten().all(is_one), "{found:?}");
+    }
+}
