@@ -94,11 +94,13 @@ pub enum ContactError {
     },
     /// An estimated error that is as large as the results.
     #[error(
-        "the estimated relative error of the results is {error:.2}, above 0.5: they say nothing; take a smaller step_s or tolerance, or another model"
+        "the estimated relative error of the results is {error:.2}, above 0.5: they say nothing; take {change}"
     )]
     Unreliable {
         /// The estimate.
         error: f64,
+        /// What to change.
+        change: &'static str,
     },
 }
 

@@ -177,7 +177,11 @@ impl Results {
         }
         let error = self.relative_error_estimate;
         if error > MOST_ERROR {
-            return Err(ContactError::Unreliable { error });
+            let change = match self.march_step_s > 0.0 {
+                true => "a smaller step_s or tolerance, or another model",
+                false => "another model",
+            };
+            return Err(ContactError::Unreliable { error, change });
         }
         Ok(self)
     }
