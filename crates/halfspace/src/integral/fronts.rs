@@ -85,7 +85,7 @@ fn add_fast(
 /// contain turns it into its negative.
 fn add_slow(singularities: &mut Singularities, setting: &Setting, at: Point, wave: Wave) {
     let span = setting.span;
-    let mut points = Points::new();
+    let mut points = Points::default();
     let mut add = |q: Complex64| {
         with_mirror(q, |q| points.push(q));
         with_reciprocal(q, |q| points.push(q));

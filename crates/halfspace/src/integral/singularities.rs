@@ -57,12 +57,12 @@ impl Singularities {
     ) -> Self {
         let mut singularities = Self {
             cuts: ArrayVec::new(),
-            points: Points::new(),
+            points: Points::default(),
             pole,
             strength: Strength::Bounded,
             root_ends,
             rounding: ROUNDING,
-            images: Points::new(),
+            images: Points::default(),
         };
         fixed.into_iter().for_each(|point| singularities.add(point));
         singularities
@@ -72,8 +72,7 @@ impl Singularities {
     /// usual one.
     #[inline]
     pub(crate) fn take(&mut self, fixed: &Self, strength: Strength, times: f64) {
-        self.cuts.clear();
-        self.cuts.extend(fixed.cuts.iter().copied());
+        self.cuts.clone_from(&fixed.cuts);
         self.points.copy(&fixed.points);
         (self.pole, self.root_ends) = (fixed.pole, fixed.root_ends);
         (self.strength, self.rounding) = (strength, times * ROUNDING);

@@ -1,6 +1,7 @@
 //! Polynomials through places and in Chebyshev's form.
 
-use crate::numeric::lanes::dispatch;
+use crate::numeric::lanes::{Lanes, dispatch};
+use crate::numeric::scalar::Scalar;
 use pulp::{Simd, WithSimd};
 
 /// A Chebyshev series at x in [-1, 1], by Clenshaw's recurrence.
@@ -32,20 +33,17 @@ impl<const F: usize, const N: usize> WithSimd for Series<'_, F, N> {
         let mut values = [[0.0; N]; F];
         for from in (0..N).step_by(S::F64_LANES) {
             let own = from..N.min(from + S::F64_LANES);
-            let x = simd.partial_load_f64s(&x[own.clone()]);
-            let twice = simd.add_f64s(x, x);
-            let (mut term, mut next) = (simd.splat_f64s(1.0), x);
-            let mut sums = [simd.splat_f64s(0.0); F];
+            let x = Lanes::of(simd, simd.partial_load_f64s(&x[own.clone()]));
+            let (mut term, mut next) = (x.constant(1.0), x);
+            let mut sums = [x.constant(0.0); F];
             for coefficients in series {
                 for (sum, coefficient) in sums.iter_mut().zip(coefficients) {
-                    let product = simd.mul_f64s(simd.splat_f64s(*coefficient), term);
-                    *sum = simd.add_f64s(*sum, product);
+                    *sum = *sum + term * *coefficient;
                 }
-                let after = simd.sub_f64s(simd.mul_f64s(twice, next), term);
-                (term, next) = (next, after);
+                (term, next) = (next, (x + x) * next - term);
             }
             for (values, sum) in values.iter_mut().zip(sums) {
-                simd.partial_store_f64s(&mut values[own.clone()], sum);
+                simd.partial_store_f64s(&mut values[own.clone()], sum.register);
             }
         }
         values

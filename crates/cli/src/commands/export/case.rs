@@ -3,7 +3,7 @@
 use crate::failure::Failure;
 use crate::report::{short, si, understood};
 use contact::law::radiation::LOSS;
-use contact::{Choice, Model, Plasticity, Scheme, Shape, Striker};
+use contact::{Choice, Model, Plasticity, Results, Scheme, Shape, Striker};
 use impact::{Impact, ImpactError, Run, Scene};
 
 /// The area dashpot's relative error in the loss over the square of the memory in collision times, and the memory up to
@@ -22,8 +22,6 @@ pub(super) struct Case {
     pub(super) run: Run,
     /// Radius in m and mass in kg of each ball, the striker first.
     pub(super) balls: Vec<[f64; 2]>,
-    /// C = J/(mu c2) of the area dashpot in m s/N; none of a contact that flows, of which a code has the restitution.
-    pub(super) lag_m_s_n: Option<f64>,
     /// What it is and where it holds, in sentences.
     pub(super) notes: Vec<String>,
 }
@@ -51,17 +49,7 @@ impl Case {
             notes.extend(onto_ball(&mut impact, &mut balls, diameter_m)?);
         }
         let run = impact.solve().map_err(ImpactError::from)?;
-        let (groups, units) = (&run.solved.plan.groups, impact.collision().units());
-        let lag_m_s_n = run
-            .solved
-            .flow
-            .is_none()
-            .then(|| match impact.settings.model {
-                Model::Hertz => 0.0,
-                _ => groups.lag * units.length_m * units.time_s / units.force_n,
-            });
         let mut case = Self {
-            lag_m_s_n,
             impact,
             run,
             balls,
@@ -84,19 +72,31 @@ impl Case {
         Ok(impact.solve().map_err(ImpactError::from)?)
     }
 
-    /// The loss to first order over v^(3/5), in SI units; zero without waves.
-    pub(super) fn loss_factor(&self) -> f64 {
+    /// The lag of the waves in collision times; zero without waves.
+    fn lag(&self) -> f64 {
         match self.impact.settings.model {
             Model::Hertz => 0.0,
-            _ => LOSS * self.run.solved.plan.groups.lag / self.impact.velocity_m_s.powf(0.6),
+            _ => self.run.solved.plan.groups.lag,
         }
+    }
+
+    /// C = J/(mu c2) of the area dashpot in m s/N; none of a contact that flows, of which a code has the restitution.
+    pub(super) fn lag_m_s_n(&self) -> Option<f64> {
+        let units = self.impact.collision().units();
+        let lag = self.lag() * units.length_m * units.time_s / units.force_n;
+        self.run.solved.flow.is_none().then_some(lag)
+    }
+
+    /// The loss to first order over v^(3/5), in SI units; zero without waves.
+    pub(super) fn loss_factor(&self) -> f64 {
+        LOSS * self.lag() / self.impact.velocity_m_s.powf(0.6)
     }
 
     /// The law that a code is given, with the memory of the half-space in collision times.
     fn law(&self, memory: f64) -> Result<String, Failure> {
         let v = self.impact.velocity_m_s;
         let here = short(v, "m/s");
-        Ok(match self.lag_m_s_n {
+        Ok(match self.lag_m_s_n() {
             Some(0.0) => "law: F = 4/3 E* sqrt(R) d^1.5, Hertz's, exact while nothing yields; no energy is lost to waves".to_owned(),
             Some(_) if memory > LARGEST_MEMORY => format!(
                 "law: F = 4/3 E* sqrt(R) d^1.5 + 4 C E*^2 R d d' >= 0, not to be trusted at {here}: the waves cross the contact in {memory:.2} collision times, more than {LARGEST_MEMORY}"
@@ -176,18 +176,29 @@ fn onto_ball(
     let echo_s = 2.0 * diameter_m / impact.half_space.longitudinal_speed_m_s();
     let contact_s = half_space.contact_time_s;
     let touch = short(contact_s, "s");
-    if echo_s > contact_s {
-        let waves = format!(
+    let waves = if echo_s > contact_s {
+        format!(
             "waves: the first echo in the target returns after {}, when the contact of {touch} has ended: it radiates as a half-space",
             short(echo_s, "s")
-        );
-        return Ok([geometry, waves]);
-    }
-    impact.settings.model = Model::Hertz;
-    let waves = format!(
-        "waves: echoes cross the target {:.0} times in the contact of {touch} and bring their energy back: the law of a half-space, which would radiate {:.2e} of the energy, does not apply, and nothing is radiated here",
-        contact_s / echo_s,
-        half_space.radiated_energy_j / half_space.initial_energy_j
-    );
+        )
+    } else {
+        impact.settings.model = Model::Hertz;
+        format!(
+            "waves: echoes cross the target {:.0} times in the contact of {touch} and bring their energy back: the law of a half-space, which would radiate {:.2e} of the energy, does not apply, and nothing is radiated here",
+            contact_s / echo_s,
+            half_space.radiated_energy_j / half_space.initial_energy_j
+        )
+    };
     Ok([geometry, waves])
+}
+
+/// Results of a velocity, with their names.
+pub(super) fn named(results: &Results) -> [(&'static str, f64); 5] {
+    [
+        ("restitution", results.restitution),
+        ("loss", results.loss),
+        ("contact_time_s", results.contact_time_s),
+        ("peak_force_n", results.peak_force_n),
+        ("relative_error_estimate", results.relative_error_estimate),
+    ]
 }

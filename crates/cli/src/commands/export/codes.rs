@@ -31,7 +31,7 @@ pub(super) fn lammps(case: &Case) -> String {
     let modulus_pa = case.impact.collision().effective_modulus_pa;
     variable("ES", modulus_pa, "E*, Pa");
     variable("E0", case.run.restitution, "restitution at V");
-    if let Some(lag) = case.lag_m_s_n {
+    if let Some(lag) = case.lag_m_s_n() {
         variable("C", lag, "J/(mu c2) of the block, m s/N");
     }
     for (number, [radius_m, mass_kg]) in (1..).zip(&case.balls) {
@@ -39,7 +39,7 @@ pub(super) fn lammps(case: &Case) -> String {
         variable(&format!("M{number}"), *mass_kg, "its mass, kg");
     }
     variable("dt", case.run.contact_time_s / LAMMPS_STEPS, "time step, s");
-    let parts: &[&str] = match (case.balls.len(), case.lag_m_s_n) {
+    let parts: &[&str] = match (case.balls.len(), case.lag_m_s_n()) {
         (1, Some(_)) => &[BALL, PAIR, DASHPOT, BLOCK, RUN],
         (1, None) => &[BALL, PAIR, BLOCK, RUN],
         _ => &[BALL, SECOND, PAIR, RUN],
@@ -101,7 +101,7 @@ print       \"restitution $(v_e:%.10g)\"
 /// A script for YADE.
 pub(super) fn yade(case: &Case) -> String {
     let restitution = case.run.restitution;
-    let (lag, beta) = match case.lag_m_s_n {
+    let (lag, beta) = match case.lag_m_s_n() {
         Some(lag) => (lag, 0.0),
         None => (0.0, damping(restitution)),
     };

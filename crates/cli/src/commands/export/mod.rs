@@ -6,7 +6,7 @@ mod table;
 
 use crate::arguments::Overwrite;
 use crate::failure::{Failure, lines, say, show};
-use case::Case;
+use case::{Case, named};
 use clap::{Args, ValueEnum};
 use formats::read_with_inputs;
 use output::CSV;
@@ -59,17 +59,15 @@ enum Format {
 
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let Arguments { format, output, .. } = arguments;
-    let is_table = *format == Format::Table;
     let (velocities, rows) = (arguments.velocities.as_deref(), arguments.rows);
-    if !is_table && (velocities.is_some() || rows.is_some()) {
+    if *format == Format::Table {
+        CSV.check(output)?;
+    } else if velocities.is_some() || rows.is_some() {
         return Err(Failure::input(
             "--velocities and --rows are those of a table: leave them out",
         ));
     }
     let (scene, inputs) = read_with_inputs(&arguments.scene)?;
-    if is_table {
-        CSV.check(output)?;
-    }
     let claimed = arguments.overwrite.claim(output, &inputs)?;
     let case = Case::new(&scene, arguments.target_diameter)?;
     let text = match format {
@@ -81,15 +79,11 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     for warning in &case.run.warnings {
         say(format!("warning: {warning}"));
     }
-    let value = json!({
-        "output": output.display().to_string(),
-        "restitution": case.run.restitution,
-        "loss": case.run.loss,
-        "contact_time_s": case.run.contact_time_s,
-        "peak_force_n": case.run.peak_force_n,
-        "relative_error_estimate": case.run.relative_error_estimate,
-        "notes": case.notes,
-    });
+    let mut value = json!({ "output": output.display().to_string() });
+    for (name, number) in named(&case.run) {
+        value[name] = number.into();
+    }
+    value["notes"] = json!(case.notes);
     let written = lines([("written", output.display())]);
     let text = format!("{}\n{written}", case.notes.join("\n"));
     show(arguments.json, &value, text)

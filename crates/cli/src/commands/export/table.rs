@@ -1,19 +1,8 @@
 //! The rebound over velocities as CSV, elastic and, where the scene has a law of flow, plastic.
 
-use crate::commands::export::case::Case;
+use crate::commands::export::case::{Case, named};
 use crate::failure::Failure;
 use contact::Plasticity;
-use formats::QUANTITIES;
-use std::fmt::Write;
-
-/// Results of a velocity.
-const COLUMNS: [&str; 5] = [
-    "restitution",
-    "loss",
-    "contact_time_s",
-    "peak_force_n",
-    "relative_error_estimate",
-];
 
 /// The second order of the loss over the square of the first, docs/theory.md (T53).
 const SECOND_ORDER: f64 = 0.65;
@@ -45,7 +34,7 @@ pub(super) fn table(case: &Case, velocities: Option<&[f64]>, rows: u32) -> Resul
         _ => &[("elastic", true), ("plastic", false)],
     };
     for (kind, _) in kinds {
-        text.extend(COLUMNS.map(|column| format!(",{kind}_{column}")));
+        text.extend(named(&case.run).map(|(name, _)| format!(",{kind}_{name}")));
     }
     text.push('\n');
     for row in 0..rows {
@@ -54,12 +43,8 @@ pub(super) fn table(case: &Case, velocities: Option<&[f64]>, rows: u32) -> Resul
         let velocity = from.powf(1.0 - place) * to.powf(place);
         text += &format!("{velocity:?}");
         for &(_, elastic) in kinds {
-            let results = case.at(velocity, elastic)?.results;
-            for column in COLUMNS {
-                let known = QUANTITIES.iter().find(|known| known.name == column);
-                let value = known.map_or(f64::NAN, |known| (known.of_contact)(&results));
-                let _ = write!(text, ",{value:?}");
-            }
+            let run = case.at(velocity, elastic)?;
+            text.extend(named(&run).map(|(_, value)| format!(",{value:?}")));
         }
         text.push('\n');
     }

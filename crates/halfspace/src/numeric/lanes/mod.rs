@@ -3,12 +3,27 @@
 //! A register holds four numbers or eight. No operation is fused, and sums are those of blocks of eight, so that every
 //! machine finds the same bits.
 
+/// Operators between numbers side by side, each by its formula.
+macro_rules! operators {
+    ($($numbers:ident, $operation:ident<$other:ty>, $method:ident: |$a:ident, $b:ident| $formula:expr;)*) => {$(
+        impl<S: Simd> $operation<$other> for $numbers<S> {
+            type Output = Self;
+
+            #[inline(always)]
+            fn $method(self, $b: $other) -> Self {
+                let $a = self;
+                $formula
+            }
+        }
+    )*};
+}
+
 mod elementary;
 mod pair;
 mod points;
 
 pub(crate) use pair::Pair;
-pub(crate) use points::{Map, Points, half_axes, major_axis, power};
+pub(crate) use points::{Map, Points, half_axes, major_axis, power, sum_of_inverse_powers};
 
 use crate::numeric::scalar::Scalar;
 use pulp::{Simd, WithSimd};
@@ -104,33 +119,14 @@ impl<S: Simd> Lanes<S> {
     }
 }
 
-macro_rules! operators {
-    ($($operation:ident, $method:ident, $vector:ident;)*) => {$(
-        impl<S: Simd> $operation for Lanes<S> {
-            type Output = Self;
-
-            #[inline(always)]
-            fn $method(self, other: Self) -> Self {
-                self.with(self.simd.$vector(self.register, other.register))
-            }
-        }
-
-        impl<S: Simd> $operation<f64> for Lanes<S> {
-            type Output = Self;
-
-            #[inline(always)]
-            fn $method(self, other: f64) -> Self {
-                self.$method(self.constant(other))
-            }
-        }
-    )*};
-}
-
 operators! {
-    Add, add, add_f64s;
-    Sub, sub, sub_f64s;
-    Mul, mul, mul_f64s;
-    Div, div, div_f64s;
+    Lanes, Add<Self>, add: |a, b| a.with(a.simd.add_f64s(a.register, b.register));
+    Lanes, Sub<Self>, sub: |a, b| a.with(a.simd.sub_f64s(a.register, b.register));
+    Lanes, Mul<Self>, mul: |a, b| a.with(a.simd.mul_f64s(a.register, b.register));
+    Lanes, Div<Self>, div: |a, b| a.with(a.simd.div_f64s(a.register, b.register));
+    Lanes, Add<f64>, add: |a, b| a + a.constant(b);
+    Lanes, Sub<f64>, sub: |a, b| a - a.constant(b);
+    Lanes, Mul<f64>, mul: |a, b| a * a.constant(b);
 }
 
 impl<S: Simd> Neg for Lanes<S> {

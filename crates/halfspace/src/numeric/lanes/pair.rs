@@ -38,59 +38,11 @@ impl<S: Simd> Scalar for Pair<S> {
     }
 }
 
-impl<S: Simd> Add for Pair<S> {
-    type Output = Self;
-
-    #[inline(always)]
-    fn add(self, other: Self) -> Self {
-        Self::new(self.re + other.re, self.im + other.im)
-    }
-}
-
-impl<S: Simd> Sub for Pair<S> {
-    type Output = Self;
-
-    #[inline(always)]
-    fn sub(self, other: Self) -> Self {
-        Self::new(self.re - other.re, self.im - other.im)
-    }
-}
-
-impl<S: Simd> Mul for Pair<S> {
-    type Output = Self;
-
-    #[inline(always)]
-    fn mul(self, other: Self) -> Self {
-        Self::new(
-            self.re * other.re - self.im * other.im,
-            self.re * other.im + self.im * other.re,
-        )
-    }
-}
-
-impl<S: Simd> Add<f64> for Pair<S> {
-    type Output = Self;
-
-    #[inline(always)]
-    fn add(self, other: f64) -> Self {
-        Self::new(self.re + other, self.im)
-    }
-}
-
-impl<S: Simd> Sub<f64> for Pair<S> {
-    type Output = Self;
-
-    #[inline(always)]
-    fn sub(self, other: f64) -> Self {
-        Self::new(self.re - other, self.im)
-    }
-}
-
-impl<S: Simd> Mul<f64> for Pair<S> {
-    type Output = Self;
-
-    #[inline(always)]
-    fn mul(self, other: f64) -> Self {
-        self.times(self.re.constant(other))
-    }
+operators! {
+    Pair, Add<Self>, add: |a, b| Self::new(a.re + b.re, a.im + b.im);
+    Pair, Sub<Self>, sub: |a, b| Self::new(a.re - b.re, a.im - b.im);
+    Pair, Mul<Self>, mul: |a, b| Self::new(a.re * b.re - a.im * b.im, a.re * b.im + a.im * b.re);
+    Pair, Add<f64>, add: |a, b| Self::new(a.re + b, a.im);
+    Pair, Sub<f64>, sub: |a, b| Self::new(a.re - b, a.im);
+    Pair, Mul<f64>, mul: |a, b| a.times(a.re.constant(b));
 }

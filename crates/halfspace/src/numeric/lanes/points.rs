@@ -6,8 +6,8 @@ use arrayvec::ArrayVec;
 use num_complex::Complex64;
 use pulp::{Simd, WithSimd};
 
-/// Most points, in whole blocks: each of 16 fronts and 10 fixed points may be a cut too.
-const CAPACITY: usize = 8 * WIDTH;
+/// Most blocks of points: each of 16 fronts and 10 fixed points may be a cut too.
+const BLOCKS: usize = 8;
 
 /// A function of a complex number.
 pub(crate) trait Map {
@@ -15,50 +15,40 @@ pub(crate) trait Map {
 }
 
 /// Points of a complex plane, real and imaginary parts side by side.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub(crate) struct Points {
-    /// In whole blocks, the last filled with what is nowhere.
-    re: ArrayVec<f64, CAPACITY>,
-    im: ArrayVec<f64, CAPACITY>,
+    /// The last is filled with what is nowhere.
+    blocks: ArrayVec<[[f64; WIDTH]; 2], BLOCKS>,
     count: usize,
 }
 
 impl Points {
-    /// Real and imaginary part of what is too far to matter, and of what fills the last register.
+    /// Real and imaginary part of what is too far to matter, and of what fills the last block.
     pub(crate) const NOWHERE: f64 = 1e12;
 
     #[inline]
-    pub(crate) fn new() -> Self {
-        Self {
-            re: ArrayVec::new(),
-            im: ArrayVec::new(),
-            count: 0,
-        }
-    }
-
-    #[inline]
     pub(crate) fn push(&mut self, point: Complex64) {
-        if self.count == self.re.len() {
-            extend(&mut self.re, &[Self::NOWHERE; WIDTH]);
-            extend(&mut self.im, &[Self::NOWHERE; WIDTH]);
+        let place = self.count % WIDTH;
+        if place == 0 {
+            self.blocks.push([[Self::NOWHERE; WIDTH]; 2]);
         }
-        (self.re[self.count], self.im[self.count]) = (point.re, point.im);
+        if let Some([re, im]) = self.blocks.last_mut() {
+            (re[place], im[place]) = (point.re, point.im);
+        }
         self.count += 1;
     }
 
     #[inline]
     pub(crate) fn iter(&self) -> impl Iterator<Item = Complex64> {
-        let all = self.re.iter().zip(&self.im).take(self.count);
-        all.map(|(&re, &im)| Complex64::new(re, im))
+        let all = self.blocks.iter().flat_map(|[re, im]| re.iter().zip(im));
+        all.take(self.count)
+            .map(|(&re, &im)| Complex64::new(re, im))
     }
 
     /// Becomes the points of another.
     #[inline]
     pub(crate) fn copy(&mut self, points: &Self) {
-        self.re.clear();
-        self.im.clear();
-        extend(&mut self.re, &points.re);
-        extend(&mut self.im, &points.im);
+        self.blocks.clone_from(&points.blocks);
         self.count = points.count;
     }
 
@@ -70,25 +60,28 @@ impl Points {
 
     /// The same, one by one.
     pub(crate) fn replace(&mut self, map: impl Fn(Complex64) -> Complex64) {
-        for (re, im) in self.re.iter_mut().zip(&mut self.im).take(self.count) {
+        let parts = self
+            .blocks
+            .iter_mut()
+            .flat_map(|[re, im]| re.iter_mut().zip(im));
+        for (re, im) in parts.take(self.count) {
             Complex64 { re: *re, im: *im } = map(Complex64::new(*re, *im));
         }
     }
 
-    /// The smallest major axis of the ellipses with two foci through the points, focal distance 2.
-    pub(crate) fn smallest_axis(&self, foci: [f64; 2]) -> f64 {
-        dispatch(SmallestAxis { points: self, foci })
+    /// Major axes of the ellipses with two foci through the points, focal distance 2, and the smallest.
+    pub(crate) fn axes(&self, foci: [f64; 2]) -> (ArrayVec<[f64; WIDTH], BLOCKS>, f64) {
+        dispatch(Axes { points: self, foci })
     }
+}
 
-    /// Sum of 1/rho^`power` over those ellipses of an axis up to `largest`, rho the sum of the half axes.
-    pub(crate) fn sum_of_inverse_powers(&self, foci: [f64; 2], largest: f64, power: u32) -> f64 {
-        let axes = SmallestAxis { points: self, foci };
-        dispatch(InversePowers {
-            axes,
-            largest,
-            power,
-        })
-    }
+/// Sum of 1/rho^`power` over ellipses of an axis up to `largest`, rho the sum of the half axes.
+pub(crate) fn sum_of_inverse_powers(axes: &[[f64; WIDTH]], largest: f64, power: u32) -> f64 {
+    dispatch(InversePowers {
+        axes,
+        largest,
+        power,
+    })
 }
 
 /// Major axis of the ellipse with foci s0, s1 through a point, focal distance 2.
@@ -121,13 +114,6 @@ pub(crate) fn power<T: Scalar>(mut x: T, mut exponent: u32) -> T {
     product
 }
 
-/// Adds numbers for which there is room.
-#[inline(always)]
-fn extend<const N: usize>(numbers: &mut ArrayVec<f64, N>, more: &[f64]) {
-    let added = numbers.try_extend_from_slice(more);
-    debug_assert!(added.is_ok());
-}
-
 struct Mapped<'a, M> {
     points: &'a mut Points,
     map: &'a M,
@@ -138,50 +124,45 @@ impl<M: Map> WithSimd for Mapped<'_, M> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        let Points { re, im, count } = self.points;
-        let used = count.next_multiple_of(S::F64_LANES);
-        let (re, _) = S::as_mut_simd_f64s(&mut re[..used]);
-        let (im, _) = S::as_mut_simd_f64s(&mut im[..used]);
-        for (re, im) in re.iter_mut().zip(im) {
-            let found = self
-                .map
-                .at(Pair::new(Lanes::of(simd, *re), Lanes::of(simd, *im)));
-            (*re, *im) = (found.re.register, found.im.register);
+        for [re, im] in &mut self.points.blocks {
+            let (re, im) = (S::as_mut_simd_f64s(re).0, S::as_mut_simd_f64s(im).0);
+            for (re, im) in re.iter_mut().zip(im) {
+                let point = Pair::new(Lanes::of(simd, *re), Lanes::of(simd, *im));
+                let found = self.map.at(point);
+                (*re, *im) = (found.re.register, found.im.register);
+            }
         }
     }
 }
 
-struct SmallestAxis<'a> {
+struct Axes<'a> {
     points: &'a Points,
     foci: [f64; 2],
 }
 
-impl SmallestAxis<'_> {
-    /// Calls `f` with the axis of each point.
-    #[inline(always)]
-    fn for_each<S: Simd>(&self, simd: S, mut f: impl FnMut(Lanes<S>)) {
-        let Points { re, im, count } = self.points;
-        let used = count.next_multiple_of(S::F64_LANES);
-        let parts = [re, im].map(|part| Lanes::registers(simd, &part[..used]));
-        let [re, im] = parts;
-        re.zip(im)
-            .for_each(|(re, im)| f(major_axis(re, im, self.foci)));
-    }
-}
-
-impl WithSimd for SmallestAxis<'_> {
-    type Output = f64;
+impl WithSimd for Axes<'_> {
+    type Output = (ArrayVec<[f64; WIDTH], BLOCKS>, f64);
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) -> f64 {
-        let mut smallest = Lanes::all(simd, f64::INFINITY);
-        self.for_each(simd, |axis| smallest = smallest.min(axis));
-        smallest.smallest()
+    fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
+        let (mut axes, mut smallest) = (ArrayVec::new(), Lanes::all(simd, f64::INFINITY));
+        for parts in &self.points.blocks {
+            let mut block = [0.0; WIDTH];
+            let [re, im] = parts.each_ref().map(|part| Lanes::registers(simd, part));
+            let registers = S::as_mut_simd_f64s(&mut block).0.iter_mut();
+            for (register, (re, im)) in registers.zip(re.zip(im)) {
+                let axis = major_axis(re, im, self.foci);
+                smallest = smallest.min(axis);
+                *register = axis.register;
+            }
+            axes.push(block);
+        }
+        (axes, smallest.smallest())
     }
 }
 
 struct InversePowers<'a> {
-    axes: SmallestAxis<'a>,
+    axes: &'a [[f64; WIDTH]],
     largest: f64,
     power: u32,
 }
@@ -193,13 +174,13 @@ impl WithSimd for InversePowers<'_> {
     fn with_simd<S: Simd>(self, simd: S) -> f64 {
         let [zero, one, largest] = [0.0, 1.0, self.largest].map(|v| Lanes::all(simd, v));
         let mut sums = [0.0; WIDTH];
-        let (sums_of, mut next) = (S::as_mut_simd_f64s(&mut sums).0, 0);
-        self.axes.for_each(simd, |axis| {
-            let left = one / power(half_axes(axis), self.power);
-            let sum = &mut sums_of[next % (WIDTH / S::F64_LANES)];
-            *sum = (Lanes::of(simd, *sum) + largest.where_below(axis, zero, left)).register;
-            next += 1;
-        });
+        let sums_of = S::as_mut_simd_f64s(&mut sums).0;
+        for block in self.axes {
+            for (sum, axis) in sums_of.iter_mut().zip(Lanes::registers(simd, block)) {
+                let left = one / power(half_axes(axis), self.power);
+                *sum = (Lanes::of(simd, *sum) + largest.where_below(axis, zero, left)).register;
+            }
+        }
         super::total(&sums)
     }
 }
