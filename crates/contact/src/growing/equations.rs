@@ -420,7 +420,7 @@ impl Equations<'_> {
         let (time, radius) = self.polynomials(sought);
         // the last term, or the one before continued at the rate of its fall
         let modes = nodes.modes(sought);
-        let [a, b, c] = [n - 2, n - 1, n].map(|k| modes[k].abs());
+        let [a, b, c] = [2, 1, 0].map(|k| modes[nodes.order() - k].abs());
         let continued = if b < a { b * b / a } else { b };
         Solution {
             piece: Piece {

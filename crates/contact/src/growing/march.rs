@@ -53,7 +53,7 @@ impl<'a> March<'a> {
         Self {
             contact,
             accuracy,
-            nodes: Nodes::of(degree as usize),
+            nodes: Nodes::of(degree as usize, false),
             pieces: Vec::with_capacity(32),
             state: State::TOUCH,
             law: Law::HERTZ,
@@ -85,6 +85,9 @@ impl<'a> March<'a> {
         given: Polynomial,
         mut guess: [f64; SIZE],
     ) -> Option<(Solution, f64)> {
+        // where what is known has no slope and the indentation has one, nothing in the piece has
+        let level = given.jet(0.0)[1] == 0.0 && self.state.slope < 0.0;
+        self.nodes = Nodes::of(self.nodes.degree, level);
         loop {
             let equations = Equations {
                 march: self,

@@ -84,11 +84,14 @@ pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(x, y)| x * y).sum()
 }
 
-/// Matrices of the polynomials of degree n through 0 and the n nodes of Radau's rule on (0, 1].
+/// Matrices of the polynomials of degree n through 0 and the n nodes of Radau's rule on (0, 1], or of those of a degree more
+/// that have no slope at 0.
 #[derive(Debug)]
 pub(crate) struct Nodes {
-    /// Degree n.
+    /// n
     pub(crate) degree: usize,
+    /// Whether they have no slope at 0.
+    level: bool,
     /// 0 and the nodes.
     pub(crate) places: Vec<f64>,
     /// Row i: slope with respect to s at the place i from the values at 0 and the nodes.
@@ -104,14 +107,20 @@ pub(crate) struct Nodes {
 }
 
 impl Nodes {
-    /// The nodes of a degree in [2, `LARGEST`].
-    pub(crate) fn of(degree: usize) -> &'static Self {
-        static ALL: [OnceLock<Nodes>; SIZE] = [const { OnceLock::new() }; SIZE];
-        let degree = degree.clamp(2, LARGEST);
-        ALL[degree].get_or_init(|| Self::new(degree))
+    /// The nodes of a degree in [2, `LARGEST`], of polynomials that have no slope at 0 or may have one.
+    pub(crate) fn of(degree: usize, level: bool) -> &'static Self {
+        static ALL: [[OnceLock<Nodes>; SIZE]; 2] = [const { [const { OnceLock::new() }; SIZE] }; 2];
+        let degree = degree.clamp(2, LARGEST - usize::from(level));
+        ALL[usize::from(level)][degree].get_or_init(|| Self::new(degree, level))
     }
 
-    fn new(n: usize) -> Self {
+    /// Degree of the polynomials.
+    pub(crate) fn order(&self) -> usize {
+        self.degree + usize::from(self.level)
+    }
+
+    fn new(n: usize, level: bool) -> Self {
+        let order = n + usize::from(level);
         let places: Vec<f64> = [0.0].into_iter().chain(radau(n)).collect();
         let others = |i: usize| (0..=n).filter(move |&j| j != i);
         let weight = |i: usize| {
@@ -125,29 +134,47 @@ impl Nodes {
                 row[j] = barycentric[j] / barycentric[i] / (places[i] - places[j]);
             }
             row[i] = -row.iter().sum::<f64>();
+            if level && i > 0 {
+                // of s/s_j times the polynomial of a node
+                for j in 1..=n {
+                    row[j] *= places[i] / places[j];
+                }
+                row[i] += 1.0 / places[i];
+                row[0] = -row[1..].iter().sum::<f64>();
+            }
             row
         };
         // the rule is exact for the polynomials through the nodes times those of the same degree
-        let rule = gauss::rule(n + 1);
+        let rule = gauss::rule(order + 1);
         let integral = |i: usize, j: usize| {
             let parts = rule.on(0.0, places[i]);
             parts
                 .map(|(x, weight)| weight * lagrange(|k| places[k + 1], n, j, x))
                 .sum()
         };
+        let basis = |j: usize, s: f64| {
+            let plain = |j| lagrange(|k| places[k], n + 1, j, s);
+            let risen = |j: usize| plain(j) * s / places[j];
+            match (level, j) {
+                (false, _) => plain(j),
+                (true, 0) => 1.0 - (1..=n).map(risen).sum::<f64>(),
+                (true, _) => risen(j),
+            }
+        };
         let mode = |k: usize, j: usize| {
             let part = |(s, weight): (f64, f64)| {
                 let (value, _) = gauss::legendre(k, 2.0 * s - 1.0);
-                (2 * k + 1) as f64 * weight * value * lagrange(|k| places[k], n + 1, j, s)
+                (2 * k + 1) as f64 * weight * value * basis(j, s)
             };
             rule.on(0.0, 1.0).map(part).sum()
         };
         Self {
             degree: n,
+            level,
             slope: (0..=n).map(slope).collect(),
             integral: matrix([n + 1, n], integral),
-            modes: matrix([n + 1; 2], mode),
-            powers: powers(n),
+            modes: matrix([order + 1, n + 1], mode),
+            powers: powers(order),
             barycentric,
             places,
         }
@@ -166,7 +193,7 @@ impl Nodes {
     pub(crate) fn polynomial(&self, values: &[f64]) -> Polynomial {
         let modes = self.modes(values);
         let mut found = Polynomial::constant(0.0);
-        found.degree = self.degree;
+        found.degree = self.order();
         for (k, row) in self.powers.iter().enumerate() {
             found.powers[k] = dot(&row[k..], &modes[k..]);
         }
@@ -187,6 +214,12 @@ impl Nodes {
         }
         let sum: f64 = values.iter().sum();
         values.iter_mut().for_each(|value| *value /= sum);
+        if self.level {
+            for (value, place) in values.iter_mut().zip(&self.places).skip(1) {
+                *value *= s / place;
+            }
+            values[0] = 1.0 - values[1..].iter().sum::<f64>();
+        }
     }
 }
 
@@ -281,7 +314,7 @@ mod tests {
     #[test]
     fn a_polynomial_is_met_with_its_slope_and_integral() {
         for n in 2..=LARGEST {
-            let nodes = Nodes::of(n);
+            let nodes = Nodes::of(n, false);
             let f = |s: f64| 1.0 / (2.0 + s);
             let values: Vec<f64> = nodes.places.iter().map(|&s| f(s)).collect();
             let found = nodes.polynomial(&values);
@@ -303,6 +336,34 @@ mod tests {
                 assert!((sum - found.jet(s)[1]).abs() < 1e-11, "{n} {i}");
                 let sum: f64 = integral.iter().zip(&values[1..]).map(|(a, b)| a * b).sum();
                 assert!((sum - ((2.0 + s) / 2.0).ln()).abs() < error, "{n} {i}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_polynomial_without_a_slope_at_its_start_is_met() {
+        for n in 3..LARGEST {
+            let nodes = Nodes::of(n, true);
+            let f = |s: f64| 1.0 / (2.0 + s * s);
+            let values: Vec<f64> = nodes.places.iter().map(|&s| f(s)).collect();
+            let found = nodes.polynomial(&values);
+            let error = 4.0 * 2.5_f64.powi(-(n as i32)) + 1e-12;
+            for s in [0.0, 0.013, 0.2, 0.77, 1.0] {
+                let [value, slope, _] = found.jet(s);
+                assert!((value - f(s)).abs() < error, "{n} {s}");
+                assert!((slope + 2.0 * s * f(s).powi(2)).abs() < 100.0 * error);
+                let mut basis = [0.0; SIZE];
+                nodes.lagrange(s, &mut basis);
+                let sum: f64 = basis.iter().zip(&values).map(|(a, b)| a * b).sum();
+                assert!((sum - value).abs() < 1e-12, "{n} {s}");
+            }
+            assert!(found.jet(0.0)[1].abs() < 1e-10);
+            for i in 1..=n {
+                let sum: f64 = nodes.slope[i].iter().zip(&values).map(|(a, b)| a * b).sum();
+                assert!(
+                    (sum - found.jet(nodes.places[i])[1]).abs() < 1e-10,
+                    "{n} {i}"
+                );
             }
         }
     }

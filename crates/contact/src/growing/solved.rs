@@ -22,7 +22,8 @@ pub struct SolvedContact {
     pub estimates: Estimates,
     /// What has flowed, where the contact has yielded.
     pub flow: Option<Flow>,
-    /// When the rate of the force jumps within the contact: the onset of yield and the turning point of one that yields.
+    /// When the rate of the force jumps within the contact, or has a root: the onset of yield and the turning point of one
+    /// that yields, and where what is left of a cut pressure begins to open.
     pub kinks: Vec<f64>,
     /// Work on the waves until each piece, over the kinetic energy.
     radiated: Vec<f64>,
@@ -91,15 +92,15 @@ impl SolvedContact {
         }
     }
 
-    /// Of a contact that has yielded: its largest radius, and when yield began and the indentation turned.
+    /// Of a contact that has yielded: its largest radius, and its [`Self::kinks`].
     pub(crate) fn yielded(
         march: March<'_>,
         yielding: &Yielding,
         top: f64,
-        times: [f64; 2],
+        times: Vec<f64>,
     ) -> Self {
         let (mut pieces, contact_time) = (march.pieces, march.state.time);
-        let nodes = Nodes::of(LARGEST);
+        let nodes = Nodes::of(LARGEST, false);
         for piece in &mut pieces {
             let force = |&s: &f64| {
                 let here = piece.law.branch.at(piece.radius.value(s).max(0.0));
@@ -134,7 +135,7 @@ impl SolvedContact {
         };
         Self {
             flow: Some(Flow::new(yielding, top, [flowed, lost])),
-            kinks: times.to_vec(),
+            kinks: times,
             radiated,
             ..Self::of(pieces, summary, &march.errors, 0.0)
         }
@@ -186,7 +187,7 @@ impl SolvedContact {
 
     /// Whether the indentation of a contact that has yielded has turned.
     fn turned(&self, time: f64) -> bool {
-        self.kinks.last().is_some_and(|&turn| time >= turn)
+        self.kinks.get(1).is_some_and(|&turn| time >= turn)
     }
 
     /// Number of polynomial pieces.

@@ -92,24 +92,24 @@ impl March<'_> {
         let (branch, from) = yielding.unloading(top);
         self.law = self.law.followed_by(branch, top);
         self.state.radius = from;
-        self.unload()?;
-        let times = [onset, turn];
+        let crossed = self.unload()?;
+        let times = [onset, turn].into_iter().chain(crossed).collect();
         Ok(Some(SolvedContact::yielded(self, yielding, top, times)))
     }
 
-    /// Pieces from where the striker turned until the force is gone.
-    fn unload(&mut self) -> Result<(), MarchError> {
-        let mut base = self.state.radius;
+    /// Pieces from where the striker turned until the force is gone; when the branch has a root.
+    fn unload(&mut self) -> Result<Option<f64>, MarchError> {
+        let (mut base, mut crossed) = (self.state.radius, None);
         if let Branch::Truncated { edge, top } = self.law.branch {
             // where the pressure was cut the branch has a root
             let kink = ((top - edge) * (top + edge)).max(0.0).sqrt();
             if self.open(base, kink)? || self.state.radius > kink {
-                return self.close();
+                return self.close().map(|()| None);
             }
-            base = kink;
+            (base, crossed) = (kink, Some(self.state.time));
         }
         self.open(base, 0.0)?;
-        self.close()
+        self.close().map(|()| crossed)
     }
 
     /// Pieces in time until the indentation turns.

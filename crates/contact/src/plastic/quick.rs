@@ -165,7 +165,7 @@ fn extrapolated<const N: usize>(
 /// Velocity, time and radiated energy where the radius of contact reaches that of yield.
 fn rise(edge: f64, lag: f64) -> Option<(f64, f64, f64)> {
     static COLUMNS: OnceLock<[[f64; NODES]; NODES]> = OnceLock::new();
-    let rule = Nodes::of(NODES);
+    let rule = Nodes::of(NODES, false);
     let column = |j| std::array::from_fn(|i| rule.integral[i + 1][j]);
     let columns = COLUMNS.get_or_init(|| std::array::from_fn(column));
     let (mut from, mut time, mut lost) = (0.0, 0.0, 0.0);

@@ -171,6 +171,9 @@ impl Part {
         let since_s = time_s - self.origin_s;
         let x_of = |s: f64| (self.sign * (since_s - s)).max(0.0).sqrt();
         // nothing after the instant itself
+        if from_s >= time_s {
+            return;
+        }
         let ends = [from_s, to_s.min(time_s)].map(|t| x_of(time_s - t));
         let low = self.roots[0].max(ends[0].min(ends[1]));
         let high = self.roots[1].min(ends[0].max(ends[1]));

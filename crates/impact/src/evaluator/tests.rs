@@ -400,7 +400,7 @@ fn what_arrives_from_the_turning_point_of_a_contact_that_yields_is_within_its_es
             let grid = Grid::new(&wanted, excitation, Some(&source)).unwrap();
             let times: Vec<f64> = grid.times_s().collect();
             let arrivals = excitation.arrivals_s(place);
-            let turned = excitation.kinks_s().last().copied().unwrap();
+            let turned = excitation.kinks_s()[1];
             let near = |t: f64| {
                 let of_front = |arrival: &f64| (t - turned - arrival).abs() < 4.0 * grid.step_s;
                 arrivals.iter().any(of_front)
@@ -437,7 +437,7 @@ fn under_the_cut(
     punch: impl Fn(f64, f64, Option<f64>) -> [f64; 2],
 ) -> [f64; 2] {
     let (top, end) = (own.flow.unwrap().contact_radius, own.summary.contact_time);
-    let [onset, turned] = own.kinks[..] else {
+    let [onset, turned, ..] = own.kinks[..] else {
         panic!()
     };
     let density =
