@@ -16,7 +16,7 @@ MOST_IN_FOLDER = 14
 # Code without tests, blanks and comments, source files, names of types: these numbers only go down, but for what users get:
 # they rose by 2,123 lines for contacts that yield, by 600 for seals, records of instruments and errors with one face, and
 # by 20 for what killed runs leave, sizes without a mass and legends.
-CEILINGS = {"code lines": 41_757, "source files": 350, "type names": 370}
+CEILINGS = {"code lines": 41_790, "source files": 350, "type names": 370}
 
 
 def modules(src):
