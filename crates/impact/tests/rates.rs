@@ -192,22 +192,31 @@ fn velocities_are_within_their_estimates_of_a_finer_output() {
     }
 }
 
+/// Velocities under a steel ball on aluminium, which it makes flow where there is a law for that.
+fn of_aluminium(
+    (model, plasticity): (Model, Plasticity),
+    tolerance: f64,
+    places: &[[f64; 2]],
+) -> Scene {
+    let load = Load::Strike(Strike {
+        striker: Striker::ball(Material::named("bearing-steel").unwrap(), 0.005).unwrap(),
+        velocity_m_s: 1.57,
+    });
+    let mut asked = scene(load, None, tolerance);
+    asked.target = HalfSpace::new(Material::named("aluminium-6061-t6").unwrap()).unwrap();
+    (asked.settings.model, asked.settings.plasticity) = (model, plasticity);
+    asked.quantities = VELOCITIES.to_vec();
+    let probe = |&[r_m, z_m]: &[f64; 2]| Probe { r_m, z_m };
+    asked.probes = places.iter().map(probe).collect();
+    asked
+}
+
 /// The rate of a dashpot's force jumps where it begins and ends, that of one that yields where it does and where it turns.
 #[test]
 fn velocities_are_within_their_estimates_where_the_rate_of_the_force_jumps() {
     for plasticity in [Plasticity::None, Plasticity::Thornton] {
-        let load = Load::Strike(Strike {
-            striker: Striker::ball(Material::named("bearing-steel").unwrap(), 0.005).unwrap(),
-            velocity_m_s: 1.57,
-        });
-        let mut asked = scene(load, None, 1e-4);
-        asked.target = HalfSpace::new(Material::named("aluminium-6061-t6").unwrap()).unwrap();
-        asked.settings.model = Model::AreaDashpot;
-        asked.settings.plasticity = plasticity;
-        asked.quantities = VELOCITIES.to_vec();
-        asked.probes = [[0.003, 0.003], [9e-4, 0.0], [0.0, 6e-4], [2e-3, 0.0]]
-            .map(|[r_m, z_m]| Probe { r_m, z_m })
-            .to_vec();
+        let places = [[0.003, 0.003], [9e-4, 0.0], [0.0, 6e-4], [2e-3, 0.0]];
+        let mut asked = of_aluminium((Model::AreaDashpot, plasticity), 1e-4, &places);
         asked.duration_s = Some(2.7e-5);
         let [over, estimate] = worst_of(&asked, 0.02);
         assert!(
@@ -220,19 +229,8 @@ fn velocities_are_within_their_estimates_where_the_rate_of_the_force_jumps() {
 /// What is left of a cut pressure begins to open with a root of time.
 #[test]
 fn velocities_are_within_their_estimates_where_a_cut_pressure_opens() {
-    let load = Load::Strike(Strike {
-        striker: Striker::ball(Material::named("bearing-steel").unwrap(), 0.005).unwrap(),
-        velocity_m_s: 1.57,
-    });
-    let mut asked = scene(load, None, 1e-3);
-    asked.target = HalfSpace::new(Material::named("aluminium-6061-t6").unwrap()).unwrap();
-    asked.settings.model = Model::Growing;
-    asked.settings.plasticity = Plasticity::Recovery;
-    asked.quantities = VELOCITIES.to_vec();
-    asked.probes = vec![Probe {
-        r_m: 0.003,
-        z_m: 0.003,
-    }];
+    let of = (Model::Growing, Plasticity::Recovery);
+    let mut asked = of_aluminium(of, 1e-3, &[[0.003, 0.003]]);
     asked.duration_s = None;
     let [over, estimate] = worst_of(&asked, 0.02);
     assert!(over < 2.0 && estimate < 0.02, "{over} {estimate}");

@@ -86,8 +86,8 @@ impl<'a> March<'a> {
         mut guess: [f64; SIZE],
     ) -> Option<(Solution, f64)> {
         // where what is known has no slope and the indentation has one, nothing in the piece has
-        let level = given.jet(0.0)[1] == 0.0 && self.state.slope < 0.0;
-        self.nodes = Nodes::of(self.nodes.degree, level);
+        let flat = given.jet(0.0)[1] == 0.0 && self.state.slope < 0.0;
+        self.nodes = Nodes::of(self.nodes.degree, flat);
         loop {
             let equations = Equations {
                 march: self,

@@ -88,10 +88,10 @@ pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
 /// that have no slope at 0.
 #[derive(Debug)]
 pub(crate) struct Nodes {
-    /// n
+    /// Nodes n; the degree is [`Self::order`].
     pub(crate) degree: usize,
     /// Whether they have no slope at 0.
-    level: bool,
+    flat: bool,
     /// 0 and the nodes.
     pub(crate) places: Vec<f64>,
     /// Row i: slope with respect to s at the place i from the values at 0 and the nodes.
@@ -108,19 +108,19 @@ pub(crate) struct Nodes {
 
 impl Nodes {
     /// The nodes of a degree in [2, `LARGEST`], of polynomials that have no slope at 0 or may have one.
-    pub(crate) fn of(degree: usize, level: bool) -> &'static Self {
+    pub(crate) fn of(degree: usize, flat: bool) -> &'static Self {
         static ALL: [[OnceLock<Nodes>; SIZE]; 2] = [const { [const { OnceLock::new() }; SIZE] }; 2];
-        let degree = degree.clamp(2, LARGEST - usize::from(level));
-        ALL[usize::from(level)][degree].get_or_init(|| Self::new(degree, level))
+        let degree = degree.clamp(2, LARGEST - usize::from(flat));
+        ALL[usize::from(flat)][degree].get_or_init(|| Self::new(degree, flat))
     }
 
     /// Degree of the polynomials.
     pub(crate) fn order(&self) -> usize {
-        self.degree + usize::from(self.level)
+        self.degree + usize::from(self.flat)
     }
 
-    fn new(n: usize, level: bool) -> Self {
-        let order = n + usize::from(level);
+    fn new(n: usize, flat: bool) -> Self {
+        let order = n + usize::from(flat);
         let places: Vec<f64> = [0.0].into_iter().chain(radau(n)).collect();
         let others = |i: usize| (0..=n).filter(move |&j| j != i);
         let weight = |i: usize| {
@@ -134,7 +134,7 @@ impl Nodes {
                 row[j] = barycentric[j] / barycentric[i] / (places[i] - places[j]);
             }
             row[i] = -row.iter().sum::<f64>();
-            if level && i > 0 {
+            if flat && i > 0 {
                 // of s/s_j times the polynomial of a node
                 for j in 1..=n {
                     row[j] *= places[i] / places[j];
@@ -155,7 +155,7 @@ impl Nodes {
         let basis = |j: usize, s: f64| {
             let plain = |j| lagrange(|k| places[k], n + 1, j, s);
             let risen = |j: usize| plain(j) * s / places[j];
-            match (level, j) {
+            match (flat, j) {
                 (false, _) => plain(j),
                 (true, 0) => 1.0 - (1..=n).map(risen).sum::<f64>(),
                 (true, _) => risen(j),
@@ -170,7 +170,7 @@ impl Nodes {
         };
         Self {
             degree: n,
-            level,
+            flat,
             slope: (0..=n).map(slope).collect(),
             integral: matrix([n + 1, n], integral),
             modes: matrix([order + 1, n + 1], mode),
@@ -214,7 +214,7 @@ impl Nodes {
         }
         let sum: f64 = values.iter().sum();
         values.iter_mut().for_each(|value| *value /= sum);
-        if self.level {
+        if self.flat {
             for (value, place) in values.iter_mut().zip(&self.places).skip(1) {
                 *value *= s / place;
             }
