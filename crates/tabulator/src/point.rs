@@ -82,8 +82,8 @@ impl PointPlan {
     pub fn compute(&self, r: f64, z: f64) -> Result<Numbers, BuildError> {
         let end = self.cells as f64 * self.width;
         // what lasts less than a cell is seen as its part of the cell
-        let part = |length: f64| (length / self.width).min(1.0);
-        let tolerance = TRACE * self.kernel.tolerance();
+        let part = |length: f64| [(length / self.width).min(1.0); 6];
+        let tolerance = [TRACE * self.kernel.tolerance(); 6];
         let trace = self.kernel.trace_under(r, z, end, (tolerance, &part))?;
         let tail = self.tail(r, z, end)?;
         let mut cells = Moments::with_capacity(self.cells);

@@ -19,7 +19,7 @@ pub(crate) fn segments(
     arrivals: &[f64],
     (first, end): (f64, f64),
     static_field: &Six,
-    (tolerance, rise): (f64, &dyn Fn(f64) -> f64),
+    (tolerance, rise): (Six, &dyn Fn(f64) -> Six),
     remainder: impl Fn(f64) -> Result<Estimate, DomainError>,
 ) -> Result<Vec<Segment>, DomainError> {
     let counts = |segment: &Segment| rise(segment.times[1] - segment.times[0]);
@@ -30,7 +30,7 @@ pub(crate) fn segments(
         let part = counts(&segment);
         for (f, peak) in peak.iter_mut().enumerate() {
             // of a force that begins so, less than the segment's part of it
-            *peak = peak.max(part.powf(1.5) * (segment.middle()[f] + static_field[f]).abs());
+            *peak = peak.max(part[f].powf(1.5) * (segment.middle()[f] + static_field[f]).abs());
         }
         stack.push(segment);
     }
@@ -44,7 +44,7 @@ pub(crate) fn segments(
     let mut done = vec![];
     while let Some(mut segment) = stack.pop() {
         let part = counts(&segment);
-        let allowed = peak.map(|peak| tolerance * peak / part);
+        let allowed = std::array::from_fn(|f| tolerance[f] * peak[f] / part[f]);
         let full = done.len() + stack.len() >= MOST;
         loop {
             if full || is_converged(&segment, &allowed) {

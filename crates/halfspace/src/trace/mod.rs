@@ -59,11 +59,12 @@ impl Kernel {
     /// [`DomainError`] for r, z or end outside [0, 1e20], and for a profile other than Hertz, whose stresses are infinite
     /// at fronts.
     pub fn trace(&self, r: f64, z: f64, end: f64) -> Result<Trace, DomainError> {
-        let rise = |length: f64| length.min(1.0);
-        self.trace_under(r, z, end, (self.tolerance(), &rise))
+        let rise = |length: f64| [length.min(1.0); 6];
+        self.trace_under(r, z, end, ([self.tolerance(); 6], &rise))
     }
 
-    /// R(t) as far as a force needs it that changes by no more than `rise` of its peak within a time.
+    /// R(t) as far as a force needs it that changes by no more than `rise` of its peak within a time, for each field on its
+    /// own: a force may stand for another, such as its rate, of which not all are wanted.
     ///
     /// Accuracy: responses to that force are within `tolerance` of their peaks, and typically a hundredth of it: beside
     /// fronts, in times in which the force hardly changes, R itself is known to fewer digits.
@@ -75,7 +76,7 @@ impl Kernel {
         r: f64,
         z: f64,
         end: f64,
-        (tolerance, rise): (f64, &dyn Fn(f64) -> f64),
+        (tolerance, rise): (Six, &dyn Fn(f64) -> Six),
     ) -> Result<Trace, DomainError> {
         check_place_under(self.profile(), r, z)?;
         check_time(end)?;
@@ -98,8 +99,8 @@ impl Kernel {
         for segment in &segments {
             let part = rise(segment.times[1] - segment.times[0]);
             for f in 0..6 {
-                error[f] += part * segment.error[f];
-                truncation[f] = truncation[f].max(OSCILLATES * part * segment.truncation[f]);
+                error[f] += part[f] * segment.error[f];
+                truncation[f] = truncation[f].max(OSCILLATES * part[f] * segment.truncation[f]);
             }
         }
         for (error, truncation) in error.iter_mut().zip(truncation) {

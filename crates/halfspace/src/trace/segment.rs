@@ -9,18 +9,16 @@
 //! It is t - a + 1 = cosh(Y s): what is as far beyond the front as the disc is wide, where its other edge's waves have
 //! a root too, is as far from the s in question however long the interval.
 //!
-//! The nodes are a Leja sequence, taken in pairs: each set holds the one before, so that a segment has as many as it needs,
-//! and none lies on a front.
+//! The nodes are those of [`leja`], none of which lies on a front.
 
 use crate::domain::DomainError;
 use crate::field::{Estimate, Six};
 use crate::numeric::gauss;
+use crate::numeric::leja::{self, MOST};
 use crate::numeric::polynomial::chebyshev_each;
 use std::f64::consts::{FRAC_PI_2, PI};
-use std::sync::LazyLock;
 
-/// Nodes of a segment at most, fewer beside a front, and at first.
-const MOST: usize = 39;
+/// Nodes of a segment at most beside a front, and at first.
 const MOST_BESIDE: usize = 15;
 const FEWEST: usize = 3;
 
@@ -136,61 +134,6 @@ impl Piece {
     }
 }
 
-/// Nodes in [-1, 1], and what makes coefficients of Chebyshev's polynomials of values at the first of them, for each set.
-struct Rule {
-    nodes: [f64; MOST],
-    inverses: Vec<Vec<Vec<f64>>>,
-}
-
-static RULE: LazyLock<Rule> = LazyLock::new(|| {
-    // after the middle and two near the ends, each pair where the product of distances to those before is largest
-    let mut nodes = vec![0.0, -0.97, 0.97];
-    while nodes.len() < MOST {
-        let product = |x: f64| -> f64 {
-            let own = (1.0 - x * x).sqrt();
-            own * nodes.iter().map(|node| (x - node).abs()).product::<f64>()
-        };
-        let tried = (1..1000).map(|i| (0.5 * PI * f64::from(i) / 1000.0).sin());
-        let best = tried.fold(
-            0.5,
-            |best, x| if product(x) > product(best) { x } else { best },
-        );
-        nodes.extend([-best, best]);
-    }
-    let inverse = |terms: usize| {
-        let row = |i: usize| -> Vec<f64> {
-            let unit = (0..terms).map(|j| f64::from(u8::from(i == j)));
-            let angle = nodes[i].acos();
-            (0..terms)
-                .map(|j| (j as f64 * angle).cos())
-                .chain(unit)
-                .collect()
-        };
-        let mut rows: Vec<Vec<f64>> = (0..terms).map(row).collect();
-        // Gauss and Jordan
-        for column in 0..terms {
-            let size = |i: &usize| rows[*i][column].abs();
-            let pivot = (column..terms).max_by(|a, b| size(a).total_cmp(&size(b)));
-            rows.swap(column, pivot.unwrap_or(column));
-            let scale = rows[column][column].recip();
-            let own: Vec<f64> = rows[column].iter().map(|x| scale * x).collect();
-            for (i, row) in rows.iter_mut().enumerate() {
-                let times = row[column];
-                for (x, o) in row.iter_mut().zip(&own) {
-                    *x = if i == column { *o } else { *x - times * o };
-                }
-            }
-        }
-        rows.iter().map(|row| row[terms..].to_vec()).collect()
-    };
-    Rule {
-        inverses: (0..=MOST)
-            .map(|n| if n % 2 == 1 { inverse(n) } else { Vec::new() })
-            .collect(),
-        nodes: std::array::from_fn(|i| nodes[i]),
-    }
-});
-
 /// A piece with its polynomial.
 #[derive(Debug, Clone)]
 pub(crate) struct Segment {
@@ -242,7 +185,7 @@ impl Segment {
             some => some + 2,
         };
         let (middle, half) = self.piece.middle();
-        for node in &RULE.nodes[self.values.len()..terms] {
+        for node in &leja::nodes()[self.values.len()..terms] {
             let (t, _) = self.piece.time(middle + half * node, 0.0);
             let found = remainder(t)?;
             self.values.push(found.value);
@@ -250,16 +193,7 @@ impl Segment {
                 *sum += NOISE * e;
             }
         }
-        self.series.clear();
-        for weights in &RULE.inverses[terms] {
-            let mut sum = Six::default();
-            for (weight, value) in weights.iter().zip(&self.values) {
-                for (s, v) in sum.iter_mut().zip(value) {
-                    *s += weight * v;
-                }
-            }
-            self.series.push(sum);
-        }
+        self.series = leja::series(&self.values);
         // a time is known to its rounding error
         let rounding = 4.0 * f64::EPSILON * self.times[1] / (self.times[1] - self.times[0]);
         for f in 0..6 {

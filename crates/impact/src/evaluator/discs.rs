@@ -11,7 +11,7 @@
 //! none of it: it is that of the radius of the instant.
 //!
 //! Beside the load the nodes are Chebyshev's. Some radii away from it waves are long beside the contact but in its first and
-//! last instants, when it is small: there a disc that is nearly a point stands for these, and one or two for the rest.
+//! last instants, when it is small: there a disc that is nearly a point stands for these, and one to three for the rest.
 //!
 //! Theory: `docs/theory.md` (T60).
 
@@ -33,16 +33,22 @@ pub(crate) struct Discs {
     pub(crate) omitted: Option<Vec<f64>>,
 }
 
-/// Squares of the radii some radii away from the load, and how many of them two choices have.
-const APART: [f64; 3] = [0.75, 0.003, 0.35];
-const COUNTS_APART: [usize; 2] = [2, 3];
+/// Squares of the radii some radii away from the load, and how many of them the choices have: most are small, since where
+/// the contact is large waves are long.
+const APART: [f64; 4] = [0.4, 0.003, 0.15, 0.8];
+const COUNTS_APART: [usize; 3] = [2, 3, 4];
 
 /// Digits up to which these serve.
 const DIGITS_APART: f64 = 5.0;
 
 /// Terms of 3 j1(ka)/(ka) over those before, as many times as in the first instants, when waves are short, a front may bring.
-const OMITTED: [f64; 2] = [1.0 / 28.0, 1.0 / 54.0];
-const CAUTION: f64 = 50.0;
+const OMITTED: [f64; 3] = [1.0 / 28.0, 1.0 / 54.0, 1.0 / 88.0];
+const CAUTION: f64 = 20.0;
+
+/// Tolerances that their kernels have: the forces on them are smooth, and what a trace leaves of either sign. Series of the
+/// fewest terms say little of what they leave: none is coarser than some part of the peak.
+const LOOSE: f64 = 3.0;
+pub(crate) const COARSEST: f64 = 3e-3;
 
 /// Discs for each digit of the tolerance where kernels are computed: more of them near the load.
 const A_DIGIT: [f64; 4] = [0.75, 2.0, 4.0, 8.0];
@@ -95,14 +101,10 @@ impl Discs {
         }
     }
 
-    /// The largest part of the load, over its own largest, that disc `k` bears some radii away; beside the load all count
-    /// alike, since their differences tell what is left.
-    pub(crate) fn largest_share(&self, k: usize) -> f64 {
-        const TRIALS: u32 = 64;
-        let squares = (1..=TRIALS).map(|i| f64::from(i) / f64::from(TRIALS));
-        let of = |square: f64| (square.powf(1.5) * self.share(k, square)[0]).abs();
-        let largest = |_| squares.map(of).fold(0.0, f64::max);
-        self.omitted.as_ref().map_or(1.0, largest)
+    /// Tolerance of the kernels of the discs for one on the fields; beside the load their differences tell what is left.
+    pub(crate) fn tolerance(&self, fields: f64) -> f64 {
+        let own = if self.omitted.is_some() { LOOSE } else { 1.0 };
+        (own * fields).min(COARSEST)
     }
 
     /// The product of a^2 less the square of each radius.

@@ -120,6 +120,9 @@ impl Sampled {
 /// Part of the force over which a polynomial of the radius is differenced (T61).
 const PART: f64 = 1e-6;
 
+/// What discs leave of a rate over what is taken: its waves are shorter than those of the force.
+const OF_RATES: f64 = 3.5;
+
 /// Slopes and bends below this fraction of the largest sample are left to the differences of the samples.
 const NEGLIGIBLE: f64 = 1e-9;
 
@@ -277,7 +280,11 @@ impl<'a> Forcing<'a> {
                 // what some discs leave some radii away, as its samples are
                 let nodes = CellNodes::new(run.count.saturating_sub(1), |_, _| {});
                 let beyond = |one: Pressed| [one.force_n * discs.product(one.square)];
-                let left = self.bent(counts[k], |t| self.sum(t, beyond)[0], run);
+                let caution = match self.reading {
+                    Reading::Force => 1.0,
+                    Reading::Rate => OF_RATES,
+                };
+                let left = self.bent(caution * counts[k], |t| self.sum(t, beyond)[0], run);
                 Some(Sampled::new(0.0, &left, &nodes, (needed, 1.0)))
             }
             (PressureRadius::Following { .. }, None) if discs.radii.len() == 1 => {

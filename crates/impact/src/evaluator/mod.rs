@@ -181,9 +181,9 @@ impl<'a> Evaluator<'a> {
         let worst = |sums: &[Sum<'_>]| sums.iter().map(Sum::worst).fold(0.0, f64::max);
         let is_near = self.distance(place_m) < APART;
         for pair in serving.windows(2) {
-            // to integrate a sample costs less than a disc
+            // to integrate two samples costs less than a disc
             let next = &self.choices[pair[1]];
-            let enough = open(&best.0) <= next.radii.len();
+            let enough = open(&best.0) <= 2 * next.radii.len();
             // far away the kernels of the smallest discs lose digits
             if self.past.is_none() || enough || !(is_near || next.omitted.is_some()) {
                 break;
@@ -240,18 +240,17 @@ impl<'a> Evaluator<'a> {
         known: Option<(usize, &[Cells])>,
     ) -> Result<(Vec<Sum<'_>>, Vec<Cells>), ImpactError> {
         let discs = &self.choices[choice];
-        let of = |(k, &over): (usize, &f64)| {
+        let of = |&over: &f64| {
             let known = known.and_then(|(choice, cells)| {
                 let mut known = self.choices[choice].radii.iter().zip(cells);
                 known.find(|(radius, _)| **radius == over)
             });
             match known {
                 Some((_, cells)) => Ok(cells.clone()),
-                None => self.cells(place_m, over, discs.largest_share(k)),
+                None => self.cells(place_m, over, discs.tolerance(self.grid.tolerance)),
             }
         };
-        let cells = discs.radii.iter().enumerate().map(of);
-        let cells: Vec<Cells> = cells.collect::<Result<_, _>>()?;
+        let cells: Vec<Cells> = discs.radii.iter().map(of).collect::<Result<_, _>>()?;
         let on_discs = |forcing: &Forcing<'_>| forcing.on_discs(discs);
         let forces =
             self.forces[choice].get_or_init(|| self.forcings.iter().map(on_discs).collect());
@@ -260,8 +259,8 @@ impl<'a> Evaluator<'a> {
         Ok((sums.collect::<Result<_, _>>()?, cells))
     }
 
-    /// The kernels of a disc of a radius `over` the largest that bears a share of the load, as far as the outputs need them.
-    fn cells(&self, place_m: [f64; 2], over: f64, share: f64) -> Result<Cells, ImpactError> {
+    /// The kernels of a disc of a radius `over` the largest, as far as the outputs need them.
+    fn cells(&self, place_m: [f64; 2], over: f64, tolerance: f64) -> Result<Cells, ImpactError> {
         let (excitation, grid) = (self.grid.excitation, self.grid);
         let (ratio, units) = (excitation.medium().poisson_ratio(), excitation.units());
         let disc_radius_m = over * units.disc_radius_m;
@@ -273,7 +272,7 @@ impl<'a> Evaluator<'a> {
             count: grid.longest() + differences.max().unwrap_or(0) + BEYOND,
             pulse: excitation.pulse(over),
             rates,
-            tolerance: self.grid.tolerance / share.min(1.0),
+            tolerance,
         };
         (self.source).cells(ratio, place, disc_radius_m, plan)
     }

@@ -9,22 +9,38 @@
 //! On a fixed disc R is that of Hertz's pressure.
 //!
 //! The integrand is smooth but where a front from the punch of an instant t' arrives at t, and where the contact's edge
-//! passes over a point of the surface. Between these instants Gauss
-//! rules in an angle, which turns roots at both ends into smooth functions, are exact to the accuracy of the punch's kernel.
+//! passes over a point of the surface. Between these instants it is a series in an angle, which turns roots at both ends into
+//! smooth functions, with as many terms as the tolerance needs.
 //!
 //! Theory: `docs/theory.md` (T55).
 
 use crate::error::ImpactError;
 use crate::excitation::{Excitation, PressureRadius};
-use halfspace::{Kernel, Profile, Six, gauss, weights_off_axis};
+use halfspace::{Kernel, Profile, Six, gauss, leja, weights_off_axis};
 use std::f64::consts::PI;
 use std::ops::Range;
+use std::sync::LazyLock;
 
 /// Distance in largest radii from which on the kernels of the first and last small contacts lose digits.
 const FAR: f64 = 30.0;
 
-/// Nodes of a rule at least.
-pub(crate) const LEAST: usize = 6;
+/// Terms of a series at least and at most, and how often an interval is halved then.
+const LEAST: usize = 5;
+const MOST: usize = 21;
+const HALVINGS: usize = 5;
+
+/// What the integrals of a series' terms are: its argument x stands for an angle (1 + x) pi/2, and it is that of a function
+/// times 1 - x^2, since stresses of a punch grow as 1/angle toward a front.
+static INTEGRALS: LazyLock<[f64; MOST]> = LazyLock::new(|| {
+    let rule = gauss::rule(gauss::MAX_NODES);
+    std::array::from_fn(|k| {
+        let terms = rule.on(-1.0, 1.0).map(|(x, weight)| {
+            let sine = (0.5 * PI * (1.0 + x)).sin();
+            weight * (k as f64 * x.acos()).cos() * 0.5 * PI * sine / (1.0 - x * x)
+        });
+        terms.sum()
+    })
+});
 
 /// Kinds of fronts, and the edge of the contact; of both pressures that stand for its own.
 const KINDS: usize = 11;
@@ -38,8 +54,8 @@ pub(crate) struct Past<'a> {
     /// Of a punch and of Hertz's pressure, for points that are far, and to fewer digits for others.
     punch: [Kernel; 2],
     hertz: [Kernel; 2],
-    /// Nodes of a rule, and radii from which the axis is continued.
-    nodes: usize,
+    tolerance: f64,
+    /// Radii from which the axis is continued.
     radii: usize,
 }
 
@@ -59,15 +75,34 @@ impl<'a> Past<'a> {
             seams_s: excitation.seams_s(),
             punch: kernels(Profile::Punch)?,
             hertz: kernels(Profile::Hertz)?,
-            nodes: (-7.5 * tolerance.log10() - 10.5).clamp(8.0, 40.0) as usize,
+            tolerance,
             radii: if tolerance < 1e-5 { 4 } else { 2 },
         })
     }
 
     /// The six fields in SI units at a point in m, at a time in s.
     pub(crate) fn at(&self, place_m: [f64; 2], time_s: f64) -> Result<Six, ImpactError> {
-        let pressures = self.excitation.pressures(time_s);
-        let mut sum = self.excitation.static_si(place_m, pressures)?;
+        /// Instants, as parts of the contact, near one of which the force is large, and tolerances of a last term.
+        const PARTS_OF_PEAK: [f64; 4] = [0.2, 0.4, 0.6, 0.8];
+        const ALLOWED: f64 = 0.2;
+        let still = |time_s: f64| {
+            let pressures = self.excitation.pressures(time_s);
+            self.excitation.static_si(place_m, pressures)
+        };
+        // of the largest static field of a kind
+        let mut kinds = [0.0_f64; 2];
+        for part in PARTS_OF_PEAK {
+            for (f, value) in still(part * self.excitation.end_s())?
+                .into_iter()
+                .enumerate()
+            {
+                let kind = &mut kinds[usize::from(f >= 2)];
+                *kind = kind.max(value.abs());
+            }
+        }
+        let allowed =
+            std::array::from_fn(|f| ALLOWED * self.tolerance * kinds[usize::from(f >= 2)]);
+        let mut sum = still(time_s)?;
         // rates that are not smooth inside a contact, as under a disc whose memory has ended, need short spans
         const PARTS: usize = 16;
         let graded = |i: usize| {
@@ -76,7 +111,7 @@ impl<'a> Past<'a> {
         };
         for i in 0..PARTS {
             let span_s = [graded(i), graded(i + 1)];
-            let waves = self.between(LEAST, place_m, [time_s], span_s)?[0];
+            let waves = self.between(&allowed, place_m, [time_s], span_s)?[0];
             for (sum, waves) in sum.iter_mut().zip(waves) {
                 *sum += waves;
             }
@@ -189,18 +224,17 @@ impl<'a> Past<'a> {
         place_m: [f64; 2],
         time_s: f64,
         mut span_s: [f64; 2],
-        step_s: f64,
+        (step_s, allowed): (f64, &Six),
     ) -> Result<Six, ImpactError> {
         const PART: f64 = 0.002;
-        /// Of a rule at least.
-        const NODES: usize = 12;
         let from_s = (time_s - PART * step_s).max(0.0);
         let to_s = time_s + PART * step_s;
         // what ends with the sample goes on with it
         if span_s[1] > from_s {
             span_s[1] = f64::INFINITY;
         }
-        let [before, after] = self.between(NODES, place_m, [from_s, to_s], span_s)?;
+        let allowed = allowed.map(|rate| rate * (to_s - from_s));
+        let [before, after] = self.between(&allowed, place_m, [from_s, to_s], span_s)?;
         let mut rate: Six = std::array::from_fn(|f| (after[f] - before[f]) / (to_s - from_s));
         // what leaves the span at its ends is not lost: the sum over the cells has the rate of the force inside it
         for (at_s, sign) in [(span_s[0], -1.0), (span_s[1], 1.0)] {
@@ -211,14 +245,14 @@ impl<'a> Past<'a> {
         Ok(rate)
     }
 
-    /// The waves from a part of the past at some times that are close together, by rules of so many nodes at least, the same
-    /// for all times: what they miss is nearly the same, too, and differences lose it.
+    /// The waves from a part of the past at a time, or at two that are close together, by series whose last terms are within
+    /// what is allowed; those of two times have the same nodes and are judged by their difference, which loses what both miss.
     ///
     /// Near the axis of a punch, where fronts from opposite edges meet and it has no kernel of its own, fields are r to
     /// their parity times a function of r^2, which their values at a few larger radii continue.
     pub(crate) fn between<const N: usize>(
         &self,
-        least: usize,
+        allowed: &Six,
         [r_m, z_m]: [f64; 2],
         times_s: [f64; N],
         span_s: [f64; 2],
@@ -227,12 +261,12 @@ impl<'a> Past<'a> {
         const NEAR: f64 = 0.031;
         let step_m = NEAR * z_m.hypot(self.excitation.units().disc_radius_m);
         if r_m >= step_m || matches!(self.excitation.radius(), PressureRadius::Fixed(_)) {
-            return self.off_axis(least, [r_m, z_m], times_s, span_s);
+            return self.off_axis(allowed, [r_m, z_m], times_s, span_s);
         }
         let radii: Vec<f64> = (1..=self.radii).map(|i| step_m * i as f64).collect();
         let mut sums = [Six::default(); N];
         for (i, &radius) in radii.iter().enumerate() {
-            let found = self.off_axis(least, [radius, z_m], times_s, span_s)?;
+            let found = self.off_axis(allowed, [radius, z_m], times_s, span_s)?;
             let weights = weights_off_axis(r_m, &radii, i);
             for (sum, found) in sums.iter_mut().zip(found) {
                 for f in 0..6 {
@@ -245,7 +279,7 @@ impl<'a> Past<'a> {
 
     fn off_axis<const N: usize>(
         &self,
-        least: usize,
+        allowed: &Six,
         place_m: [f64; 2],
         times_s: [f64; N],
         [from_s, to_s]: [f64; 2],
@@ -265,15 +299,10 @@ impl<'a> Past<'a> {
         let mut panels: Vec<[[f64; 2]; N]> = (1..cuts[0].len()).rev().map(panel).collect();
         let mut sums = [Six::default(); N];
         while let Some(pairs) = panels.pop() {
-            let counts = pairs.map(|pair| self.nodes(least, place_m, pair));
-            let rule = gauss::rule(counts.into_iter().fold(0, usize::max));
-            let place = |[from, to]: [f64; 2], angle: f64| {
-                0.5 * (from + to) - 0.5 * (to - from) * angle.cos()
-            };
             // at a seam of the force its rate jumps by its error, which a difference would have
             let piece = |t: f64| self.seams_s.partition_point(|&seam| seam <= t);
-            let parted = rule.on(0.0, PI).filter(|_| N > 1).find_map(|(angle, _)| {
-                let pieces = pairs.map(|pair| piece(place(pair, angle)));
+            let parted = leja::nodes().iter().filter(|_| N > 1).find_map(|&node| {
+                let pieces = pairs.map(|pair| piece(at_node(pair, node)));
                 let seam = *self.seams_s[..pieces[0].max(pieces[N - 1])].last()?;
                 let inside = |[from, to]: &[f64; 2]| *from < seam && seam < *to;
                 (pieces[0] != pieces[N - 1] && pairs.iter().all(inside)).then_some(seam)
@@ -283,52 +312,63 @@ impl<'a> Past<'a> {
                 panels.push(pairs.map(|[from, _]| [from, seam]));
                 continue;
             }
-            for (i, pair) in pairs
-                .into_iter()
-                .enumerate()
-                .filter(|(_, [from, to])| from < to)
-            {
-                for (angle, weight) in rule.on(0.0, PI) {
-                    let weight = 0.5 * (pair[1] - pair[0]) * weight * angle.sin();
-                    self.add(
-                        place_m,
-                        times_s[i],
-                        place(pair, angle),
-                        weight,
-                        &mut sums[i],
-                    )?;
-                }
-            }
+            self.add_panel(allowed, place_m, times_s, (pairs, HALVINGS), &mut sums)?;
         }
         Ok(sums)
     }
 
-    /// Nodes of the rule between two cuts.
-    fn nodes(&self, least: usize, place_m: [f64; 2], pair: [f64; 2]) -> usize {
-        /// Power of the radius with which waves grow, and nodes for a digit.
-        const FALLS: f64 = 1.5;
-        const NODES_A_DIGIT: f64 = 2.0;
-        /// Nodes at least where fields nearly cancel.
-        const LEAST_FAR: usize = 12;
-        /// Just below the surface the wave of Rayleigh has a peak for a front, as long as the depth: nodes over those of an
-        /// interval that is no longer, at most.
-        const SHARP: f64 = 3.0;
-        if self.is_far(place_m) {
-            return self.nodes.max(LEAST_FAR);
+    /// Adds the waves between two cuts, which are the same for all times; halved so often at most where as many terms as there
+    /// may be leave too much, such as of logarithms at the ends.
+    fn add_panel<const N: usize>(
+        &self,
+        allowed: &Six,
+        place_m: [f64; 2],
+        times_s: [f64; N],
+        (pairs, halvings): ([[f64; 2]; N], usize),
+        sums: &mut [Six; N],
+    ) -> Result<(), ImpactError> {
+        let mut values: [Vec<Six>; N] = std::array::from_fn(|_| Vec::new());
+        for terms in (LEAST..=MOST).step_by(2) {
+            for &node in &leja::nodes()[values[0].len()..terms] {
+                for (i, pair) in pairs.into_iter().enumerate() {
+                    let weight = 0.5 * (pair[1] - pair[0]) * (1.0 - node * node);
+                    let mut value = Six::default();
+                    if weight > 0.0 {
+                        let past_s = at_node(pair, node);
+                        self.add(place_m, times_s[i], past_s, weight, &mut value)?;
+                    }
+                    values[i].push(value);
+                }
+            }
+            let mut judged = leja::series(&values[N - 1]);
+            if N > 1 {
+                for (last, first) in judged.iter_mut().zip(leja::series(&values[0])) {
+                    *last = std::array::from_fn(|f| last[f] - first[f]);
+                }
+            }
+            // terms that fall as a power are many
+            let many = terms as f64 / LEAST as f64;
+            let last = |f: usize| judged[terms - 1][f].abs() + judged[terms - 2][f].abs();
+            if (0..6).all(|f| many * last(f) <= allowed[f]) {
+                break;
+            }
+            if terms == MOST && halvings > 0 {
+                let middle = |[from, to]: [f64; 2]| 0.5 * (from + to);
+                for half in [
+                    pairs.map(|p| [p[0], middle(p)]),
+                    pairs.map(|p| [middle(p), p[1]]),
+                ] {
+                    self.add_panel(allowed, place_m, times_s, (half, halvings - 1), sums)?;
+                }
+                return Ok(());
+            }
         }
-        let depth_s = place_m[1] / self.excitation.units().longitudinal_speed_m_s;
-        let sharp = if depth_s > 0.0 {
-            (0.5 * (pair[1] - pair[0]) / depth_s)
-                .sqrt()
-                .clamp(1.0, SHARP)
-        } else {
-            1.0
-        };
-        // small contacts bring little
-        let [one, other] = pair.map(|t| self.overs(t)[0]);
-        let digits = FALLS * one.max(other).max(1e-3).log10();
-        let nodes = (self.nodes as f64 + NODES_A_DIGIT * digits).max(least as f64);
-        (sharp * nodes).min(gauss::MAX_NODES as f64) as usize
+        for (sum, values) in sums.iter_mut().zip(&values) {
+            for (term, integral) in leja::series(values).into_iter().zip(&*INTEGRALS) {
+                *sum = std::array::from_fn(|f| sum[f] + integral * term[f]);
+            }
+        }
+        Ok(())
     }
 
     /// Whether fields nearly cancel over a contact.
@@ -511,4 +551,9 @@ impl<'a> Past<'a> {
             high
         }
     }
+}
+
+/// The instant between two that a node stands for.
+fn at_node([from, to]: [f64; 2], node: f64) -> f64 {
+    0.5 * (from + to) - 0.5 * (to - from) * (0.5 * PI * (1.0 + node)).cos()
 }

@@ -1,10 +1,10 @@
 //! The sum of one forcing over the discs of a choice, at one point.
 
 use super::Trace;
-use super::discs::Discs;
+use super::discs::{COARSEST, Discs};
 use super::ends::open;
 use super::forcing::{DiscForce, Forcing, Reading};
-use super::past::{LEAST, Past};
+use super::past::Past;
 use crate::error::ImpactError;
 use crate::excitation::{Excitation, PressureRadius};
 use crate::fields::quantity::Derivative;
@@ -61,8 +61,9 @@ const MORE_WHOLE: f64 = 3.0;
 /// integral has, of tractions just below the surface three more.
 const LONG: f64 = 100.0;
 
-/// Error of an integral over a zone, in tolerances.
+/// Error of an integral over a zone, in tolerances, and last terms of a series over the past, whose integral is nearer.
 const QUADRATURE: f64 = 0.7;
+const LAST_TERMS: f64 = 3.0;
 
 impl<'a> Sum<'a> {
     /// Of the forces on some discs with the kernels of each.
@@ -161,7 +162,8 @@ impl<'a> Sum<'a> {
         let (settled, changed) = self.forcing.left_out;
         let rest = cells.smooth.get(settled).copied().unwrap_or_default();
         for (f, error) in force.errors(cells).into_iter().enumerate() {
-            self.errors[f] += unit[f] * (error + changed * rest[f].abs());
+            // those of the discs are independent
+            self.errors[f] = self.errors[f].hypot(unit[f] * (error + changed * rest[f].abs()));
         }
     }
 
@@ -266,8 +268,8 @@ impl<'a> Sum<'a> {
         cells: &[Cells],
     ) -> Result<Vec<Trace>, ImpactError> {
         let radius = self.forcing.excitation.radius();
-        let zones = matches!(radius, PressureRadius::Following { .. });
-        let zones = zones || self.integrated.contains(&true);
+        let follows = matches!(radius, PressureRadius::Following { .. });
+        let zones = follows || self.integrated.contains(&true);
         let anew = past.filter(|_| !self.open.is_empty());
         let integrals = f64::from(u8::from(zones) + u8::from(anew.is_some()));
         for f in 0..6 {
@@ -284,10 +286,14 @@ impl<'a> Sum<'a> {
         }
         let sure = self.sure();
         let per_step = (2.0 / self.forcing.step_s).powi(self.forcing.differences as i32);
-        // a rate is as much more sensitive than the force as its pulse is shorter
+        // a rate is as much more sensitive than the force as its pulse is shorter; that of a march with steps ends with a root at
+        // an instant that is off as the power 3/2 is by what the force is
         const WITHIN: f64 = 4.0;
-        let relative = self.forcing.excitation.relative_error
-            + self.forcing.tolerance
+        const END: f64 = 0.07;
+        let own = self.forcing.excitation.relative_error;
+        let end = if follows { 0.0 } else { END * own.cbrt() };
+        let relative = own
+            + (self.forcing.tolerance + end)
                 * match self.forcing.derivative {
                     Derivative::Field => 0.0,
                     Derivative::First => WITHIN,
@@ -391,12 +397,15 @@ impl<'a> Sum<'a> {
                 (self.left[f][i], self.rough[f][i]) = (last, 0.0);
             }
         }
+        let tolerance = self.forcing.tolerance;
+        let part = (LAST_TERMS * tolerance).min(COARSEST) / (SURE * self.sure() * tolerance);
+        let enough = std::array::from_fn(|f| allowed.get(f).map_or(f64::INFINITY, |x| part * x));
         let mut exact = Six::default();
         for part in &parts {
-            let (step_s, span_s) = (self.forcing.step_s, span_s(part));
+            let (span_s, steps) = (span_s(part), (self.forcing.step_s, &enough));
             let found = match self.forcing.reading {
-                Reading::Force => past.between(LEAST, self.place_m, [time_s], span_s)?[0],
-                Reading::Rate => past.rate_between(self.place_m, time_s, span_s, step_s)?,
+                Reading::Force => past.between(&enough, self.place_m, [time_s], span_s)?[0],
+                Reading::Rate => past.rate_between(self.place_m, time_s, span_s, steps)?,
             };
             for (sum, found) in exact.iter_mut().zip(found) {
                 *sum += found;

@@ -49,8 +49,8 @@ impl Cells {
     }
 }
 
-/// Truncation of a trace in tolerances: responses are typically a hundred times nearer.
-const TRACE: f64 = 1.0;
+/// Part of the tolerance that a trace has for rates, those of the displacements: with the power 1/2 a force begins steeper.
+const RATES: f64 = 0.01;
 
 /// Distance in radii to which pulses' fields from computed kernels have been shown to hold their tolerance.
 const FARTHEST: f64 = 1e4;
@@ -104,9 +104,11 @@ impl KernelSource {
         let (static_part, moments, error, trace) = match self {
             Self::Direct(kernel) => {
                 let domain = |source| ImpactError::OutsideBlock { r_m, z_m, source };
-                let rise = |length: f64| pulse.rise(length, wanted.rates);
-                let part = if wanted.rates { 0.004 } else { 1.0 };
-                let tolerance = part * TRACE * wanted.tolerance;
+                let has_rate = |f: usize| wanted.rates && f < 2;
+                let rise = |length: f64| std::array::from_fn(|f| pulse.rise(length, has_rate(f)));
+                let tolerance = std::array::from_fn(|f| {
+                    wanted.tolerance * if has_rate(f) { RATES } else { 1.0 }
+                });
                 // the last cell ends a rounding error before the trace
                 let end = step * count as f64;
                 let trace = kernel.trace_under(r, z, end, (tolerance, &rise));
