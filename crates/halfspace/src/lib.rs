@@ -24,8 +24,8 @@
 //! - [`Trace`]: the remainder at one place over time, with averages and moments over cells of any width.
 //! - [`SurfaceResponse`]: the deflection under the load itself, with finite memory, in nanoseconds.
 //! - [`Arrivals`]: times of all wave fronts.
-//! - [`gauss`]: Gauss-Legendre rules, for those who integrate kernels; [`chebyshev`], [`chebyshev_each`] and [`lagrange`] for those who
-//!   interpolate.
+//! - [`gauss`]: Gauss-Legendre rules, for those who integrate kernels; [`chebyshev`], [`chebyshev_each`], [`lagrange`],
+//!   [`leja_nodes`] and [`leja_series`] for those who interpolate.
 //! - [`kausel`]: the surface-centre response in closed form, for comparison.
 //!
 //! # Example
@@ -82,8 +82,8 @@ pub use field::{Estimate, FIELDS, Field, Six};
 pub use integral::axis::weights_off_axis;
 pub use kernel::Kernel;
 pub use medium::Medium;
-pub use numeric::polynomial::{chebyshev, chebyshev_each, lagrange};
-pub use numeric::{bisected, gauss, leja};
+pub use numeric::polynomial::{chebyshev, chebyshev_each, lagrange, leja_nodes, leja_series};
+pub use numeric::{bisected, gauss};
 pub use profile::Profile;
 pub use surface::{Deflection, LoadedDisc, SurfaceResponse, surface_measure};
 pub use trace::Trace;

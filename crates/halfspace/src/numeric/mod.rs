@@ -1,11 +1,10 @@
-//! Numbers and rules of quadrature: sums in twice the precision (`double`), Gauss-Legendre rules (`gauss`), series from
-//! as many values as they need (`leja`), polynomials (`polynomial`), and numbers side by side (`lanes`), for which and for one number formulas are written once, with complex
+//! Numbers and rules of quadrature: sums in twice the precision (`double`), Gauss-Legendre rules (`gauss`), polynomials
+//! (`polynomial`), and numbers side by side (`lanes`), for which and for one number formulas are written once, with complex
 //! roots and logarithms without cancellation (`scalar`).
 
 pub(crate) mod double;
 pub mod gauss;
 pub(crate) mod lanes;
-pub mod leja;
 pub(crate) mod polynomial;
 pub(crate) mod scalar;
 

@@ -1,8 +1,11 @@
-//! Polynomials through places and in Chebyshev's form.
+//! Polynomials through places and in Chebyshev's form, from as many values as they need.
 
+use crate::field::Six;
 use crate::numeric::lanes::{Lanes, dispatch};
 use crate::numeric::scalar::Scalar;
 use pulp::{Simd, WithSimd};
+use std::f64::consts::PI;
+use std::sync::LazyLock;
 
 /// A Chebyshev series at x in [-1, 1], by Clenshaw's recurrence.
 #[inline]
@@ -57,3 +60,81 @@ pub fn lagrange(place: impl Fn(usize) -> f64, count: usize, k: usize, x: f64) ->
     let factors = others.map(|j| (x - place(j)) / (own - place(j)));
     factors.product()
 }
+
+/// Nodes of [`leja_nodes`].
+pub(crate) const LEJA_NODES: usize = 39;
+
+/// A Leja sequence in [-1, 1], after its middle in pairs, so that a function is read at as many as its series needs and no
+/// value is lost: the first of an odd number are a set. None is an end.
+pub fn leja_nodes() -> &'static [f64; LEJA_NODES] {
+    &RULE.nodes
+}
+
+/// Coefficients of Chebyshev's polynomials from values at the first nodes of [`leja_nodes`], an odd number of them.
+pub fn leja_series(values: &[Six]) -> Vec<Six> {
+    let of = |weights: &Vec<f64>| {
+        let mut sum = Six::default();
+        for (weight, value) in weights.iter().zip(values) {
+            for (s, v) in sum.iter_mut().zip(value) {
+                *s += weight * v;
+            }
+        }
+        sum
+    };
+    RULE.inverses[values.len()].iter().map(of).collect()
+}
+
+/// The nodes, and what makes coefficients of values at the first of them, for each number.
+struct Rule {
+    nodes: [f64; LEJA_NODES],
+    inverses: Vec<Vec<Vec<f64>>>,
+}
+
+static RULE: LazyLock<Rule> = LazyLock::new(|| {
+    // after the middle and two near the ends, each pair where the product of distances to those before is largest
+    let mut nodes = vec![0.0, -0.97, 0.97];
+    while nodes.len() < LEJA_NODES {
+        let product = |x: f64| -> f64 {
+            let own = (1.0 - x * x).sqrt();
+            own * nodes.iter().map(|node| (x - node).abs()).product::<f64>()
+        };
+        let tried = (1..1000).map(|i| (0.5 * PI * f64::from(i) / 1000.0).sin());
+        let best = tried.fold(
+            0.5,
+            |best, x| if product(x) > product(best) { x } else { best },
+        );
+        nodes.extend([-best, best]);
+    }
+    let inverse = |terms: usize| {
+        let row = |i: usize| -> Vec<f64> {
+            let unit = (0..terms).map(|j| f64::from(u8::from(i == j)));
+            let angle = nodes[i].acos();
+            (0..terms)
+                .map(|j| (j as f64 * angle).cos())
+                .chain(unit)
+                .collect()
+        };
+        let mut rows: Vec<Vec<f64>> = (0..terms).map(row).collect();
+        // Gauss and Jordan
+        for column in 0..terms {
+            let size = |i: &usize| rows[*i][column].abs();
+            let pivot = (column..terms).max_by(|a, b| size(a).total_cmp(&size(b)));
+            rows.swap(column, pivot.unwrap_or(column));
+            let scale = rows[column][column].recip();
+            let own: Vec<f64> = rows[column].iter().map(|x| scale * x).collect();
+            for (i, row) in rows.iter_mut().enumerate() {
+                let times = row[column];
+                for (x, o) in row.iter_mut().zip(&own) {
+                    *x = if i == column { *o } else { *x - times * o };
+                }
+            }
+        }
+        rows.iter().map(|row| row[terms..].to_vec()).collect()
+    };
+    Rule {
+        inverses: (0..=LEJA_NODES)
+            .map(|n| if n % 2 == 1 { inverse(n) } else { Vec::new() })
+            .collect(),
+        nodes: std::array::from_fn(|i| nodes[i]),
+    }
+});

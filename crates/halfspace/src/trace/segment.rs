@@ -9,13 +9,12 @@
 //! It is t - a + 1 = cosh(Y s): what is as far beyond the front as the disc is wide, where its other edge's waves have
 //! a root too, is as far from the s in question however long the interval.
 //!
-//! The nodes are those of [`leja`], none of which lies on a front.
+//! The nodes are those of [`leja_nodes`], none of which lies on a front.
 
 use crate::domain::DomainError;
 use crate::field::{Estimate, Six};
 use crate::numeric::gauss;
-use crate::numeric::leja::{self, MOST};
-use crate::numeric::polynomial::chebyshev_each;
+use crate::numeric::polynomial::{LEJA_NODES, chebyshev_each, leja_nodes, leja_series};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Nodes of a segment at most beside a front, and at first.
@@ -176,7 +175,7 @@ impl Segment {
         mut remainder: impl FnMut(f64) -> Result<Estimate, DomainError>,
     ) -> Result<bool, DomainError> {
         let most = match self.piece.course {
-            Course::Between(_) => MOST,
+            Course::Between(_) => LEJA_NODES,
             Course::Beside(_) => MOST_BESIDE,
         };
         let terms = match self.values.len() {
@@ -185,7 +184,7 @@ impl Segment {
             some => some + 2,
         };
         let (middle, half) = self.piece.middle();
-        for node in &leja::nodes()[self.values.len()..terms] {
+        for node in &leja_nodes()[self.values.len()..terms] {
             let (t, _) = self.piece.time(middle + half * node, 0.0);
             let found = remainder(t)?;
             self.values.push(found.value);
@@ -193,7 +192,7 @@ impl Segment {
                 *sum += NOISE * e;
             }
         }
-        self.series = leja::series(&self.values);
+        self.series = leja_series(&self.values);
         // a time is known to its rounding error
         let rounding = 4.0 * f64::EPSILON * self.times[1] / (self.times[1] - self.times[0]);
         for f in 0..6 {

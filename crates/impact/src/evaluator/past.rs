@@ -16,7 +16,7 @@
 
 use crate::error::ImpactError;
 use crate::excitation::{Excitation, PressureRadius};
-use halfspace::{Kernel, Profile, Six, gauss, leja, weights_off_axis};
+use halfspace::{Kernel, Profile, Six, gauss, leja_nodes, leja_series, weights_off_axis};
 use std::f64::consts::PI;
 use std::ops::Range;
 use std::sync::LazyLock;
@@ -294,81 +294,68 @@ impl<'a> Past<'a> {
             all.sort_by(f64::total_cmp);
             cuts = spans_s.map(|[from, to]| all.iter().map(|t| t.clamp(from, to)).collect());
         }
-        let panel =
-            |n: usize| -> [[f64; 2]; N] { std::array::from_fn(|i| [cuts[i][n - 1], cuts[i][n]]) };
-        let mut panels: Vec<[[f64; 2]; N]> = (1..cuts[0].len()).rev().map(panel).collect();
+        // between two cuts, the same ones for all times, and how often they may be halved
+        let panel = |n: usize| (cuts.each_ref().map(|own| [own[n - 1], own[n]]), HALVINGS);
+        let mut panels: Vec<_> = (1..cuts[0].len()).rev().map(panel).collect();
         let mut sums = [Six::default(); N];
-        while let Some(pairs) = panels.pop() {
+        'panels: while let Some((pairs, halvings)) = panels.pop() {
+            let parts = |at: [f64; N]| {
+                let part = |k: usize| {
+                    std::array::from_fn(|i| [[at[i], pairs[i][1]], [pairs[i][0], at[i]]][k])
+                };
+                [part(0), part(1)]
+            };
             // at a seam of the force its rate jumps by its error, which a difference would have
             let piece = |t: f64| self.seams_s.partition_point(|&seam| seam <= t);
-            let parted = leja::nodes().iter().filter(|_| N > 1).find_map(|&node| {
+            let parted = leja_nodes().iter().filter(|_| N > 1).find_map(|&node| {
                 let pieces = pairs.map(|pair| piece(at_node(pair, node)));
                 let seam = *self.seams_s[..pieces[0].max(pieces[N - 1])].last()?;
                 let inside = |[from, to]: &[f64; 2]| *from < seam && seam < *to;
                 (pieces[0] != pieces[N - 1] && pairs.iter().all(inside)).then_some(seam)
             });
             if let Some(seam) = parted {
-                panels.push(pairs.map(|[_, to]| [seam, to]));
-                panels.push(pairs.map(|[from, _]| [from, seam]));
+                panels.extend(parts([seam; N]).map(|part| (part, halvings)));
                 continue;
             }
-            self.add_panel(allowed, place_m, times_s, (pairs, HALVINGS), &mut sums)?;
+            let mut values: [Vec<Six>; N] = std::array::from_fn(|_| Vec::new());
+            for terms in (LEAST..=MOST).step_by(2) {
+                for &node in &leja_nodes()[values[0].len()..terms] {
+                    for (i, pair) in pairs.into_iter().enumerate() {
+                        let weight = 0.5 * (pair[1] - pair[0]) * (1.0 - node * node);
+                        let mut value = Six::default();
+                        if weight > 0.0 {
+                            let past_s = at_node(pair, node);
+                            self.add(place_m, times_s[i], past_s, weight, &mut value)?;
+                        }
+                        values[i].push(value);
+                    }
+                }
+                let mut judged = leja_series(&values[N - 1]);
+                if N > 1 {
+                    for (last, first) in judged.iter_mut().zip(leja_series(&values[0])) {
+                        *last = std::array::from_fn(|f| last[f] - first[f]);
+                    }
+                }
+                // terms that fall as a power are many
+                let many = terms as f64 / LEAST as f64;
+                let last = |f: usize| judged[terms - 1][f].abs() + judged[terms - 2][f].abs();
+                if (0..6).all(|f| many * last(f) <= allowed[f]) {
+                    break;
+                }
+                // such as of logarithms at the ends
+                if terms == MOST && halvings > 0 {
+                    let halves = parts(pairs.map(|[from, to]| 0.5 * (from + to)));
+                    panels.extend(halves.map(|half| (half, halvings - 1)));
+                    continue 'panels;
+                }
+            }
+            for (sum, values) in sums.iter_mut().zip(&values) {
+                for (term, integral) in leja_series(values).into_iter().zip(&*INTEGRALS) {
+                    *sum = std::array::from_fn(|f| sum[f] + integral * term[f]);
+                }
+            }
         }
         Ok(sums)
-    }
-
-    /// Adds the waves between two cuts, which are the same for all times; halved so often at most where as many terms as there
-    /// may be leave too much, such as of logarithms at the ends.
-    fn add_panel<const N: usize>(
-        &self,
-        allowed: &Six,
-        place_m: [f64; 2],
-        times_s: [f64; N],
-        (pairs, halvings): ([[f64; 2]; N], usize),
-        sums: &mut [Six; N],
-    ) -> Result<(), ImpactError> {
-        let mut values: [Vec<Six>; N] = std::array::from_fn(|_| Vec::new());
-        for terms in (LEAST..=MOST).step_by(2) {
-            for &node in &leja::nodes()[values[0].len()..terms] {
-                for (i, pair) in pairs.into_iter().enumerate() {
-                    let weight = 0.5 * (pair[1] - pair[0]) * (1.0 - node * node);
-                    let mut value = Six::default();
-                    if weight > 0.0 {
-                        let past_s = at_node(pair, node);
-                        self.add(place_m, times_s[i], past_s, weight, &mut value)?;
-                    }
-                    values[i].push(value);
-                }
-            }
-            let mut judged = leja::series(&values[N - 1]);
-            if N > 1 {
-                for (last, first) in judged.iter_mut().zip(leja::series(&values[0])) {
-                    *last = std::array::from_fn(|f| last[f] - first[f]);
-                }
-            }
-            // terms that fall as a power are many
-            let many = terms as f64 / LEAST as f64;
-            let last = |f: usize| judged[terms - 1][f].abs() + judged[terms - 2][f].abs();
-            if (0..6).all(|f| many * last(f) <= allowed[f]) {
-                break;
-            }
-            if terms == MOST && halvings > 0 {
-                let middle = |[from, to]: [f64; 2]| 0.5 * (from + to);
-                for half in [
-                    pairs.map(|p| [p[0], middle(p)]),
-                    pairs.map(|p| [middle(p), p[1]]),
-                ] {
-                    self.add_panel(allowed, place_m, times_s, (half, halvings - 1), sums)?;
-                }
-                return Ok(());
-            }
-        }
-        for (sum, values) in sums.iter_mut().zip(&values) {
-            for (term, integral) in leja::series(values).into_iter().zip(&*INTEGRALS) {
-                *sum = std::array::from_fn(|f| sum[f] + integral * term[f]);
-            }
-        }
-        Ok(())
     }
 
     /// Whether fields nearly cancel over a contact.
