@@ -32,12 +32,12 @@ const LOOKED_UP_S: f64 = 4.5e-7;
 
 /// Samples of a point that are integrated over the radii, over the square of the digits, and kernels of each.
 const OPEN: f64 = 0.8;
-const KERNELS_OF_OPEN: f64 = 100.0;
+const KERNELS_OF_OPEN: f64 = 60.0;
 
 /// Radii from the axis and below the surface within which whole contacts are integrated, and kernels of each over the square
 /// of the digits.
 const BESIDE: [f64; 2] = [3.0, 1.4];
-const KERNELS_OF_WHOLE: f64 = 20.0;
+const KERNELS_OF_WHOLE: f64 = 40.0;
 
 /// What the rates of a contact that follows its load take beside its fields.
 const FOLLOWING_RATES: f64 = 2.0;
