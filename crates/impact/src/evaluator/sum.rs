@@ -41,6 +41,8 @@ const SURE: f64 = 0.5;
 const FEW: usize = 5;
 const OF_MANY: f64 = 0.2;
 const UNDER: f64 = 0.1;
+/// Some radii away, no deeper than a radius, the waves of Rayleigh are short.
+const SHALLOW: f64 = 0.4;
 
 /// What is left has a sign: a sample beside one that is left with more may have met a zero of it, and counts with a part.
 /// Beside are those within a part of the time of a longitudinal wave over the radius and of the contact, one at least, or so
@@ -210,8 +212,10 @@ impl<'a> Sum<'a> {
 
     /// Part of what may be left that the discs tell.
     fn sure(&self) -> f64 {
+        let radius_m = self.forcing.excitation.units().disc_radius_m;
         match self.discs.radii.len() {
             2.. if self.is_under() => UNDER,
+            _ if self.discs.omitted.is_some() && self.place_m[1] < radius_m => SHALLOW,
             0..=FEW => 1.0,
             _ => OF_MANY,
         }
