@@ -63,8 +63,8 @@ impl Kernel {
         self.trace_under(r, z, end, ([self.tolerance(); 6], &rise))
     }
 
-    /// R(t) as far as a force needs it that changes by no more than `rise` of its peak within a time, for each field on its
-    /// own: a force may stand for another, such as its rate, of which not all are wanted.
+    /// R(t) as far as a force needs it that changes by no more than `rise` of its peak within a time. Tolerance and rise are
+    /// given for each field: to the rate of a force, say, only the displacements may be wanted.
     ///
     /// Accuracy: responses to that force are within `tolerance` of their peaks, and typically a hundredth of it: beside
     /// fronts, in times in which the force hardly changes, R itself is known to fewer digits.

@@ -16,6 +16,7 @@
 
 use crate::error::ImpactError;
 use crate::excitation::{Excitation, PressureRadius};
+use crate::record::stretch::largest;
 use halfspace::{Kernel, Profile, Six, gauss, leja_nodes, leja_series, weights_off_axis};
 use std::f64::consts::PI;
 use std::ops::Range;
@@ -54,6 +55,7 @@ pub(crate) struct Past<'a> {
     /// Of a punch and of Hertz's pressure, for points that are far, and to fewer digits for others.
     punch: [Kernel; 2],
     hertz: [Kernel; 2],
+    /// Of the fields, over their peaks.
     tolerance: f64,
     /// Radii from which the axis is continued.
     radii: usize,
@@ -92,13 +94,9 @@ impl<'a> Past<'a> {
         // of the largest static field of a kind
         let mut kinds = [0.0_f64; 2];
         for part in PARTS_OF_PEAK {
-            for (f, value) in still(part * self.excitation.end_s())?
-                .into_iter()
-                .enumerate()
-            {
-                let kind = &mut kinds[usize::from(f >= 2)];
-                *kind = kind.max(value.abs());
-            }
+            let fields = still(part * self.excitation.end_s())?;
+            let largest = [&fields[..2], &fields[2..]].map(largest);
+            kinds = [0, 1].map(|kind| largest[kind].max(kinds[kind]));
         }
         let allowed =
             std::array::from_fn(|f| ALLOWED * self.tolerance * kinds[usize::from(f >= 2)]);
@@ -300,10 +298,8 @@ impl<'a> Past<'a> {
         let mut sums = [Six::default(); N];
         'panels: while let Some((pairs, halvings)) = panels.pop() {
             let parts = |at: [f64; N]| {
-                let part = |k: usize| {
-                    std::array::from_fn(|i| [[at[i], pairs[i][1]], [pairs[i][0], at[i]]][k])
-                };
-                [part(0), part(1)]
+                let later = std::array::from_fn(|i| [at[i], pairs[i][1]]);
+                [later, std::array::from_fn(|i| [pairs[i][0], at[i]])]
             };
             // at a seam of the force its rate jumps by its error, which a difference would have
             let piece = |t: f64| self.seams_s.partition_point(|&seam| seam <= t);
@@ -317,7 +313,8 @@ impl<'a> Past<'a> {
                 panels.extend(parts([seam; N]).map(|part| (part, halvings)));
                 continue;
             }
-            let mut values: [Vec<Six>; N] = std::array::from_fn(|_| Vec::new());
+            let mut values = [const { Vec::new() }; N];
+            let mut series = [const { Vec::new() }; N];
             for terms in (LEAST..=MOST).step_by(2) {
                 for &node in &leja_nodes()[values[0].len()..terms] {
                     for (i, pair) in pairs.into_iter().enumerate() {
@@ -330,15 +327,14 @@ impl<'a> Past<'a> {
                         values[i].push(value);
                     }
                 }
-                let mut judged = leja_series(&values[N - 1]);
-                if N > 1 {
-                    for (last, first) in judged.iter_mut().zip(leja_series(&values[0])) {
-                        *last = std::array::from_fn(|f| last[f] - first[f]);
-                    }
-                }
+                series = values.each_ref().map(|values| leja_series(values));
+                let judged = |k: usize, f: usize| match N {
+                    1 => series[0][k][f],
+                    _ => series[N - 1][k][f] - series[0][k][f],
+                };
                 // terms that fall as a power are many
                 let many = terms as f64 / LEAST as f64;
-                let last = |f: usize| judged[terms - 1][f].abs() + judged[terms - 2][f].abs();
+                let last = |f: usize| judged(terms - 1, f).abs() + judged(terms - 2, f).abs();
                 if (0..6).all(|f| many * last(f) <= allowed[f]) {
                     break;
                 }
@@ -349,8 +345,8 @@ impl<'a> Past<'a> {
                     continue 'panels;
                 }
             }
-            for (sum, values) in sums.iter_mut().zip(&values) {
-                for (term, integral) in leja_series(values).into_iter().zip(&*INTEGRALS) {
+            for (sum, series) in sums.iter_mut().zip(&series) {
+                for (term, integral) in series.iter().zip(&*INTEGRALS) {
                     *sum = std::array::from_fn(|f| sum[f] + integral * term[f]);
                 }
             }
