@@ -153,6 +153,23 @@ impl Kernel {
         Ok(self.setting.evaluate::<IMPULSE>(Point { r, z, t }))
     }
 
+    /// The impulse response of u and w alone, the velocities of a step response, under any profile.
+    ///
+    /// Units: c1/(mu r0^2). At fronts they are as singular as the stresses of the step response, and lose digits there as
+    /// those do.
+    ///
+    /// # Errors
+    /// [`DomainError`] for r, z or t outside [0, 1e20], at a point force itself and at the edge of a punch.
+    pub fn displacement_impulse(&self, r: f64, z: f64, t: f64) -> Result<[f64; 2], DomainError> {
+        check_place_under(self.profile(), r, z)?;
+        check_time(t)?;
+        if t <= self.first_arrival(r, z) {
+            return Ok([0.0; 2]);
+        }
+        let [u, w, ..] = self.setting.evaluate::<IMPULSE>(Point { r, z, t }).value;
+        Ok([u, w])
+    }
+
     /// int R dt up to t, with a constant of integration that is the same for all t at one (r, z).
     ///
     /// # Errors

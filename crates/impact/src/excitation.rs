@@ -332,16 +332,6 @@ impl Excitation {
         self.contact().map_or(&[], |contact| &contact.kinks_s)
     }
 
-    /// Instants in s between which a solved contact is one polynomial.
-    pub(crate) fn seams_s(&self) -> Vec<f64> {
-        let solved = self
-            .contact()
-            .and_then(|own| Some((own.samples.history.pieces.as_ref()?, own.units)));
-        solved.map_or(Vec::new(), |(solved, units)| {
-            solved.ends.iter().map(|t| t * units.time_s).collect()
-        })
-    }
-
     /// The force in N and its rate in N/s at a time; NaN for that of a record, which jumps.
     #[inline(always)]
     pub(crate) fn force_and_rate(&self, time_s: f64) -> [f64; 2] {

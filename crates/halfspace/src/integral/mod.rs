@@ -31,7 +31,7 @@ use crate::field::{Estimate, Field, Point, Sense, Six};
 use crate::numeric::lanes::dispatch;
 use crate::potentials::closed_form::SMALL_RADIUS;
 use crate::potentials::far_front::{ALL, FAR};
-use crate::potentials::{STEP, shallow};
+use crate::potentials::{STEP, STEP_INTEGRAL, shallow};
 use crate::profile::Profile;
 use num_complex::Complex64;
 use panels::Nodes;
@@ -97,9 +97,9 @@ impl Setting {
         shallow: bool,
         sum: &mut Sum,
     ) {
-        // many are step responses, the others are not worth so much code
-        if N == STEP && !shallow {
-            dispatch(Panel {
+        // many are step responses and velocities, time integrals are not worth so much code
+        if N != STEP_INTEGRAL && !shallow {
+            dispatch(Panel::<N> {
                 setting: self,
                 at,
                 wave,

@@ -5,7 +5,6 @@ use crate::integral::panels::Nodes;
 use crate::integral::setting::Setting;
 use crate::integral::spectrum::Wave;
 use crate::numeric::lanes::{Lanes, WIDTH, total};
-use crate::potentials::STEP;
 use pulp::{Simd, WithSimd};
 
 /// Six fields and the squares of their likely errors, in blocks that are added up at the end.
@@ -40,7 +39,7 @@ impl Sum {
 }
 
 /// The nodes of one panel, to be added to a sum several at a time; a wave below slowness one has one sense, above it both.
-pub(crate) struct Panel<'a> {
+pub(crate) struct Panel<'a, const N: i32> {
     pub(crate) setting: &'a Setting,
     pub(crate) at: Point,
     pub(crate) wave: Wave,
@@ -49,7 +48,7 @@ pub(crate) struct Panel<'a> {
     pub(crate) sum: &'a mut Sum,
 }
 
-impl WithSimd for Panel<'_> {
+impl<const N: i32> WithSimd for Panel<'_, N> {
     type Output = ();
 
     #[inline(always)]
@@ -64,8 +63,8 @@ impl WithSimd for Panel<'_> {
         for (i, (node, weight)) in rule.zip(weights).enumerate() {
             let (place, weight, error) = nodes.at(node, weight);
             let (jacobian, term) = match self.sense {
-                Some(sense) => setting.fast_term::<STEP, _>(at, (wave, sense), place),
-                None => setting.slow_term::<STEP, _>(at, wave, place),
+                Some(sense) => setting.fast_term::<N, _>(at, (wave, sense), place),
+                None => setting.slow_term::<N, _>(at, wave, place),
             };
             let weight = weight * jacobian;
             // of the block

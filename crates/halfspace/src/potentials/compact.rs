@@ -32,7 +32,8 @@ const AXIS: f64 = 1e-13;
 
 /// The compact parts at eta: (a3, a2, b3/r, b2/r) of the step response, (a4, a3, b4/r, b3/r) of its integral.
 ///
-/// Of the Hertz profile also the derivatives of those of the step response, for the impulse response.
+/// The derivatives of those of the step response for the impulse response: of other profiles than Hertz the upper ones alone,
+/// of displacements.
 #[inline(always)]
 pub(crate) fn compact<const N: i32, T: Real>(
     profile: Profile,
@@ -41,6 +42,9 @@ pub(crate) fn compact<const N: i32, T: Real>(
 ) -> Potentials<T> {
     match profile {
         Profile::Hertz if N == IMPULSE => hertz_impulse(eta, r),
+        Profile::Punch | Profile::Point if N == IMPULSE => {
+            displacement_impulse(compact::<STEP, T>(profile, eta, (r, digits)))
+        }
         Profile::Hertz if r < AXIS => hertz_on_axis::<N, T>(eta),
         Profile::Hertz if N == STEP && r > FAR => hertz_far(eta, (r, digits)),
         Profile::Hertz => {
@@ -149,6 +153,18 @@ fn hertz_impulse<T: Real>(eta: T, r: f64) -> Potentials<T> {
     }
 }
 
+/// a3' = a2 and b3' = -b2.
+#[inline(always)]
+fn displacement_impulse<T: Real>(step: Potentials<T>) -> Potentials<T> {
+    let zero = step.a_lower.constant(0.0);
+    Potentials {
+        a_upper: step.a_lower,
+        a_lower: zero,
+        g_upper: -step.g_lower,
+        g_lower: zero,
+    }
+}
+
 #[inline(always)]
 fn punch<const N: i32, T: Real>(eta: T, r: f64) -> Potentials<T> {
     let scale = 0.25 / PI;
@@ -179,7 +195,7 @@ fn punch<const N: i32, T: Real>(eta: T, r: f64) -> Potentials<T> {
                 g_lower: b3,
             }
         }
-        Order::Impulse => unreachable!("{HERTZ_ONLY}"),
+        Order::Impulse => unreachable!("{BY_STEP}"),
     }
 }
 
@@ -206,12 +222,12 @@ fn point<const N: i32, T: Real>(eta: T, r: f64) -> Potentials<T> {
             g_upper: q * ring,
             g_lower: b3,
         },
-        Order::Impulse => unreachable!("{HERTZ_ONLY}"),
+        Order::Impulse => unreachable!("{BY_STEP}"),
     }
 }
 
 /// Why an order is not met here.
-const HERTZ_ONLY: &str = "impulse responses are refused for other profiles than Hertz";
+const BY_STEP: &str = "impulses of other profiles than Hertz follow from their steps";
 
 #[cfg(test)]
 mod tests {

@@ -14,6 +14,7 @@
 //!
 //! Theory: `docs/theory.md` (T55).
 
+use super::forcing::Reading;
 use crate::error::ImpactError;
 use crate::excitation::{Excitation, PressureRadius};
 use crate::record::stretch::largest;
@@ -50,8 +51,6 @@ const FAMILIES: usize = 2 * KINDS;
 /// Kernels for one excitation, a contact.
 pub(crate) struct Past<'a> {
     excitation: &'a Excitation,
-    /// Instants between which the force is one polynomial.
-    seams_s: Vec<f64>,
     /// Of a punch and of Hertz's pressure, for points that are far, and to fewer digits for others.
     punch: [Kernel; 2],
     hertz: [Kernel; 2],
@@ -74,7 +73,6 @@ impl<'a> Past<'a> {
         };
         Ok(Self {
             excitation,
-            seams_s: excitation.seams_s(),
             punch: kernels(Profile::Punch)?,
             hertz: kernels(Profile::Hertz)?,
             tolerance,
@@ -109,7 +107,7 @@ impl<'a> Past<'a> {
         };
         for i in 0..PARTS {
             let span_s = [graded(i), graded(i + 1)];
-            let waves = self.between(&allowed, place_m, [time_s], span_s)?[0];
+            let waves = self.between(&allowed, place_m, time_s, span_s, Reading::Force)?;
             for (sum, waves) in sum.iter_mut().zip(waves) {
                 *sum += waves;
             }
@@ -215,143 +213,107 @@ impl<'a> Past<'a> {
         Some(parts.filter(passed).collect())
     }
 
-    /// The rate of the waves from a part of the past, by a difference over a small part of a step: behind a Rayleigh wave
-    /// it varies over the time in which a contact that has just begun outgrows it, which is far shorter than a step.
-    pub(crate) fn rate_between(
+    /// The waves from a part of the past at a time, or as much of their rate as comes of the rate of the force there.
+    ///
+    /// That of the instants' waves is an integral as they are, and what leaves the part at its ends is not lost:
+    ///
+    /// ```text
+    /// int_a^b P''(t') R(t - t') dt' = [P' R]_a^b + int_a^b P'(t') dR/dt(t - t') dt'
+    /// ```
+    pub(crate) fn between(
         &self,
+        allowed: &Six,
         place_m: [f64; 2],
         time_s: f64,
-        mut span_s: [f64; 2],
-        (step_s, allowed): (f64, &Six),
+        [from_s, to_s]: [f64; 2],
+        reading: Reading,
     ) -> Result<Six, ImpactError> {
-        const PART: f64 = 0.002;
-        let from_s = (time_s - PART * step_s).max(0.0);
-        let to_s = time_s + PART * step_s;
-        // what ends with the sample goes on with it
-        if span_s[1] > from_s {
-            span_s[1] = f64::INFINITY;
-        }
-        let allowed = allowed.map(|rate| rate * (to_s - from_s));
-        let [before, after] = self.between(&allowed, place_m, [from_s, to_s], span_s)?;
-        let mut rate: Six = std::array::from_fn(|f| (after[f] - before[f]) / (to_s - from_s));
-        // what leaves the span at its ends is not lost: the sum over the cells has the rate of the force inside it
-        for (at_s, sign) in [(span_s[0], -1.0), (span_s[1], 1.0)] {
-            if at_s < time_s {
-                self.add(place_m, time_s, at_s, sign, &mut rate)?;
+        let last_s = time_s.min(self.excitation.end_s());
+        let from_s = from_s.clamp(0.0, last_s);
+        let span_s = [from_s, to_s.clamp(from_s, last_s)];
+        let mut sum = self.integral(allowed, place_m, time_s, span_s, reading)?;
+        if reading == Reading::Rate {
+            for (past_s, sign) in span_s.into_iter().zip([-1.0, 1.0]) {
+                self.add(place_m, [time_s, past_s], sign, Reading::Force, &mut sum)?;
             }
         }
-        Ok(rate)
+        Ok(sum)
     }
 
-    /// The waves from a part of the past at a time, or at two that are close together, by series whose last terms are within
-    /// what is allowed; those of two times have the same nodes and are judged by their difference, which loses what both miss.
+    /// The integral over some of the past by series whose last terms are within what is allowed.
     ///
     /// Near the axis of a punch, where fronts from opposite edges meet and it has no kernel of its own, fields are r to
     /// their parity times a function of r^2, which their values at a few larger radii continue.
-    pub(crate) fn between<const N: usize>(
+    fn integral(
         &self,
         allowed: &Six,
         [r_m, z_m]: [f64; 2],
-        times_s: [f64; N],
+        time_s: f64,
         span_s: [f64; 2],
-    ) -> Result<[Six; N], ImpactError> {
+        reading: Reading,
+    ) -> Result<Six, ImpactError> {
         /// Radii below this fraction of the distance from the largest edge are continued.
         const NEAR: f64 = 0.031;
         let step_m = NEAR * z_m.hypot(self.excitation.units().disc_radius_m);
         if r_m >= step_m || matches!(self.excitation.radius(), PressureRadius::Fixed(_)) {
-            return self.off_axis(allowed, [r_m, z_m], times_s, span_s);
+            return self.off_axis(allowed, [r_m, z_m], time_s, span_s, reading);
         }
         let radii: Vec<f64> = (1..=self.radii).map(|i| step_m * i as f64).collect();
-        let mut sums = [Six::default(); N];
+        let mut sum = Six::default();
         for (i, &radius) in radii.iter().enumerate() {
-            let found = self.off_axis(allowed, [radius, z_m], times_s, span_s)?;
+            let found = self.off_axis(allowed, [radius, z_m], time_s, span_s, reading)?;
             let weights = weights_off_axis(r_m, &radii, i);
-            for (sum, found) in sums.iter_mut().zip(found) {
-                for f in 0..6 {
-                    sum[f] += weights[f] * found[f];
-                }
-            }
+            sum = std::array::from_fn(|f| sum[f] + weights[f] * found[f]);
         }
-        Ok(sums)
+        Ok(sum)
     }
 
-    fn off_axis<const N: usize>(
+    fn off_axis(
         &self,
         allowed: &Six,
         place_m: [f64; 2],
-        times_s: [f64; N],
-        [from_s, to_s]: [f64; 2],
-    ) -> Result<[Six; N], ImpactError> {
-        let from_s = from_s.max(0.0);
-        let spans_s =
-            times_s.map(|t| [from_s, to_s.min(t).min(self.excitation.end_s()).max(from_s)]);
-        let mut cuts: [Vec<f64>; N] =
-            std::array::from_fn(|i| self.cuts(place_m, times_s[i], spans_s[i]));
-        if cuts.iter().any(|own| own.len() != cuts[0].len()) {
-            let mut all = cuts.concat();
-            all.sort_by(f64::total_cmp);
-            cuts = spans_s.map(|[from, to]| all.iter().map(|t| t.clamp(from, to)).collect());
-        }
-        // between two cuts, the same ones for all times, and how often they may be halved
-        let panel = |n: usize| (cuts.each_ref().map(|own| [own[n - 1], own[n]]), HALVINGS);
-        let mut panels: Vec<_> = (1..cuts[0].len()).rev().map(panel).collect();
-        let mut sums = [Six::default(); N];
-        'panels: while let Some((pairs, halvings)) = panels.pop() {
-            let parts = |at: [f64; N]| {
-                let later = std::array::from_fn(|i| [at[i], pairs[i][1]]);
-                [later, std::array::from_fn(|i| [pairs[i][0], at[i]])]
-            };
-            // at a seam of the force its rate jumps by its error, which a difference would have
-            let piece = |t: f64| self.seams_s.partition_point(|&seam| seam <= t);
-            let parted = leja_nodes().iter().filter(|_| N > 1).find_map(|&node| {
-                let pieces = pairs.map(|pair| piece(at_node(pair, node)));
-                let seam = *self.seams_s[..pieces[0].max(pieces[N - 1])].last()?;
-                let inside = |[from, to]: &[f64; 2]| *from < seam && seam < *to;
-                (pieces[0] != pieces[N - 1] && pairs.iter().all(inside)).then_some(seam)
-            });
-            if let Some(seam) = parted {
-                panels.extend(parts([seam; N]).map(|part| (part, halvings)));
-                continue;
-            }
-            let mut values = [const { Vec::new() }; N];
-            let mut series = [const { Vec::new() }; N];
+        time_s: f64,
+        span_s: [f64; 2],
+        reading: Reading,
+    ) -> Result<Six, ImpactError> {
+        let cuts = self.cuts(place_m, time_s, span_s);
+        // between two cuts, and how often they may be halved
+        let pairs = cuts.windows(2).map(|pair| ([pair[0], pair[1]], HALVINGS));
+        let mut panels: Vec<_> = pairs.rev().collect();
+        let mut sum = Six::default();
+        'panels: while let Some((pair, halvings)) = panels.pop() {
+            let [from_s, to_s] = pair;
+            let (mut values, mut series) = (Vec::new(), Vec::new());
             for terms in (LEAST..=MOST).step_by(2) {
-                for &node in &leja_nodes()[values[0].len()..terms] {
-                    for (i, pair) in pairs.into_iter().enumerate() {
-                        let weight = 0.5 * (pair[1] - pair[0]) * (1.0 - node * node);
-                        let mut value = Six::default();
-                        if weight > 0.0 {
-                            let past_s = at_node(pair, node);
-                            self.add(place_m, times_s[i], past_s, weight, &mut value)?;
-                        }
-                        values[i].push(value);
+                for &node in &leja_nodes()[values.len()..terms] {
+                    let weight = 0.5 * (to_s - from_s) * (1.0 - node * node);
+                    let mut value = Six::default();
+                    if weight > 0.0 {
+                        let times_s = [time_s, at_node(pair, node)];
+                        self.add(place_m, times_s, weight, reading, &mut value)?;
                     }
+                    values.push(value);
                 }
-                series = values.each_ref().map(|values| leja_series(values));
-                let judged = |k: usize, f: usize| match N {
-                    1 => series[0][k][f],
-                    _ => series[N - 1][k][f] - series[0][k][f],
-                };
+                series = leja_series(&values);
                 // terms that fall as a power are many
                 let many = terms as f64 / LEAST as f64;
-                let last = |f: usize| judged(terms - 1, f).abs() + judged(terms - 2, f).abs();
+                let last = |f: usize| series[terms - 1][f].abs() + series[terms - 2][f].abs();
                 if (0..6).all(|f| many * last(f) <= allowed[f]) {
                     break;
                 }
                 // such as of logarithms at the ends
                 if terms == MOST && halvings > 0 {
-                    let halves = parts(pairs.map(|[from, to]| 0.5 * (from + to)));
+                    let middle_s = 0.5 * (from_s + to_s);
+                    let halves = [[middle_s, to_s], [from_s, middle_s]];
                     panels.extend(halves.map(|half| (half, halvings - 1)));
                     continue 'panels;
                 }
             }
-            for (sum, series) in sums.iter_mut().zip(&series) {
-                for (term, integral) in series.iter().zip(&*INTEGRALS) {
-                    *sum = std::array::from_fn(|f| sum[f] + integral * term[f]);
-                }
+            for (term, integral) in series.iter().zip(&*INTEGRALS) {
+                sum = std::array::from_fn(|f| sum[f] + integral * term[f]);
             }
         }
-        Ok(sums)
+        Ok(sum)
     }
 
     /// Whether fields nearly cancel over a contact.
@@ -368,13 +330,14 @@ impl<'a> Past<'a> {
         [one, if other > 0.0 { other } else { one }]
     }
 
-    /// Adds the waves of what an instant changes: a pressure grows by that of a punch of its radius, and scales as it is.
+    /// Adds the waves of what an instant changes, or their rate: a pressure grows by that of a punch of its radius, and scales
+    /// as it is.
     fn add(
         &self,
         [r_m, z_m]: [f64; 2],
-        time_s: f64,
-        past_s: f64,
+        [time_s, past_s]: [f64; 2],
         weight: f64,
+        reading: Reading,
         sum: &mut Six,
     ) -> Result<(), ImpactError> {
         /// Part of the rate that is not told from rounding.
@@ -387,15 +350,23 @@ impl<'a> Past<'a> {
                 continue;
             }
             let radius_m = over * units.disc_radius_m;
-            let since = (time_s - past_s) / (over * units.time_s());
+            let unit_s = over * units.time_s();
+            let since = (time_s - past_s) / unit_s;
             let unit = self.excitation.units_si(over);
             let grown = 1.5 * one.force_n * one.square_rate / one.square;
             for (rate, kernel) in [(grown, &self.punch), (one.rate - grown, &self.hertz)] {
                 if rate.abs() <= NOTHING * one.rate.abs() {
                     continue;
                 }
-                let found = kernel[level].remainder(r_m / radius_m, z_m / radius_m, since)?;
-                for (f, value) in found.value.into_iter().enumerate() {
+                let (kernel, [r, z]) = (&kernel[level], [r_m, z_m].map(|x| x / radius_m));
+                let value = match reading {
+                    Reading::Force => kernel.remainder(r, z, since)?.value,
+                    Reading::Rate => {
+                        let [u, w] = kernel.displacement_impulse(r, z, since)?;
+                        [u / unit_s, w / unit_s, 0.0, 0.0, 0.0, 0.0]
+                    }
+                };
+                for (f, value) in value.into_iter().enumerate() {
                     sum[f] += weight * rate * unit[f] * value;
                 }
             }

@@ -3,7 +3,7 @@
 use super::Trace;
 use super::discs::{COARSEST, Discs};
 use super::ends::open;
-use super::forcing::{DiscForce, Forcing, Reading};
+use super::forcing::{DiscForce, Forcing};
 use super::past::Past;
 use crate::error::ImpactError;
 use crate::excitation::{Excitation, PressureRadius};
@@ -406,11 +406,8 @@ impl<'a> Sum<'a> {
         let enough = std::array::from_fn(|f| allowed.get(f).map_or(f64::INFINITY, |x| part * x));
         let mut exact = Six::default();
         for part in &parts {
-            let (span_s, steps) = (span_s(part), (self.forcing.step_s, &enough));
-            let found = match self.forcing.reading {
-                Reading::Force => past.between(&enough, self.place_m, [time_s], span_s)?[0],
-                Reading::Rate => past.rate_between(self.place_m, time_s, span_s, steps)?,
-            };
+            let (place_m, reading) = (self.place_m, self.forcing.reading);
+            let found = past.between(&enough, place_m, time_s, span_s(part), reading)?;
             for (sum, found) in exact.iter_mut().zip(found) {
                 *sum += found;
             }
