@@ -18,9 +18,6 @@ use std::f64::consts::PI;
 use std::ops::Range;
 use std::sync::LazyLock;
 
-/// Rates that are left over a cell count from this part of the tolerance of the steepest rise on.
-const SMOOTH: f64 = 0.02;
-
 /// Terms of the force in the root of time.
 const DEGREE: usize = 12;
 
@@ -51,18 +48,17 @@ struct Part {
     series: [[f64; 2]; DEGREE],
 }
 
-/// The zones of a force during a run, with those of another beside it; `steepest` is its largest rise over a step, in
-/// tolerances.
+/// The zones of a force during a run of so many samples, with those of another beside it, where more is left over a cell than
+/// is allowed.
 pub(crate) fn zones(
     contacts: &[[f64; 2]],
     span_s: &dyn Fn(&Range<usize>) -> [f64; 2],
     projection: &Projection,
-    (count, steepest): (usize, f64),
+    (count, allowed): (usize, f64),
     force: impl Fn(f64) -> [f64; 2],
 ) -> Vec<Zone> {
     let mut zones: Vec<Zone> = Vec::new();
-    let sure = SMOOTH * steepest;
-    for cell in (1..count).filter(|&cell| projection.taken(cell).left > sure) {
+    for cell in (1..count).filter(|&cell| projection.taken(cell).left > allowed) {
         match zones.last_mut() {
             Some(zone) if zone.cells.end == cell => zone.cells.end = cell + 1,
             Some(_) | None => zones.push(Zone {
@@ -101,7 +97,7 @@ pub(crate) fn zones(
             for side in [(low, 1.0), (high, -1.0)] {
                 let roots = [0.0, (middle - side.0).abs().sqrt()];
                 if roots[1] > 0.0 {
-                    Part::push(side, roots, &force, sure, &mut zone.parts);
+                    Part::push(side, roots, &force, allowed, &mut zone.parts);
                 }
             }
         }
