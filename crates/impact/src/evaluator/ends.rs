@@ -18,6 +18,9 @@ use std::f64::consts::PI;
 use std::ops::Range;
 use std::sync::LazyLock;
 
+/// Rates that are left over a cell count from this part of the tolerance of the steepest rise on.
+const SMOOTH: f64 = 0.02;
+
 /// Terms of the force in the root of time.
 const DEGREE: usize = 12;
 
@@ -48,17 +51,18 @@ struct Part {
     series: [[f64; 2]; DEGREE],
 }
 
-/// The zones of a force during a run of so many samples, with those of another beside it, where more is left over a cell than
-/// is allowed.
+/// The zones of a force during a run, with those of another beside it; `steepest` is its largest rise over a step, in
+/// tolerances.
 pub(crate) fn zones(
     contacts: &[[f64; 2]],
     span_s: &dyn Fn(&Range<usize>) -> [f64; 2],
     projection: &Projection,
-    (count, allowed): (usize, f64),
+    (count, steepest): (usize, f64),
     force: impl Fn(f64) -> [f64; 2],
 ) -> Vec<Zone> {
     let mut zones: Vec<Zone> = Vec::new();
-    for cell in (1..count).filter(|&cell| projection.taken(cell).left > allowed) {
+    let sure = SMOOTH * steepest;
+    for cell in (1..count).filter(|&cell| projection.taken(cell).left > sure) {
         match zones.last_mut() {
             Some(zone) if zone.cells.end == cell => zone.cells.end = cell + 1,
             Some(_) | None => zones.push(Zone {
@@ -68,14 +72,20 @@ pub(crate) fn zones(
             }),
         }
     }
+    let mut ends: Vec<f64> = contacts.as_flattened().to_vec();
+    ends.dedup();
+    let within = |[from_s, to_s]: [f64; 2]| {
+        let all = ends.iter().copied();
+        all.filter(move |at_s| from_s <= *at_s && *at_s < to_s)
+    };
+    // elsewhere cells lose less than the integral does, as long as they follow the force to the tolerance
+    zones.retain(|zone| {
+        let mut left = zone.cells.clone().map(|cell| projection.taken(cell).left);
+        within(span_s(&zone.cells)).next().is_some() || left.any(|left| left > steepest)
+    });
     for zone in &mut zones {
         let [from_s, to_s] = span_s(&zone.cells);
-        let mut ends: Vec<f64> = contacts.as_flattened().to_vec();
-        ends.dedup();
-        for at_s in ends
-            .into_iter()
-            .filter(|at_s| from_s <= *at_s && *at_s < to_s)
-        {
+        for at_s in within([from_s, to_s]) {
             let beside_s = ROUNDING * at_s + START * (to_s - from_s);
             // free of what grows as the root of the distance
             let side = |s: f64| [force(at_s + s), force(at_s + 4.0 * s)];
@@ -97,7 +107,7 @@ pub(crate) fn zones(
             for side in [(low, 1.0), (high, -1.0)] {
                 let roots = [0.0, (middle - side.0).abs().sqrt()];
                 if roots[1] > 0.0 {
-                    Part::push(side, roots, &force, allowed, &mut zone.parts);
+                    Part::push(side, roots, &force, sure, &mut zone.parts);
                 }
             }
         }

@@ -123,11 +123,6 @@ const PART: f64 = 1e-6;
 /// What discs leave of a rate over what is taken: its waves are shorter than those of the force.
 const OF_RATES: f64 = 3.5;
 
-/// What of a force, and of its rate, is left over a cell without an integral in its place, over the tolerance of the steepest
-/// rise: where the pieces of a march meet, rates jump by their error.
-const SMOOTH: f64 = 0.02;
-const SMOOTH_RATE: f64 = 0.1;
-
 /// Slopes and bends below this fraction of the largest sample are left to the differences of the samples.
 const NEGLIGIBLE: f64 = 1e-9;
 
@@ -304,13 +299,9 @@ impl<'a> Forcing<'a> {
         let mut run_zones = Vec::new();
         if self.excitation.record().is_none() {
             let span_s = |cells: &Range<usize>| self.span_s(run, cells);
-            let steepest = self.tolerance * largest(rises);
-            let allowed = match self.reading {
-                Reading::Force => SMOOTH * steepest,
-                Reading::Rate => SMOOTH_RATE * steepest,
-            };
+            let counts = (run.count, self.tolerance * largest(rises));
             let spans = self.excitation.smooth_s();
-            run_zones = zones(&spans, &span_s, &own.projection, (run.count, allowed), both);
+            run_zones = zones(&spans, &span_s, &own.projection, counts, both);
         }
         force.runs.push(RunForce {
             force: own,
