@@ -30,14 +30,14 @@ const WITH_RATES: f64 = 1.5;
 const CELL_S: f64 = 4e-7;
 const LOOKED_UP_S: f64 = 4.5e-7;
 
-/// Samples of a point that are integrated over the radii, over the square of the digits, and kernels of each.
-const OPEN: f64 = 0.8;
-const KERNELS_OF_OPEN: f64 = 60.0;
+/// Part of a point's samples that are integrated over the radii, and kernels of each over the square of the digits.
+const OPEN: f64 = 0.03;
+const KERNELS_OF_OPEN: f64 = 2.6;
 
 /// Radii from the axis and below the surface within which whole contacts are integrated, and kernels of each over the square
 /// of the digits.
 const BESIDE: [f64; 2] = [3.0, 1.4];
-const KERNELS_OF_WHOLE: f64 = 40.0;
+const KERNELS_OF_WHOLE: f64 = 4.0;
 
 /// What the rates of a contact that follows its load take beside its fields.
 const FOLLOWING_RATES: f64 = 2.0;
@@ -62,7 +62,12 @@ pub(crate) fn fields_s(scene: &Scene, excitation: &Excitation, samples: f64) -> 
     let discs = Discs::looked_up(radius)[0].radii.len() as f64;
     let looked_up_s =
         sum(&|wanted| discs * (samples * LOOKED_UP_S + (1.0 + rates) * convolved_s(wanted)));
-    let discs = Discs::computed(radius, tolerance)[0].radii.len() as f64;
+    // those beside the load seldom leave little at the first choice
+    let choices = Discs::computed(radius, tolerance);
+    let beside = choices[0].omitted.is_none();
+    let discs = choices[usize::from(beside).min(choices.len() - 1)]
+        .radii
+        .len() as f64;
     let kernels = KERNELS + KERNELS_A_DIGIT * digits;
     let more = if rates > 0.0 { WITH_RATES } else { 1.0 };
     let [small, of_rates, open, beside] = match radius {
@@ -74,8 +79,7 @@ pub(crate) fn fields_s(scene: &Scene, excitation: &Excitation, samples: f64) -> 
     };
     let trace_s = kernels * more * small * KERNEL_S + samples * CELL_S;
     let points_s = sum(&|wanted| {
-        let open = open * digits.powi(2) * wanted / samples;
-        let past_s = open * KERNELS_OF_OPEN * SMALL_DISC * KERNEL_S;
+        let past_s = open * wanted * KERNELS_OF_OPEN * digits.powi(2) * SMALL_DISC * KERNEL_S;
         let each = discs * convolved_s(wanted) + past_s;
         discs * trace_s + each * (1.0 + of_rates * rates)
     });
