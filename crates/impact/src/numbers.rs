@@ -5,7 +5,7 @@
 /// Sweeps with probes carry it, beside [`contact::NUMBERS_REVISION`], in what makes two of them the same. It is
 /// raised by hand with every change that alters a field by more than the rounding of double precision, in this crate, in
 /// `lookup` or in `halfspace`; a test compares fields with those that were written down for it.
-pub const FIELDS_REVISION: u32 = 13;
+pub const FIELDS_REVISION: u32 = 14;
 
 #[cfg(test)]
 mod tests {
@@ -55,12 +55,12 @@ mod tests {
         }
     }
 
-    /// Revision 13.
+    /// Revision 14.
     #[rustfmt::skip]
     const KNOWN: [[f64; 3]; 6] = [
-        [8.236_619_358_777_63e-6, 1.103_152_945_390_66e-5, 1.178_997_710_721_50e-9],
-        [-1.334_969_627_049_45e9, 1.094_110_708_133_36e-5, 1.961_934_545_204_20e5],
-        [1.086_762_515_710_13e0, 4.159_429_138_358_23e-6, 6.301_225_344_440_18e-4],
+        [8.236_619_360_737_31e-6, 1.103_152_945_390_66e-5, 1.178_534_273_147_84e-9],
+        [-1.334_969_600_244_93e9, 1.094_110_708_133_36e-5, 1.947_527_228_449_83e5],
+        [1.086_762_515_710_13e0, 4.159_429_138_358_23e-6, 6.297_534_323_362_16e-4],
         [4.824_726_432_075_10e-6, 1.112_195_182_647_96e-5, 6.934_131_736_451_87e-10],
         [-1.705_010_172_088_32e8, 1.094_110_708_133_36e-5, 3.086_933_013_267_30e4],
         [6.400_384_364_619_66e-1, 4.882_808_118_942_27e-6, 3.506_622_595_202_14e-4],
