@@ -7,7 +7,7 @@
 //! Theory: `docs/theory.md` (T18).
 
 use crate::numeric::gauss;
-use crate::numeric::lanes::{Points, half_axes, major_axis, power, sum_of_inverse_powers};
+use crate::numeric::lanes::{Points, half_axes, major_axis, power};
 use crate::numeric::scalar::Real;
 use crate::potentials::Order;
 use crate::profile::Profile;
@@ -100,8 +100,7 @@ pub(crate) fn panels(
     stack.push([0.0, 1.0]);
     while let Some(ends) = stack.pop() {
         let [s0, s1] = ends;
-        let (axes, smallest) = singularities.axes(ends);
-        let smallest = smallest.min(FARTHEST);
+        let smallest = singularities.smallest_axis(ends).min(FARTHEST);
         let pole = half_axes(major_axis(pole.re, pole.im, ends));
         let (rate, pole_rate) = (half_axes(smallest).ln(), pole.ln());
         let at_cut = s0 == 0.0 && finite_part;
@@ -117,7 +116,7 @@ pub(crate) fn panels(
         }
         let n = nodes.saturating_add(2).max(least).min(MOST_NODES);
         let exponent = degree as u32 * n as u32;
-        let all = sum_of_inverse_powers(&axes, NEAR * smallest, exponent);
+        let all = singularities.sum_of_inverse_powers(ends, NEAR * smallest, exponent);
         // of the whole panel, as if one node had it
         let of_rule = caution * (all + POLE * power(pole, exponent).recip()) * (n as f64).sqrt();
         let (rule, middle, half) = if at_cut {

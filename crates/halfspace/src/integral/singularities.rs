@@ -212,10 +212,10 @@ impl Singularities {
         if own().count() > 1 || own().any(|&other| other != cut) {
             return MERGED;
         }
-        let distances = self.points.iter().map(|point| (point - cut).norm());
-        let nearest = distances
-            .filter(|distance| *distance > SAME * cut.max(SMALLEST))
-            .fold(1.0, f64::min);
+        let squares = self.points.iter().map(|point| (point - cut).norm_sqr());
+        let least = SAME * cut.max(SMALLEST);
+        let others = squares.filter(|square| *square > least * least);
+        let nearest = others.fold(1.0, f64::min).sqrt();
         let neighbour = if nearest < OTHER_ROOT * cut {
             by(nearest)
         } else {

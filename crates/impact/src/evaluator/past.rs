@@ -387,10 +387,11 @@ impl<'a> Past<'a> {
         let parts_s = PARTS.map(|part| part * self.excitation.end_s());
         let parts_s = parts_s.iter().chain(self.excitation.kinks_s());
         cuts.extend(parts_s.filter(|s| from_s < **s && **s < until_s));
-        // within the passing of the waves, and before it
+        // within the passing of the waves; before it the contact's edge alone may pass
         let passing_s = (time_s - 1.01 * last_s).clamp(from_s, until_s);
+        let is_under = place_m[0] < self.excitation.units().disc_radius_m;
         for [low, high] in [[from_s, passing_s], [passing_s, until_s]] {
-            if low >= high {
+            if low >= high || high == passing_s && !is_under {
                 continue;
             }
             let graded = |i: usize| {
@@ -463,7 +464,12 @@ impl<'a> Past<'a> {
     fn ahead(&self, place_m: [f64; 2], time_s: f64, past_s: f64) -> [f64; FAMILIES] {
         let units = self.excitation.units();
         let radii_m = self.overs(past_s).map(|over| over * units.disc_radius_m);
-        let fronts_s = radii_m.map(|radius_m| self.fronts_s(place_m, radius_m));
+        let first_s = self.fronts_s(place_m, radii_m[0]);
+        let other_s = match radii_m[0] == radii_m[1] {
+            true => first_s,
+            false => self.fronts_s(place_m, radii_m[1]),
+        };
+        let fronts_s = [first_s, other_s];
         let since_s = time_s - past_s;
         std::array::from_fn(|family| {
             let (which, kind) = (family / KINDS, family % KINDS);

@@ -69,19 +69,20 @@ impl Points {
         }
     }
 
-    /// Major axes of the ellipses with two foci through the points, focal distance 2, and the smallest.
-    pub(crate) fn axes(&self, foci: [f64; 2]) -> (ArrayVec<[f64; WIDTH], BLOCKS>, f64) {
-        dispatch(Axes { points: self, foci })
+    /// Smallest major axis of the ellipses with two foci through the points, focal distance 2.
+    pub(crate) fn smallest_axis(&self, foci: [f64; 2]) -> f64 {
+        dispatch(SmallestAxis { points: self, foci })
     }
-}
 
-/// Sum of 1/rho^`power` over ellipses of an axis up to `largest`, rho the sum of the half axes.
-pub(crate) fn sum_of_inverse_powers(axes: &[[f64; WIDTH]], largest: f64, power: u32) -> f64 {
-    dispatch(InversePowers {
-        axes,
-        largest,
-        power,
-    })
+    /// Sum of 1/rho^`power` over such ellipses of an axis up to `largest`, rho the sum of the half axes.
+    pub(crate) fn sum_of_inverse_powers(&self, foci: [f64; 2], largest: f64, power: u32) -> f64 {
+        dispatch(InversePowers {
+            points: self,
+            foci,
+            largest,
+            power,
+        })
+    }
 }
 
 /// Major axis of the ellipse with foci s0, s1 through a point, focal distance 2.
@@ -135,34 +136,30 @@ impl<M: Map> WithSimd for Mapped<'_, M> {
     }
 }
 
-struct Axes<'a> {
+struct SmallestAxis<'a> {
     points: &'a Points,
     foci: [f64; 2],
 }
 
-impl WithSimd for Axes<'_> {
-    type Output = (ArrayVec<[f64; WIDTH], BLOCKS>, f64);
+impl WithSimd for SmallestAxis<'_> {
+    type Output = f64;
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
-        let (mut axes, mut smallest) = (ArrayVec::new(), Lanes::all(simd, f64::INFINITY));
+    fn with_simd<S: Simd>(self, simd: S) -> f64 {
+        let mut smallest = Lanes::all(simd, f64::INFINITY);
         for parts in &self.points.blocks {
-            let mut block = [0.0; WIDTH];
             let [re, im] = parts.each_ref().map(|part| Lanes::registers(simd, part));
-            let registers = S::as_mut_simd_f64s(&mut block).0.iter_mut();
-            for (register, (re, im)) in registers.zip(re.zip(im)) {
-                let axis = major_axis(re, im, self.foci);
-                smallest = smallest.min(axis);
-                *register = axis.register;
+            for (re, im) in re.zip(im) {
+                smallest = smallest.min(major_axis(re, im, self.foci));
             }
-            axes.push(block);
         }
-        (axes, smallest.smallest())
+        smallest.smallest()
     }
 }
 
 struct InversePowers<'a> {
-    axes: &'a [[f64; WIDTH]],
+    points: &'a Points,
+    foci: [f64; 2],
     largest: f64,
     power: u32,
 }
@@ -175,8 +172,10 @@ impl WithSimd for InversePowers<'_> {
         let [zero, one, largest] = [0.0, 1.0, self.largest].map(|v| Lanes::all(simd, v));
         let mut sums = [0.0; WIDTH];
         let sums_of = S::as_mut_simd_f64s(&mut sums).0;
-        for block in self.axes {
-            for (sum, axis) in sums_of.iter_mut().zip(Lanes::registers(simd, block)) {
+        for parts in &self.points.blocks {
+            let [re, im] = parts.each_ref().map(|part| Lanes::registers(simd, part));
+            for (sum, (re, im)) in sums_of.iter_mut().zip(re.zip(im)) {
+                let axis = major_axis(re, im, self.foci);
                 let left = one / power(half_axes(axis), self.power);
                 *sum = (Lanes::of(simd, *sum) + largest.where_below(axis, zero, left)).register;
             }
