@@ -64,7 +64,7 @@ pub(crate) fn fields_s(scene: &Scene, excitation: &Excitation, samples: f64) -> 
         sum(&|wanted| discs * (samples * LOOKED_UP_S + (1.0 + rates) * convolved_s(wanted)));
     // those beside the load seldom leave little at the first choice
     let choices = Discs::computed(radius, tolerance);
-    let beside = choices[0].omitted.is_none();
+    let beside = !choices[0].is_apart();
     let discs = choices[usize::from(beside).min(choices.len() - 1)]
         .radii
         .len() as f64;

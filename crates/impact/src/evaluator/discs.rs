@@ -26,11 +26,11 @@ pub(crate) struct Discs {
     pub(crate) radii: Vec<f64>,
     /// Smallest square of a radius that the nodes cover.
     least: f64,
-    /// Where the discs stand for the load some radii away, what each counts in what they leave: in the next term of the
-    /// series in the square of the radius over the length of waves, of which Rayleigh's are the shortest. That is the divided
-    /// difference of the discs' kernels, times (a_max/c_R)^2 d^2/dt^2 of the load times the product of a^2 less the square of
-    /// each radius.
-    pub(crate) omitted: Option<Vec<f64>>,
+    /// Where discs stand for the load away from it, what each counts in what they leave: in the next term of the series in
+    /// the square of the radius over the length of waves, of which Rayleigh's are the shortest. That is the divided difference
+    /// of the discs' kernels, times (a_max/c_R)^2 d^2/dt^2 of the load times the product of a^2 less the square of each
+    /// radius. Empty where their highest power tells.
+    pub(crate) omitted: Vec<f64>,
 }
 
 /// Squares of the radii some radii away from the load, and how many of them the choices have: most are small, since where
@@ -41,8 +41,9 @@ const COUNTS_APART: [usize; 3] = [2, 3, 4];
 /// Digits up to which these serve.
 const DIGITS_APART: f64 = 5.0;
 
-/// Terms of 3 j1(ka)/(ka) over those before, as many times as in the first instants, when waves are short, a front may bring.
-const OMITTED: [f64; 3] = [1.0 / 28.0, 1.0 / 54.0, 1.0 / 88.0];
+/// Terms of 3 j1(ka)/(ka) over those before, some radii away as many times as in the first instants, when waves are short, a
+/// front may bring.
+const OMITTED: [f64; 4] = [1.0 / 10.0, 1.0 / 28.0, 1.0 / 54.0, 1.0 / 88.0];
 const CAUTION: f64 = 20.0;
 
 /// Tolerances that their kernels have: the forces on them are smooth, and what a trace leaves of either sign. Series of the
@@ -92,19 +93,24 @@ impl Discs {
         let of = |own: &f64| {
             let others = squares.iter().filter(|other| *other != own);
             let difference: f64 = others.map(|other| own - other).product();
-            CAUTION * OMITTED[count - COUNTS_APART[0]] / difference
+            CAUTION * OMITTED[count - 1] / difference
         };
         Self {
             radii: squares.iter().map(|square| square.sqrt()).collect(),
             least: 0.0,
-            omitted: Some(squares.iter().map(of).collect()),
+            omitted: squares.iter().map(of).collect(),
         }
     }
 
     /// Tolerance of the kernels of the discs for one on the fields; beside the load their differences tell what is left.
     pub(crate) fn tolerance(&self, fields: f64) -> f64 {
-        let own = if self.omitted.is_some() { LOOSE } else { 1.0 };
+        let own = if self.is_apart() { LOOSE } else { 1.0 };
         (own * fields).min(COARSEST)
+    }
+
+    /// Whether they stand for the load some radii away from it.
+    pub(crate) fn is_apart(&self) -> bool {
+        self.omitted.len() > 1
     }
 
     /// The product of a^2 less the square of each radius.
@@ -122,7 +128,11 @@ impl Discs {
         Self {
             radii: radii.collect(),
             least,
-            omitted: None,
+            omitted: if count == 1 {
+                vec![OMITTED[0]]
+            } else {
+                Vec::new()
+            },
         }
     }
 
@@ -133,7 +143,7 @@ impl Discs {
         if count == 1 {
             return [1.0, 0.0];
         }
-        if self.omitted.is_some() {
+        if self.is_apart() {
             let own = |j: usize| self.radii[j] * self.radii[j];
             return [lagrange(own, count, k, square), 0.0];
         }

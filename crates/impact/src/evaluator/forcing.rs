@@ -274,25 +274,18 @@ impl<'a> Forcing<'a> {
             changes = next.collect();
         }
         force.half_variation += 0.5 * changes.iter().map(|d| d.abs()).sum::<f64>();
-        let last = match (self.excitation.radius(), &discs.omitted) {
+        let last = match (self.excitation.radius(), discs.omitted.get(k)) {
             (PressureRadius::Fixed(_), _) => None,
-            (PressureRadius::Following { .. }, Some(counts)) => {
-                // what some discs leave some radii away, as its samples are
+            (PressureRadius::Following { .. }, Some(count)) => {
+                // as its samples are
                 let nodes = CellNodes::new(run.count.saturating_sub(1), |_, _| {});
                 let beyond = |one: Pressed| [one.force_n * discs.product(one.square)];
                 let caution = match self.reading {
-                    Reading::Force => 1.0,
-                    Reading::Rate => OF_RATES,
+                    Reading::Rate if discs.is_apart() => OF_RATES,
+                    Reading::Force | Reading::Rate => 1.0,
                 };
-                let left = self.bent(caution * counts[k], |t| self.sum(t, beyond)[0], run);
+                let left = self.bent(caution * count, |t| self.sum(t, beyond)[0], run);
                 Some(Sampled::new(0.0, &left, &nodes, (needed, 1.0)))
-            }
-            (PressureRadius::Following { .. }, None) if discs.radii.len() == 1 => {
-                let left = self.left_out(discs.radii[0], run);
-                Some(Sampled {
-                    convolver: Convolver::from_base(0.0, &left, needed.clone()),
-                    projection: Projection::default(),
-                })
             }
             (PressureRadius::Following { .. }, None) => Some(of(1, 1e-3)),
         };
@@ -319,20 +312,6 @@ impl<'a> Forcing<'a> {
         };
         let found = self.excitation.contacts_s().iter().map(of);
         found.filter(|cells| !cells.is_empty()).collect()
-    }
-
-    /// The force whose waves one disc of radius b leaves out, far from it: (a_max/c_R)^2/10 times the second derivative of
-    /// P (a^2 - b^2)/a_max^2.
-    fn left_out(&self, radius: f64, run: &Run) -> Vec<f64> {
-        let of = |one: Pressed| {
-            let beyond = one.square - radius * radius;
-            match self.reading {
-                Reading::Force => one.force_n * beyond,
-                Reading::Rate => one.rate * beyond + one.force_n * one.square_rate,
-            }
-        };
-        let over = |t: f64| self.excitation.pressures(t).map(of).iter().sum();
-        self.bent(0.1, over, run)
     }
 
     /// A number times (a_max/c_R)^2 times the second derivative of a function of time.

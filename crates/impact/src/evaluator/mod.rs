@@ -185,7 +185,7 @@ impl<'a> Evaluator<'a> {
             let next = &self.choices[pair[1]];
             let enough = open(&best.0) <= 2 * next.radii.len();
             // far away the kernels of the smallest discs lose digits
-            if self.past.is_none() || enough || !(is_near || next.omitted.is_some()) {
+            if self.past.is_none() || enough || !(is_near || next.is_apart()) {
                 break;
             }
             let next = self.under(place_m, pair[1], Some((pair[0], &best.1)))?;
@@ -215,7 +215,7 @@ impl<'a> Evaluator<'a> {
         // whose force has a kink begins short waves where it is large, too
         let smooth = self.grid.excitation.kinks_s().is_empty();
         let apart = computed && smooth && (APART..FAR).contains(&self.distance(place_m));
-        let fits = |choice: &usize| self.choices[*choice].omitted.is_some() == apart;
+        let fits = |choice: &usize| self.choices[*choice].is_apart() == apart;
         let mut found: Vec<usize> = (0..count).filter(served).collect();
         if found.iter().any(fits) {
             found.retain(fits);

@@ -215,7 +215,7 @@ impl<'a> Sum<'a> {
         let radius_m = self.forcing.excitation.units().disc_radius_m;
         match self.discs.radii.len() {
             2.. if self.is_under() => UNDER,
-            _ if self.discs.omitted.is_some() && self.place_m[1] < radius_m => SHALLOW,
+            _ if self.discs.is_apart() && self.place_m[1] < radius_m => SHALLOW,
             0..=FEW => 1.0,
             _ => OF_MANY,
         }
@@ -341,7 +341,7 @@ impl<'a> Sum<'a> {
             let past_s = self.forcing.span_s(&self.forcing.runs[run], &part);
             let exact = zone.by_trace(self.forcing.times_s[i], past_s, (trace, unit_s));
             let mut by_cells = own.by_cells(n, &part, &cells.moments);
-            if self.discs.omitted.is_some() {
+            if self.discs.is_apart() {
                 // some radii away the last is known at the samples alone
                 by_cells[1] = Six::default();
             }

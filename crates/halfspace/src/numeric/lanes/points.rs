@@ -71,7 +71,7 @@ impl Points {
 
     /// Smallest major axis of the ellipses with two foci through the points, focal distance 2.
     pub(crate) fn smallest_axis(&self, foci: [f64; 2]) -> f64 {
-        dispatch(SmallestAxis { points: self, foci })
+        dispatch(Axes { points: self, foci })
     }
 
     /// Sum of 1/rho^`power` over such ellipses of an axis up to `largest`, rho the sum of the half axes.
@@ -136,12 +136,12 @@ impl<M: Map> WithSimd for Mapped<'_, M> {
     }
 }
 
-struct SmallestAxis<'a> {
+struct Axes<'a> {
     points: &'a Points,
     foci: [f64; 2],
 }
 
-impl WithSimd for SmallestAxis<'_> {
+impl WithSimd for Axes<'_> {
     type Output = f64;
 
     #[inline(always)]
