@@ -21,6 +21,9 @@ use std::sync::LazyLock;
 /// Rates that are left over a cell count from this part of the tolerance of the steepest rise on.
 const SMOOTH: f64 = 0.02;
 
+/// Rise of the force that the integrals over a zone may lose, over its largest over a cell.
+const LOST: f64 = 3e-3;
+
 /// Terms of the force in the root of time.
 const DEGREE: usize = 12;
 
@@ -112,10 +115,30 @@ pub(crate) fn zones(
             }
         }
     }
+    // where a force has edges that nobody has named, such as a rate where pieces of a march meet, cells serve, too
+    let rises = (1..count).map(|cell| projection.taken(cell).rise.abs());
+    let most = LOST * rises.fold(0.0, f64::max);
+    zones.retain(|zone| {
+        let [before, after] = span_s(&zone.cells).map(&force);
+        let parts = zone.parts.iter().map(Part::rise);
+        let rises: Vec<[f64; 2]> = parts.chain(zone.jumps.iter().map(|one| one.1)).collect();
+        let lost = |k: usize| after[k] - before[k] - rises.iter().map(|r| r[k]).sum::<f64>();
+        lost(0).abs().max(lost(1).abs()) <= most
+    });
     zones
 }
 
 impl Part {
+    /// How far the forces rise over it.
+    fn rise(&self) -> [f64; 2] {
+        let half = 0.5 * (self.roots[1] - self.roots[0]);
+        let even = self.series.iter().step_by(2).zip(0_u8..);
+        let terms = even.map(|(term, i)| (term, 2.0 * half / (1.0 - f64::from(2 * i).powi(2))));
+        terms.fold([0.0; 2], |sum, (term, weight)| {
+            [0, 1].map(|k| sum[k] + weight * term[k])
+        })
+    }
+
     /// Adds what lies on a side of an origin, halved until a polynomial follows the force.
     fn push(
         (origin_s, sign): (f64, f64),
