@@ -17,7 +17,7 @@ MOST_IN_FOLDER = 14
 # they rose by 2,123 lines for contacts that yield, by 600 for seals, records of instruments and errors with one face, and
 # by 20 for what killed runs leave, sizes without a mass and legends, and by 50 for sections under growing contacts in four
 # fifths of the time.
-CEILINGS = {"code lines": 41_819, "source files": 350, "type names": 370}
+CEILINGS = {"code lines": 41_836, "source files": 350, "type names": 370}
 
 
 def modules(src):

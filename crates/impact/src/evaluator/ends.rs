@@ -120,25 +120,17 @@ pub(crate) fn zones(
     let most = LOST * rises.fold(0.0, f64::max);
     zones.retain(|zone| {
         let [before, after] = span_s(&zone.cells).map(&force);
-        let parts = zone.parts.iter().map(Part::rise);
-        let rises: Vec<[f64; 2]> = parts.chain(zone.jumps.iter().map(|one| one.1)).collect();
-        let lost = |k: usize| after[k] - before[k] - rises.iter().map(|r| r[k]).sum::<f64>();
+        let of_parts = zone.parts.iter().map(|part| part.rises(part.roots).1);
+        let of_parts = of_parts.map(|rises| rises.map(|own| own.iter().sum()));
+        let jumps = zone.jumps.iter().map(|one| one.1);
+        let found: Vec<[f64; 2]> = of_parts.chain(jumps).collect();
+        let lost = |k: usize| after[k] - before[k] - found.iter().map(|r| r[k]).sum::<f64>();
         lost(0).abs().max(lost(1).abs()) <= most
     });
     zones
 }
 
 impl Part {
-    /// How far the forces rise over it.
-    fn rise(&self) -> [f64; 2] {
-        let half = 0.5 * (self.roots[1] - self.roots[0]);
-        let even = self.series.iter().step_by(2).zip(0_u8..);
-        let terms = even.map(|(term, i)| (term, 2.0 * half / (1.0 - f64::from(2 * i).powi(2))));
-        terms.fold([0.0; 2], |sum, (term, weight)| {
-            [0, 1].map(|k| sum[k] + weight * term[k])
-        })
-    }
-
     /// Adds what lies on a side of an origin, halved until a polynomial follows the force.
     fn push(
         (origin_s, sign): (f64, f64),
@@ -182,11 +174,15 @@ impl Part {
         });
     }
 
-    /// dF/dx, in the sense of time.
-    fn slopes(&self, x: [f64; NODES]) -> [[f64; NODES]; 2] {
+    /// Nodes between two roots, and what the forces rise at each, in the sense of time.
+    fn rises(&self, [from, to]: [f64; 2]) -> ([f64; NODES], [[f64; NODES]; 2]) {
         let [low, high] = self.roots;
+        let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
+        let x = RULE.map(|[y, _]| middle + half * y);
         let y = x.map(|x| (2.0 * x - low - high) / (high - low));
-        chebyshev_each(&self.series, y)
+        let slopes = chebyshev_each(&self.series, y);
+        let weighted = |own: [f64; NODES]| std::array::from_fn(|n| half * RULE[n][1] * own[n]);
+        (x, slopes.map(weighted))
     }
 
     /// Adds the integrals over some of the past at a time; the trace has its times in `unit_s`.
@@ -216,14 +212,15 @@ impl Part {
             .collect();
         cuts.sort_by(f64::total_cmp);
         for pair in cuts.windows(2) {
-            let (middle, half) = (0.5 * (pair[0] + pair[1]), 0.5 * (pair[1] - pair[0]));
-            let x = RULE.map(|[y, _]| middle + half * y);
+            let (x, rises) = self.rises([pair[0], pair[1]]);
             let values = trace.at_each(x.map(|x| (since_s - self.sign * x * x) / unit_s));
-            for (sum, slopes) in sums.iter_mut().zip(self.slopes(x)) {
-                let weights: [f64; NODES] = std::array::from_fn(|n| half * RULE[n][1] * slopes[n]);
+            for (sum, rises) in sums.iter_mut().zip(rises) {
                 for (sum, values) in sum.iter_mut().zip(&values) {
-                    let terms = weights.iter().zip(values);
-                    *sum += terms.map(|(weight, value)| weight * value).sum::<f64>();
+                    *sum += rises
+                        .iter()
+                        .zip(values)
+                        .map(|(rise, value)| rise * value)
+                        .sum::<f64>();
                 }
             }
         }
