@@ -4,9 +4,16 @@
 
 use halfspace::{Arrivals, Kernel, Medium, Profile};
 
+/// Slopes of the step response at a time by differences to fourth order.
+fn slopes(kernel: &Kernel, [r, z]: [f64; 2], t: f64) -> [f64; 6] {
+    const H: f64 = 1e-4;
+    let at = |steps: f64| kernel.remainder(r, z, t + steps * H).unwrap().value;
+    let [far, near] = [2.0, 1.0].map(|steps| [at(-steps), at(steps)]);
+    std::array::from_fn(|f| (8.0 * (near[1][f] - near[0][f]) - far[1][f] + far[0][f]) / (12.0 * H))
+}
+
 #[test]
 fn the_impulse_is_the_slope_of_the_step_response() {
-    let h = 1e-4;
     for nu in [-0.3, 0.0, 0.25, 0.3, 0.45] {
         let medium = Medium::new(nu).unwrap();
         let kernel = Kernel::new(&medium, Profile::Hertz, 1e-12).unwrap();
@@ -27,12 +34,8 @@ fn the_impulse_is_the_slope_of_the_step_response() {
                     continue;
                 }
                 checked += 1;
-                let at = |t: f64| kernel.remainder(r, z, t).unwrap().value;
-                let (far, near) = ([at(t - 2.0 * h), at(t + 2.0 * h)], [at(t - h), at(t + h)]);
                 let impulse = kernel.impulse(r, z, t).unwrap();
-                for f in 0..6 {
-                    let slope =
-                        (8.0 * (near[1][f] - near[0][f]) - far[1][f] + far[0][f]) / (12.0 * h);
+                for (f, slope) in slopes(&kernel, [r, z], t).into_iter().enumerate() {
                     let gap = (slope - impulse.value[f]).abs();
                     assert!(
                         gap < 2e-6,
@@ -46,10 +49,8 @@ fn the_impulse_is_the_slope_of_the_step_response() {
     }
 }
 
-/// Of all profiles those of the displacements, against differences to fourth order.
 #[test]
 fn the_impulse_of_displacements_is_their_slope_under_any_profile() {
-    let h = 1e-4;
     for nu in [-0.3, 0.0, 0.25, 0.3, 0.45] {
         let medium = Medium::new(nu).unwrap();
         for profile in [Profile::Hertz, Profile::Punch, Profile::Point] {
@@ -72,12 +73,9 @@ fn the_impulse_of_displacements_is_their_slope_under_any_profile() {
                         continue;
                     }
                     checked += 1;
-                    let at = |t: f64| kernel.remainder(r, z, t).unwrap().value;
-                    let (far, near) = ([at(t - 2.0 * h), at(t + 2.0 * h)], [at(t - h), at(t + h)]);
                     let found = kernel.displacement_impulse(r, z, t).unwrap();
-                    for (f, found) in found.into_iter().enumerate() {
-                        let slope =
-                            (8.0 * (near[1][f] - near[0][f]) - far[1][f] + far[0][f]) / (12.0 * h);
+                    let slopes = slopes(&kernel, [r, z], t);
+                    for (f, (found, slope)) in found.into_iter().zip(slopes).enumerate() {
                         // the differences show the noise of steps that are continued to the axis, or of a point force
                         let noisy = r < 0.05 || profile == Profile::Point;
                         let noise = if noisy { 1e-5 } else { 2e-7 };
