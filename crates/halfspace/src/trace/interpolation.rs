@@ -16,7 +16,7 @@ const MOST: usize = 200;
 ///
 /// `static_field` is minus the remainder before the first arrival.
 pub(crate) fn segments(
-    arrivals: &[f64],
+    (arrivals, passing): (&[f64], Option<[f64; 2]>),
     (first, end): (f64, f64),
     static_field: &Six,
     (tolerance, rise): (Six, &dyn Fn(f64) -> Six),
@@ -25,7 +25,7 @@ pub(crate) fn segments(
     let counts = |segment: &Segment| rise(segment.times[1] - segment.times[0]);
     let mut peak = static_field.map(f64::abs);
     let mut stack = vec![];
-    for piece in pieces(arrivals, first, end).into_iter().rev() {
+    for piece in pieces(arrivals, passing, [first, end]).into_iter().rev() {
         let segment = Segment::fit(piece, &remainder)?;
         let part = counts(&segment);
         for (f, peak) in peak.iter_mut().enumerate() {
@@ -71,13 +71,10 @@ fn is_converged(segment: &Segment, allowed: &Six) -> bool {
         || (0..6).all(|f| segment.truncation[f] <= allowed[f].max(segment.error[f]))
 }
 
-/// The intervals between fronts and after the last, in the order of time.
-///
-/// Beside fronts that are long apart R varies as fast as the disc is passed: such an interval is two, each beside its front.
-fn pieces(arrivals: &[f64], first: f64, end: f64) -> Vec<Piece> {
-    /// Radii from one front to the next that are not long.
-    const SHORT: f64 = 6.0;
-    /// Logarithm of twice the radii after the last front that one polynomial serves.
+/// The intervals between fronts and after the last, in the order of time; then a wave without a front may be `passing`, at
+/// a time and for some while.
+fn pieces(arrivals: &[f64], passing: Option<[f64; 2]>, [first, end]: [f64; 2]) -> Vec<Piece> {
+    /// Factors e of time that one polynomial serves.
     const LONG: f64 = 3.5;
     /// Fronts this close to each other are one.
     const SAME: f64 = 1e-13;
@@ -88,25 +85,21 @@ fn pieces(arrivals: &[f64], first: f64, end: f64) -> Vec<Piece> {
             fronts.push(arrival);
         }
     }
-    let mut pieces = vec![];
-    for (i, &from) in fronts.iter().enumerate().filter(|(_, t)| **t < end) {
-        match fronts.get(i + 1) {
-            None => {
-                let rest = Piece::new(Course::beside(from, end), end);
-                let parts = ((2.0 * (end - from)).ln() / LONG).ceil();
-                pieces.extend(rest.parts(parts.max(1.0) as u32));
-            }
-            Some(&to) if to - from < SHORT => {
-                pieces.push(Piece::new(Course::Between([from, to]), end));
-            }
-            Some(&to) => {
-                let middle = 0.5 * (from + to);
-                pieces.push(Piece::new(Course::beside(from, middle), end.min(middle)));
-                if end > middle {
-                    pieces.push(Piece::new(Course::beside(to, middle), end.min(to)));
-                }
-            }
+    let between = |pair: &[f64]| (pair[0], Course::Between([pair[0], pair[1]]));
+    let mut courses: Vec<(f64, Course)> = fronts.windows(2).map(between).collect();
+    let last = fronts[fronts.len() - 1];
+    match passing {
+        Some(wave) if wave[0] > last => {
+            let middle = 0.5 * (last + wave[0]);
+            courses.push((last, Course::after(last, middle)));
+            courses.push((middle, Course::around(wave, [middle, end.max(middle)])));
         }
+        Some(_) | None => courses.push((last, Course::after(last, end.max(last)))),
     }
-    pieces
+    let begun = courses.into_iter().filter(|(from, _)| *from < end);
+    let parts = |(_, course): (f64, Course)| {
+        let count = (course.length() / LONG).ceil().max(1.0);
+        Piece::new(course, end).parts(count as u32)
+    };
+    begun.flat_map(parts).collect()
 }

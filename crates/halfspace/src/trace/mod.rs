@@ -22,6 +22,9 @@ use crate::trace::segment::Segment;
 /// What is left of a polynomial is of either sign, and so is the rate of the force times it.
 const OSCILLATES: f64 = 0.22;
 
+/// Time in r0/c1 that a Rayleigh wave lasts where the edges of the disc are not told from each other.
+const DEEP: f64 = 1.0;
+
 /// R(t) at one place up to an end: at instants, and its moments over any intervals.
 ///
 /// Made by [`Kernel::trace`]. Its cost depends on the place and the tolerance, not on what is read: an instant takes some
@@ -83,11 +86,20 @@ impl Kernel {
         check_hertz(self.profile(), "a trace")?;
         // the depth of a rounding error is none
         let z = if z < NEAREST { 0.0 } else { z };
-        let fronts = Arrivals::new(self.medium(), self.profile(), r, z)?.sorted();
+        let mut arrivals = Arrivals::new(self.medium(), self.profile(), r, z)?;
+        // below the surface Rayleigh's wave has no front, and lasts as long as the point is deep
+        let medium = self.medium();
+        let slownesses = [medium.rayleigh_speed(), medium.kappa()].map(|c| 1.0 / (c * c));
+        let duration = z * (slownesses[0] - slownesses[1]).sqrt();
+        let passing = (duration > DEEP).then(|| {
+            arrivals.rayleigh = arrivals.s;
+            [r / medium.rayleigh_speed(), duration]
+        });
+        let fronts = arrivals.sorted();
         let static_field = self.static_field(r, z)?;
         let first_arrival = self.first_arrival(r, z);
         let segments = segments(
-            &fronts,
+            (&fronts, passing),
             (first_arrival, end),
             &static_field,
             (tolerance, rise),
@@ -117,9 +129,10 @@ impl Kernel {
 }
 
 impl Trace {
-    /// Times between which R is a polynomial in the root of the time from a front, ascending, fronts among them.
+    /// Times between which R is a polynomial of few terms in the root of the time from a front, ascending, fronts among
+    /// them.
     pub fn breaks(&self) -> impl Iterator<Item = f64> {
-        self.segments.iter().map(|segment| segment.times[0])
+        self.segments.iter().flat_map(Segment::breaks)
     }
 
     /// R at a time; after the end of the trace, its value there.

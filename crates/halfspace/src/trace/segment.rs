@@ -2,12 +2,13 @@
 //!
 //! ```text
 //! t = a + (b - a) sin^2(pi s/2)             between fronts a and b
-//! t = a + (w - 1)^2/(2 w), w = e^(Y s)      after a front a whose next is far, or the last; before one likewise
+//! t = a + (w - 1)^2/(2 w), w = e^(Y s)      after the last front a
+//! t = c + b sinh(x + (y - x) s)             around a time c at which a wave of duration b passes
 //! ```
 //!
-//! Both turn the roots at the fronts into smooth functions, the second also 1/t, in which R is smooth in the end.
-//! It is t - a + 1 = cosh(Y s): what is as far beyond the front as the disc is wide, where its other edge's waves have
-//! a root too, is as far from the s in question however long the interval.
+//! The first two turn the roots at the fronts into smooth functions, the last two also 1/t, in which R is smooth in the end.
+//! The second is t - a + 1 = cosh(Y s): what is as far beyond the front as the disc is wide, where its other edge's waves have
+//! a root too, is as far from the s in question however long the interval. The third does so for roots at c + i b and c - i b.
 //!
 //! The nodes are those of [`leja_nodes`], none of which lies on a front.
 
@@ -17,12 +18,14 @@ use crate::numeric::gauss;
 use crate::numeric::polynomial::{LEJA_NODES, chebyshev_each, leja_nodes, leja_series};
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// Nodes of a segment at most beside a front, and at first.
-const MOST_BESIDE: usize = 15;
+/// Nodes of a segment at first.
 const FEWEST: usize = 3;
 
-/// What is left of a series over its last terms: beside a front they fall as a power, and many of the same size follow.
+/// What is left of a series over its last two terms times r/(1 - r), with r what these are of the two before: of terms that
+/// fall as a geometric series or a power it is 1. The least r is more than chance brings; of the fewest terms it is not known.
 const CAUTION: f64 = 3.0;
+const RATIOS: [f64; 2] = [0.2, 0.9];
+const UNKNOWN: f64 = 0.5;
 
 /// Error of an integral over a cell over the mean estimate of the values at the nodes: errors of values are well below
 /// their estimates and of any sign.
@@ -33,20 +36,31 @@ const NOISE: f64 = 0.12;
 pub(crate) enum Course {
     /// Between two fronts.
     Between([f64; 2]),
-    /// Beside a front, on the side of the sign: its time, Y and the sign.
-    Beside([f64; 3]),
+    /// After a front: its time and Y.
+    After([f64; 2]),
+    /// Around a wave without a front: its time, its duration, and x and y.
+    Around([f64; 2], [f64; 2]),
 }
 
 impl Course {
-    /// From a front to a time on either side.
-    pub(crate) fn beside(front: f64, other: f64) -> Self {
-        let distance = other - front;
-        Self::Beside([front, turn(distance.abs()), distance.signum()])
+    /// From a front to a time.
+    pub(crate) fn after(front: f64, end: f64) -> Self {
+        Self::After([front, turn(end - front)])
     }
 
-    /// s at a distance over Y, or that of an s: on either side of the front it ascends with time.
-    fn directed(sign: f64, s: f64) -> f64 {
-        if sign > 0.0 { s } else { 1.0 - s }
+    /// Around a wave from one time to another.
+    pub(crate) fn around([centre, duration]: [f64; 2], times: [f64; 2]) -> Self {
+        let ends = times.map(|t| ((t - centre) / duration).asinh());
+        Self::Around([centre, duration], ends)
+    }
+
+    /// Factors e by which times grow along it; between two fronts they do not.
+    pub(crate) fn length(&self) -> f64 {
+        match self {
+            Self::Between(_) => 0.0,
+            Self::After([_, most]) => *most,
+            Self::Around(_, [first, last]) => last - first,
+        }
     }
 }
 
@@ -85,12 +99,17 @@ impl Piece {
                 };
                 (time, PI * length * sin * cos)
             }
-            Course::Beside([front, most, sign]) => {
+            Course::After([front, most]) => {
                 // w - 1, and 1/2 of 1/w
-                let more = (most * Course::directed(sign, s)).exp_m1();
+                let more = (most * s).exp_m1();
                 let half = 0.5 / (1.0 + more);
-                let time = (front - origin) + sign * more * more * half;
+                let time = (front - origin) + more * more * half;
                 (time, most * more * (more + 2.0) * half)
+            }
+            Course::Around([centre, duration], [first, last]) => {
+                let y = first + (last - first) * s;
+                let time = (centre - origin) + duration * y.sinh();
+                (time, (last - first) * duration * y.cosh())
             }
         }
     }
@@ -102,8 +121,9 @@ impl Piece {
                 let [x, y] = [t - from, to - t].map(|x| x.max(0.0).sqrt());
                 x.atan2(y) / FRAC_PI_2
             }
-            Course::Beside([front, most, sign]) => {
-                Course::directed(sign, turn((sign * (t - front)).max(0.0)) / most)
+            Course::After([front, most]) => turn((t - front).max(0.0)) / most,
+            Course::Around([centre, duration], [first, last]) => {
+                (((t - centre) / duration).asinh() - first) / (last - first)
             }
         };
         s.clamp(self.s[0], self.s[1])
@@ -174,13 +194,9 @@ impl Segment {
         &mut self,
         mut remainder: impl FnMut(f64) -> Result<Estimate, DomainError>,
     ) -> Result<bool, DomainError> {
-        let most = match self.piece.course {
-            Course::Between(_) => LEJA_NODES,
-            Course::Beside(_) => MOST_BESIDE,
-        };
         let terms = match self.values.len() {
             0 => FEWEST,
-            some if some == most => return Ok(false),
+            LEJA_NODES => return Ok(false),
             some => some + 2,
         };
         let (middle, half) = self.piece.middle();
@@ -198,9 +214,22 @@ impl Segment {
         for f in 0..6 {
             let size = |part: &[Six]| part.iter().map(|c| c[f].abs()).sum::<f64>();
             self.error[f] = self.noise[f] / terms as f64 + rounding * size(&self.series[1..]);
-            self.truncation[f] = CAUTION.max(0.25 * terms as f64) * size(&self.series[terms - 2..]);
+            let last = size(&self.series[terms - 2..]);
+            let ratio = match terms {
+                FEWEST => UNKNOWN,
+                _ => last / size(&self.series[terms - 4..terms - 2]).max(f64::MIN_POSITIVE),
+            };
+            let ratio = ratio.clamp(RATIOS[0], RATIOS[1]);
+            self.truncation[f] = CAUTION * last * ratio / (1.0 - ratio);
         }
         Ok(true)
+    }
+
+    /// Its start, and times in it between which few terms would do.
+    pub(crate) fn breaks(&self) -> impl Iterator<Item = f64> {
+        const FEW: usize = 12;
+        let parts = self.series.len().div_ceil(FEW) as u32;
+        self.piece.parts(parts).map(|part| part.times()[0])
     }
 
     /// R in the middle.
@@ -221,8 +250,8 @@ impl Segment {
 
     /// Adds int R dt, int (t - centre) R dt and int (t - centre)^2 R dt over a part of the segment.
     pub(crate) fn add(&self, from: f64, to: f64, centre: f64, sums: &mut [Six; 3]) {
-        /// On a part this short, as a fraction of the segment, the series is nearly a cubic.
-        const SHORT: f64 = 0.05;
+        /// A part this short, as a fraction of the segment over the terms of the series, is nearly a cubic.
+        const SHORT: f64 = 0.75;
         /// Nodes for dt/ds times t^2: exact where time is a square, else as parts of a wave, whose rule has some at least.
         const SQUARE: usize = 3;
         const WAVE: f64 = 11.0;
@@ -233,14 +262,14 @@ impl Segment {
         let (_, half) = self.piece.middle();
         let part = (high - low) / (2.0 * half);
         let terms = self.series.len();
-        let nodes = if part < SHORT {
-            4
-        } else if let Course::Beside([_, most, _]) = self.piece.course {
-            terms / 2 + SQUARE + (most * (high - low)).ceil() as usize
-        } else {
-            // toward an end of the segment the terms vary over its root
-            let whole = 0.5 * terms as f64 + WAVE;
-            (LEAST + part.sqrt() * (whole - LEAST)).ceil() as usize
+        let nodes = match self.piece.course {
+            _ if part * (terms as f64) < SHORT => FEW,
+            Course::Between(_) => {
+                // toward an end of the segment the terms vary over its root
+                let whole = 0.5 * terms as f64 + WAVE;
+                (LEAST + part.sqrt() * (whole - LEAST)).ceil() as usize
+            }
+            course => terms / 2 + SQUARE + (course.length() * (high - low)).ceil() as usize,
         };
         let mut rule = gauss::rule(nodes).on(low, high);
         for _ in 0..nodes.div_ceil(FEW) {
