@@ -84,6 +84,26 @@ pub fn leja_series(values: &[Six]) -> Vec<Six> {
     RULE.inverses[values.len()].iter().map(of).collect()
 }
 
+/// What such a series leaves out, from its last two terms and what they are of the two before: as much as all that follow
+/// where terms fall as a geometric series or a power, with some caution.
+pub fn leja_rest(series: &[Six]) -> Six {
+    const CAUTION: f64 = 3.0;
+    /// The least is more than chance brings; of the fewest terms it is not known.
+    const RATIOS: [f64; 2] = [0.2, 0.9];
+    const UNKNOWN: f64 = 0.5;
+    let count = series.len();
+    std::array::from_fn(|f| {
+        let size = |part: &[Six]| part.iter().map(|term| term[f].abs()).sum::<f64>();
+        let last = size(&series[count.saturating_sub(2)..]);
+        let ratio = match count {
+            0..5 => UNKNOWN,
+            _ => last / size(&series[count - 4..count - 2]).max(f64::MIN_POSITIVE),
+        };
+        let ratio = ratio.clamp(RATIOS[0], RATIOS[1]);
+        CAUTION * last * ratio / (1.0 - ratio)
+    })
+}
+
 /// The nodes, and what makes coefficients of values at the first of them, for each number.
 struct Rule {
     nodes: [f64; LEJA_NODES],

@@ -15,17 +15,11 @@
 use crate::domain::DomainError;
 use crate::field::{Estimate, Six};
 use crate::numeric::gauss;
-use crate::numeric::polynomial::{LEJA_NODES, chebyshev_each, leja_nodes, leja_series};
+use crate::numeric::polynomial::{LEJA_NODES, chebyshev_each, leja_nodes, leja_rest, leja_series};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Nodes of a segment at first.
 const FEWEST: usize = 3;
-
-/// What is left of a series over its last two terms times r/(1 - r), with r what these are of the two before: of terms that
-/// fall as a geometric series or a power it is 1. The least r is more than chance brings; of the fewest terms it is not known.
-const CAUTION: f64 = 3.0;
-const RATIOS: [f64; 2] = [0.2, 0.9];
-const UNKNOWN: f64 = 0.5;
 
 /// Error of an integral over a cell over the mean estimate of the values at the nodes: errors of values are well below
 /// their estimates and of any sign.
@@ -209,18 +203,12 @@ impl Segment {
             }
         }
         self.series = leja_series(&self.values);
+        self.truncation = leja_rest(&self.series);
         // a time is known to its rounding error
         let rounding = 4.0 * f64::EPSILON * self.times[1] / (self.times[1] - self.times[0]);
         for f in 0..6 {
             let size = |part: &[Six]| part.iter().map(|c| c[f].abs()).sum::<f64>();
             self.error[f] = self.noise[f] / terms as f64 + rounding * size(&self.series[1..]);
-            let last = size(&self.series[terms - 2..]);
-            let ratio = match terms {
-                FEWEST => UNKNOWN,
-                _ => last / size(&self.series[terms - 4..terms - 2]).max(f64::MIN_POSITIVE),
-            };
-            let ratio = ratio.clamp(RATIOS[0], RATIOS[1]);
-            self.truncation[f] = CAUTION * last * ratio / (1.0 - ratio);
         }
         Ok(true)
     }

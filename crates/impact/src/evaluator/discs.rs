@@ -46,9 +46,7 @@ const DIGITS_APART: f64 = 5.0;
 const OMITTED: [f64; 4] = [1.0 / 10.0, 1.0 / 28.0, 1.0 / 54.0, 1.0 / 88.0];
 const CAUTION: f64 = 20.0;
 
-/// Tolerances that their kernels have: the forces on them are smooth, and what a trace leaves of either sign. Series of the
-/// fewest terms say little of what they leave: none is coarser than some part of the peak.
-const LOOSE: f64 = 3.0;
+/// Series of the fewest terms say little of what they leave: no kernel is coarser than some part of its peak.
 pub(crate) const COARSEST: f64 = 3e-3;
 
 /// Discs for each digit of the tolerance where kernels are computed: more of them near the load.
@@ -100,12 +98,6 @@ impl Discs {
             least: 0.0,
             omitted: squares.iter().map(of).collect(),
         }
-    }
-
-    /// Tolerance of the kernels of the discs for one on the fields; beside the load their differences tell what is left.
-    pub(crate) fn tolerance(&self, fields: f64) -> f64 {
-        let own = if self.is_apart() { LOOSE } else { 1.0 };
-        (own * fields).min(COARSEST)
     }
 
     /// Whether they stand for the load some radii away from it.
