@@ -35,7 +35,7 @@ pub(crate) struct Discs {
 
 /// Squares of the radii some radii away from the load, and how many of them the choices have: most are small, since where
 /// the contact is large waves are long.
-const APART: [f64; 4] = [0.4, 0.003, 0.15, 0.8];
+const APART: [f64; 4] = [0.4, 0.0015, 0.15, 0.8];
 const COUNTS_APART: [usize; 3] = [2, 3, 4];
 
 /// Digits up to which these serve.
@@ -44,9 +44,11 @@ const DIGITS_APART: f64 = 5.0;
 /// Terms of 3 j1(ka)/(ka) over those before, some radii away as many times as in the first instants, when waves are short, a
 /// front may bring.
 const OMITTED: [f64; 4] = [1.0 / 10.0, 1.0 / 28.0, 1.0 / 54.0, 1.0 / 88.0];
-const CAUTION: f64 = 20.0;
+const CAUTION: f64 = 10.0;
 
-/// Series of the fewest terms say little of what they leave: no kernel is coarser than some part of its peak.
+/// Part of the tolerance on the fields that the kernels of discs have whose differences tell what is left. Series of the
+/// fewest terms say little of what they leave: no kernel is coarser than some part of its peak.
+const OF_DIFFERENCES: f64 = 0.1;
 pub(crate) const COARSEST: f64 = 3e-3;
 
 /// Discs for each digit of the tolerance where kernels are computed: more of them near the load.
@@ -98,6 +100,16 @@ impl Discs {
             least: 0.0,
             omitted: squares.iter().map(of).collect(),
         }
+    }
+
+    /// Tolerance of the kernels of the discs for one on the fields.
+    pub(crate) fn tolerance(&self, fields: f64) -> f64 {
+        let part = if self.omitted.is_empty() {
+            OF_DIFFERENCES
+        } else {
+            1.0
+        };
+        (part * fields).min(COARSEST)
     }
 
     /// Whether they stand for the load some radii away from it.

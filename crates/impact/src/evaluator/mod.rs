@@ -31,7 +31,7 @@ use crate::fields::quantity::{Derivative, Quantity};
 use crate::grid::Grid;
 use crate::kernels::{CellPlan, Cells, KernelSource};
 use convolve::Method;
-use discs::{COARSEST, Discs};
+use discs::Discs;
 use forcing::{DiscForce, Forcing};
 use lookup::BEYOND;
 use std::sync::OnceLock;
@@ -247,7 +247,7 @@ impl<'a> Evaluator<'a> {
             });
             match known {
                 Some((_, cells)) => Ok(cells.clone()),
-                None => self.cells(place_m, over),
+                None => self.cells(place_m, over, discs.tolerance(self.grid.tolerance)),
             }
         };
         let cells: Vec<Cells> = discs.radii.iter().map(of).collect::<Result<_, _>>()?;
@@ -260,7 +260,7 @@ impl<'a> Evaluator<'a> {
     }
 
     /// The kernels of a disc of a radius `over` the largest, as far as the outputs need them.
-    fn cells(&self, place_m: [f64; 2], over: f64) -> Result<Cells, ImpactError> {
+    fn cells(&self, place_m: [f64; 2], over: f64, tolerance: f64) -> Result<Cells, ImpactError> {
         let (excitation, grid) = (self.grid.excitation, self.grid);
         let (ratio, units) = (excitation.medium().poisson_ratio(), excitation.units());
         let disc_radius_m = over * units.disc_radius_m;
@@ -272,7 +272,7 @@ impl<'a> Evaluator<'a> {
             count: grid.longest() + differences.max().unwrap_or(0) + BEYOND,
             pulse: excitation.pulse(over),
             rates,
-            tolerance: grid.tolerance.min(COARSEST),
+            tolerance,
         };
         (self.source).cells(ratio, place, disc_radius_m, plan)
     }
