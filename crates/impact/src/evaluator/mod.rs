@@ -80,6 +80,9 @@ const PART_OF_PAST: f64 = 10.0;
 const APART: f64 = 4.0;
 const FAR: f64 = 30.0;
 
+/// Samples of a disc that are summed while one is integrated.
+const SUMMED: usize = 400;
+
 /// Samples of forces on discs that are held at most.
 const MOST_HELD: usize = 1 << 24;
 
@@ -181,9 +184,9 @@ impl<'a> Evaluator<'a> {
         let worst = |sums: &[Sum<'_>]| sums.iter().map(Sum::worst).fold(0.0, f64::max);
         let is_near = self.distance(place_m) < APART;
         for pair in serving.windows(2) {
-            // to integrate two samples costs less than a disc
+            // to integrate some samples costs less than a disc, whose sums are over all of them
             let next = &self.choices[pair[1]];
-            let enough = open(&best.0) <= 2 * next.radii.len();
+            let enough = open(&best.0) <= (2 + self.wanted.len() / SUMMED) * next.radii.len();
             // far away the kernels of the smallest discs lose digits
             if self.past.is_none() || enough || !(is_near || next.is_apart()) {
                 break;
