@@ -89,7 +89,7 @@ pub fn leja_series(values: &[Six]) -> Vec<Six> {
 pub fn leja_rest(series: &[Six]) -> Six {
     const CAUTION: f64 = 3.0;
     /// The least is more than chance brings; of the fewest terms it is not known.
-    const RATIOS: [f64; 2] = [0.2, 0.9];
+    const RATIOS: [f64; 2] = [0.4, 0.9];
     const UNKNOWN: f64 = 0.5;
     let count = series.len();
     std::array::from_fn(|f| {

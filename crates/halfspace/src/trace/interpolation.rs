@@ -73,7 +73,11 @@ fn is_converged(segment: &Segment, allowed: &Six) -> bool {
 
 /// The intervals between fronts and after the last, in the order of time; then a wave without a front may be `passing`, at
 /// a time and for some while.
+///
+/// Beside fronts that are very far apart few nodes do not see how R varies as the disc is passed: such an interval is two.
 fn pieces(arrivals: &[f64], passing: Option<[f64; 2]>, [first, end]: [f64; 2]) -> Vec<Piece> {
+    /// Radii from one front to the next that are not very far.
+    const SHORT: f64 = 500.0;
     /// Factors e of time that one polynomial serves.
     const LONG: f64 = 3.5;
     /// Fronts this close to each other are one.
@@ -85,16 +89,25 @@ fn pieces(arrivals: &[f64], passing: Option<[f64; 2]>, [first, end]: [f64; 2]) -
             fronts.push(arrival);
         }
     }
-    let between = |pair: &[f64]| (pair[0], Course::Between([pair[0], pair[1]]));
-    let mut courses: Vec<(f64, Course)> = fronts.windows(2).map(between).collect();
+    let mut courses = vec![];
+    for pair in fronts.windows(2) {
+        let [from, to] = [pair[0], pair[1]];
+        if to - from < SHORT {
+            courses.push((from, Course::Between([from, to])));
+        } else {
+            let middle = 0.5 * (from + to);
+            courses.push((from, Course::beside(from, middle)));
+            courses.push((middle, Course::beside(to, middle)));
+        }
+    }
     let last = fronts[fronts.len() - 1];
     match passing {
         Some(wave) if wave[0] > last => {
             let middle = 0.5 * (last + wave[0]);
-            courses.push((last, Course::after(last, middle)));
+            courses.push((last, Course::beside(last, middle)));
             courses.push((middle, Course::around(wave, [middle, end.max(middle)])));
         }
-        Some(_) | None => courses.push((last, Course::after(last, end.max(last)))),
+        Some(_) | None => courses.push((last, Course::beside(last, end.max(last)))),
     }
     let begun = courses.into_iter().filter(|(from, _)| *from < end);
     let parts = |(_, course): (f64, Course)| {

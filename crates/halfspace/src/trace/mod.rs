@@ -20,7 +20,7 @@ use crate::trace::interpolation::segments;
 use crate::trace::segment::Segment;
 
 /// What is left of a polynomial is of either sign, and so is the rate of the force times it.
-const OSCILLATES: f64 = 0.22;
+const OSCILLATES: f64 = 0.45;
 
 /// Time in r0/c1 that a Rayleigh wave lasts where the edges of the disc are not told from each other.
 const DEEP: f64 = 1.0;

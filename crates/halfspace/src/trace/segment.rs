@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! t = a + (b - a) sin^2(pi s/2)             between fronts a and b
-//! t = a + (w - 1)^2/(2 w), w = e^(Y s)      after the last front a
+//! t = a + (w - 1)^2/(2 w), w = e^(Y s)      after a front a whose next is very far, or the last; before one likewise
 //! t = c + b sinh(x + (y - x) s)             around a time c at which a wave of duration b passes
 //! ```
 //!
@@ -30,16 +30,17 @@ const NOISE: f64 = 0.12;
 pub(crate) enum Course {
     /// Between two fronts.
     Between([f64; 2]),
-    /// After a front: its time and Y.
-    After([f64; 2]),
+    /// Beside a front, on the side of the sign: its time, Y and the sign.
+    Beside([f64; 3]),
     /// Around a wave without a front: its time, its duration, and x and y.
     Around([f64; 2], [f64; 2]),
 }
 
 impl Course {
-    /// From a front to a time.
-    pub(crate) fn after(front: f64, end: f64) -> Self {
-        Self::After([front, turn(end - front)])
+    /// From a front to a time on either side.
+    pub(crate) fn beside(front: f64, other: f64) -> Self {
+        let distance = other - front;
+        Self::Beside([front, turn(distance.abs()), distance.signum()])
     }
 
     /// Around a wave from one time to another.
@@ -52,10 +53,15 @@ impl Course {
     pub(crate) fn length(&self) -> f64 {
         match self {
             Self::Between(_) => 0.0,
-            Self::After([_, most]) => *most,
+            Self::Beside([_, most, _]) => *most,
             Self::Around(_, [first, last]) => last - first,
         }
     }
+}
+
+/// s at a distance over Y, or that of an s: on either side of a front it ascends with time.
+fn directed(sign: f64, s: f64) -> f64 {
+    if sign > 0.0 { s } else { 1.0 - s }
 }
 
 /// y at which cosh y - 1 is a distance.
@@ -93,11 +99,11 @@ impl Piece {
                 };
                 (time, PI * length * sin * cos)
             }
-            Course::After([front, most]) => {
+            Course::Beside([front, most, sign]) => {
                 // w - 1, and 1/2 of 1/w
-                let more = (most * s).exp_m1();
+                let more = (most * directed(sign, s)).exp_m1();
                 let half = 0.5 / (1.0 + more);
-                let time = (front - origin) + more * more * half;
+                let time = (front - origin) + sign * more * more * half;
                 (time, most * more * (more + 2.0) * half)
             }
             Course::Around([centre, duration], [first, last]) => {
@@ -115,7 +121,9 @@ impl Piece {
                 let [x, y] = [t - from, to - t].map(|x| x.max(0.0).sqrt());
                 x.atan2(y) / FRAC_PI_2
             }
-            Course::After([front, most]) => turn((t - front).max(0.0)) / most,
+            Course::Beside([front, most, sign]) => {
+                directed(sign, turn((sign * (t - front)).max(0.0)) / most)
+            }
             Course::Around([centre, duration], [first, last]) => {
                 (((t - centre) / duration).asinh() - first) / (last - first)
             }
