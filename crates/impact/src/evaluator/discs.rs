@@ -44,10 +44,12 @@ const DIGITS_APART: f64 = 5.0;
 /// Terms of 3 j1(ka)/(ka) over those before, some radii away as many times as in the first instants, when waves are short, a
 /// front may bring.
 const OMITTED: [f64; 4] = [1.0 / 10.0, 1.0 / 28.0, 1.0 / 54.0, 1.0 / 88.0];
-const CAUTION: f64 = 10.0;
+const CAUTION: f64 = 8.0;
 
-/// Part of the tolerance on the fields that the kernels of discs have whose differences tell what is left. Series of the
-/// fewest terms say little of what they leave: no kernel is coarser than some part of its peak.
+/// Tolerances of the fields that the kernels of discs have: some radii away the forces on them are smooth, and what a trace
+/// leaves is of either sign; beside the load the differences of discs tell what is left. Series of the fewest terms say
+/// little of what they leave: none is coarser than some part of the peak.
+const LOOSE: f64 = 3.0;
 const OF_DIFFERENCES: f64 = 0.1;
 pub(crate) const COARSEST: f64 = 3e-3;
 
@@ -104,10 +106,10 @@ impl Discs {
 
     /// Tolerance of the kernels of the discs for one on the fields.
     pub(crate) fn tolerance(&self, fields: f64) -> f64 {
-        let part = if self.omitted.is_empty() {
-            OF_DIFFERENCES
-        } else {
-            1.0
+        let part = match self.omitted.len() {
+            0 => OF_DIFFERENCES,
+            1 => 1.0,
+            _ => LOOSE,
         };
         (part * fields).min(COARSEST)
     }
