@@ -93,6 +93,7 @@ impl<'a> Sum<'a> {
         for (k, cells) in cells.iter().enumerate() {
             sum.add_disc(k, cells);
         }
+        sum.add_omitted(cells);
         if let PressureRadius::Following { largest_m, .. } = forcing.excitation.radius() {
             if discs.radii.len() == 1 {
                 let near = NEAR * (largest_m / place_m[0].hypot(place_m[1])).powi(2);
@@ -141,7 +142,7 @@ impl<'a> Sum<'a> {
         let mut first = 0;
         for (run, needed) in force.runs.iter().zip(&self.forcing.needed) {
             let own = run.force.fields(&rest, cells, needed);
-            let last = run.last.as_ref();
+            let last = run.last.as_ref().filter(|_| self.discs.omitted.is_empty());
             let last = last.map(|last| last.fields(&Six::default(), cells, needed));
             for f in 0..self.components() {
                 for (i, value) in own[f].iter().enumerate() {
@@ -166,6 +167,31 @@ impl<'a> Sum<'a> {
         for (f, error) in force.errors(cells).into_iter().enumerate() {
             // those of the discs are independent
             self.errors[f] = self.errors[f].hypot(unit[f] * (error + changed * rest[f].abs()));
+        }
+    }
+
+    /// Adds what discs leave that stand for the load away from it: of each so many times what the first one has.
+    fn add_omitted(&mut self, cells: &[Cells]) {
+        let Some(first) = self.discs.omitted.first() else {
+            return;
+        };
+        let mut all = vec![Six::default(); cells[0].smooth.len()];
+        let discs = self.discs.omitted.iter().zip(&self.discs.radii);
+        for ((count, over), cells) in discs.zip(cells) {
+            let unit = self.forcing.excitation.units_si(*over);
+            for (sum, cell) in all.iter_mut().zip(&cells.smooth) {
+                *sum = std::array::from_fn(|f| sum[f] + count / first * unit[f] * cell[f]);
+            }
+        }
+        let (components, mut before) = (self.components(), 0);
+        for (run, needed) in self.forces[0].runs.iter().zip(&self.forcing.needed) {
+            if let Some(last) = &run.last {
+                let found = last.convolver.fields(&Six::default(), &all);
+                for (left, found) in self.left.iter_mut().zip(&found).take(components) {
+                    left[before..before + needed.len()].copy_from_slice(found);
+                }
+            }
+            before += needed.len();
         }
     }
 
