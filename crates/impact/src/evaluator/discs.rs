@@ -49,7 +49,7 @@ const CAUTION: f64 = 8.0;
 /// Tolerances of the fields that the kernels of discs have: some radii away the forces on them are smooth, and what a trace
 /// leaves is of either sign; beside the load the differences of discs tell what is left. Series of the fewest terms say
 /// little of what they leave: none is coarser than some part of the peak.
-const LOOSE: f64 = 3.0;
+const LOOSE: f64 = 4.0;
 const OF_DIFFERENCES: f64 = 0.1;
 pub(crate) const COARSEST: f64 = 3e-3;
 
