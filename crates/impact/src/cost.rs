@@ -22,8 +22,8 @@ const KERNEL_S: f64 = 7e-6;
 const SMALL_DISC: f64 = 1.1;
 
 /// Kernels of a trace whatever its tolerance, and for each digit; for fields with rates so many times more.
-const KERNELS: f64 = 20.0;
-const KERNELS_A_DIGIT: f64 = 18.0;
+const KERNELS: f64 = 16.0;
+const KERNELS_A_DIGIT: f64 = 16.0;
 const WITH_RATES: f64 = 1.5;
 
 /// Moments of a cell, and what it takes to look it up.
@@ -31,7 +31,7 @@ const CELL_S: f64 = 4e-7;
 const LOOKED_UP_S: f64 = 4.5e-7;
 
 /// Part of a point's samples that are integrated over the radii, and kernels of each over the square of the digits.
-const OPEN: f64 = 0.03;
+const OPEN: f64 = 0.02;
 const KERNELS_OF_OPEN: f64 = 2.6;
 
 /// Radii from the axis and below the surface within which whole contacts are integrated, and kernels of each over the square

@@ -19,8 +19,8 @@ pub struct PointPlan {
 const MOMENT_ACCURACY: f64 = 1e-5;
 
 /// Tolerance of the trace over that of the kernels: most errors of averages are a hundredth of what is promised, so that
-/// at 60 times 1e-8 99 in 100 stay below the rounding to single precision.
-const TRACE: f64 = 60.0;
+/// at 25 times 1e-8 99 in 100 stay below the rounding to single precision.
+const TRACE: f64 = 25.0;
 
 /// Tolerance of the points off the grid over that of its nodes. What it leaves adds to the errors that are measured there: at
 /// 30 it is seen where these are 1e-8, at 100 where they are 1e-7.

@@ -46,11 +46,9 @@ const DIGITS_APART: f64 = 5.0;
 const OMITTED: [f64; 4] = [1.0 / 10.0, 1.0 / 28.0, 1.0 / 54.0, 1.0 / 88.0];
 const CAUTION: f64 = 8.0;
 
-/// Tolerances of the fields that the kernels of discs have: some radii away the forces on them are smooth, and what a trace
-/// leaves is of either sign; beside the load the differences of discs tell what is left. Series of the fewest terms say
-/// little of what they leave: none is coarser than some part of the peak.
-const LOOSE: f64 = 4.0;
-const OF_DIFFERENCES: f64 = 0.1;
+/// Part of the tolerance of the fields that the kernels have of discs whose differences tell what is left. Series of the
+/// fewest terms say little of what they leave: none is coarser than some part of the peak.
+const OF_DIFFERENCES: f64 = 0.03;
 pub(crate) const COARSEST: f64 = 3e-3;
 
 /// Discs for each digit of the tolerance where kernels are computed: more of them near the load.
@@ -106,11 +104,8 @@ impl Discs {
 
     /// Tolerance of the kernels of the discs for one on the fields.
     pub(crate) fn tolerance(&self, fields: f64) -> f64 {
-        let part = match self.omitted.len() {
-            0 => OF_DIFFERENCES,
-            1 => 1.0,
-            _ => LOOSE,
-        };
+        let tells = self.omitted.is_empty();
+        let part = if tells { OF_DIFFERENCES } else { 1.0 };
         (part * fields).min(COARSEST)
     }
 

@@ -301,7 +301,13 @@ impl<'a> Sum<'a> {
         let follows = matches!(radius, PressureRadius::Following { .. });
         let zones = follows || self.integrated.contains(&true);
         let anew = past.filter(|_| !self.open.is_empty());
-        let integrals = f64::from(u8::from(zones) + u8::from(anew.is_some()));
+        // over the past as much as its last terms may be
+        let over_past = match (&anew, self.forcing.derivative) {
+            (None, _) => 0.0,
+            (Some(_), Derivative::Field) => LAST_TERMS,
+            (Some(_), Derivative::First | Derivative::Second) => 1.0,
+        };
+        let integrals = f64::from(u8::from(zones)) + over_past;
         for f in 0..6 {
             self.errors[f] +=
                 integrals * QUADRATURE * self.forcing.tolerance * largest(&self.values[f]);
