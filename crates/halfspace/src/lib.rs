@@ -25,7 +25,7 @@
 //! - [`SurfaceResponse`]: the deflection under the load itself, with finite memory, in nanoseconds.
 //! - [`Arrivals`]: times of all wave fronts.
 //! - [`gauss`]: Gauss-Legendre rules, for those who integrate kernels; [`chebyshev`], [`chebyshev_each`], [`lagrange`],
-//!   [`leja_nodes`], [`leja_series`] and [`leja_rest`] for those who interpolate.
+//!   [`leja_nodes`] and [`leja_series`] for those who interpolate.
 //! - [`kausel`]: the surface-centre response in closed form, for comparison.
 //!
 //! # Example
@@ -82,9 +82,7 @@ pub use field::{Estimate, FIELDS, Field, Six};
 pub use integral::axis::weights_off_axis;
 pub use kernel::Kernel;
 pub use medium::Medium;
-pub use numeric::polynomial::{
-    chebyshev, chebyshev_each, lagrange, leja_nodes, leja_rest, leja_series,
-};
+pub use numeric::polynomial::{chebyshev, chebyshev_each, lagrange, leja_nodes, leja_series};
 pub use numeric::{bisected, gauss};
 pub use profile::Profile;
 pub use surface::{Deflection, LoadedDisc, SurfaceResponse, surface_measure};

@@ -86,7 +86,7 @@ pub fn leja_series(values: &[Six]) -> Vec<Six> {
 
 /// What such a series leaves out, from its last two terms and what they are of the two before: as much as all that follow
 /// where terms fall as a geometric series or a power, with some caution.
-pub fn leja_rest(series: &[Six]) -> Six {
+pub(crate) fn leja_rest(series: &[Six]) -> Six {
     const CAUTION: f64 = 3.0;
     /// The least is more than chance brings; of the fewest terms it is not known.
     const RATIOS: [f64; 2] = [0.4, 0.9];

@@ -295,6 +295,7 @@ impl<'a> Past<'a> {
                     values.push(value);
                 }
                 series = leja_series(&values);
+                // terms that fall as a power are many
                 let many = terms as f64 / LEAST as f64;
                 let last = |f: usize| series[terms - 1][f].abs() + series[terms - 2][f].abs();
                 if (0..6).all(|f| many * last(f) <= allowed[f]) {
