@@ -35,7 +35,7 @@ pub(crate) struct Discs {
 
 /// Squares of the radii some radii away from the load, and how many of them the choices have: most are small, since where
 /// the contact is large waves are long.
-const APART: [f64; 4] = [0.4, 0.0015, 0.15, 0.8];
+const APART: [f64; 4] = [0.4, 0.0015, 0.9, 0.15];
 const COUNTS_APART: [usize; 3] = [2, 3, 4];
 
 /// Digits up to which these serve.
@@ -46,9 +46,11 @@ const DIGITS_APART: f64 = 5.0;
 const OMITTED: [f64; 4] = [1.0 / 10.0, 1.0 / 28.0, 1.0 / 54.0, 1.0 / 88.0];
 const CAUTION: f64 = 8.0;
 
-/// Part of the tolerance of the fields that the kernels have of discs whose differences tell what is left. Series of the
-/// fewest terms say little of what they leave: none is coarser than some part of the peak.
+/// Tolerance of the kernels of discs over that of the fields: small where the discs' differences tell what is left, large
+/// some radii away, where what kernels leave is mostly in short times. Series of the fewest terms say little of what they
+/// leave: none is coarser than some part of the peak.
 const OF_DIFFERENCES: f64 = 0.03;
+const OF_APART: f64 = 4.0;
 pub(crate) const COARSEST: f64 = 3e-3;
 
 /// Discs for each digit of the tolerance where kernels are computed: more of them near the load.
@@ -104,8 +106,11 @@ impl Discs {
 
     /// Tolerance of the kernels of the discs for one on the fields.
     pub(crate) fn tolerance(&self, fields: f64) -> f64 {
-        let tells = self.omitted.is_empty();
-        let part = if tells { OF_DIFFERENCES } else { 1.0 };
+        let part = match self.omitted.len() {
+            0 => OF_DIFFERENCES,
+            1 => 1.0,
+            _ => OF_APART,
+        };
         (part * fields).min(COARSEST)
     }
 

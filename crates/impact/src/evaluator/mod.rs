@@ -184,9 +184,11 @@ impl<'a> Evaluator<'a> {
         let worst = |sums: &[Sum<'_>]| sums.iter().map(Sum::worst).fold(0.0, f64::max);
         let is_near = self.distance(place_m) < APART;
         for pair in serving.windows(2) {
-            // to integrate some samples costs less than a disc, whose sums are over all of them
-            let next = &self.choices[pair[1]];
-            let enough = open(&best.0) <= (2 + self.wanted.len() / SUMMED) * next.radii.len();
+            // to integrate some samples costs less than a new disc, or than sums over all of them
+            let [known, next] = [0, 1].map(|i| &self.choices[pair[i]]);
+            let new = (next.radii.iter()).filter(|radius| !known.radii.contains(radius));
+            let sums = next.radii.len() * self.wanted.len() / SUMMED;
+            let enough = open(&best.0) <= 2 * new.count() + sums;
             // far away the kernels of the smallest discs lose digits
             if self.past.is_none() || enough || !(is_near || next.is_apart()) {
                 break;

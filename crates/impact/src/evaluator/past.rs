@@ -400,17 +400,22 @@ impl<'a> Past<'a> {
                 let part = 8.0 * from_end.powi(4);
                 low + (high - low) * if 2 * i < TRIALS { part } else { 1.0 - part }
             };
-            let mut before = (low, self.ahead(place_m, time_s, low));
-            for past_s in (1..=TRIALS).map(graded) {
-                let after = (past_s, self.ahead(place_m, time_s, past_s));
-                for family in 0..families {
-                    let signs = [before.1[family], after.1[family]];
-                    if (signs[0] < 0.0) != (signs[1] < 0.0) {
-                        let span = [(before.0, signs[0]), (after.0, signs[1])];
+            let trials_s: Vec<f64> = (0..=TRIALS).map(graded).collect();
+            let ahead = trials_s.iter().map(|&s| self.ahead(place_m, time_s, s));
+            let ahead: Vec<_> = ahead.collect();
+            for family in 0..families {
+                let each = trials_s.iter().zip(&ahead);
+                let mut tried: Vec<_> = each.map(|(&s, ahead)| (s, ahead[family])).collect();
+                let turn = |three: &[_]| self.turn(place_m, time_s, three, family);
+                let turns: Vec<_> = tried.windows(3).filter_map(turn).collect();
+                tried.extend(turns);
+                tried.sort_by(|a, b| a.0.total_cmp(&b.0));
+                for pair in tried.windows(2) {
+                    if (pair[0].1 < 0.0) != (pair[1].1 < 0.0) {
+                        let span = [pair[0], pair[1]];
                         cuts.push(self.crossing(place_m, time_s, span, family));
                     }
                 }
-                before = after;
             }
         }
         // the tail of the waves falls as a power of the time since the last front
@@ -478,6 +483,45 @@ impl<'a> Past<'a> {
                 None => (radii_m[which] - place_m[0]) / units.longitudinal_speed_m_s,
             }
         })
+    }
+
+    /// Where one of the distances of [`Self::ahead`] that does not change its sign between three instants does so all the
+    /// same: the edge of a contact begins and ends faster than any wave, whose front passes a point and turns. By golden
+    /// sections.
+    fn turn(
+        &self,
+        place_m: [f64; 2],
+        time_s: f64,
+        tried: &[(f64, f64)],
+        family: usize,
+    ) -> Option<(f64, f64)> {
+        const STEPS: usize = 12;
+        const SECTION: f64 = 0.382;
+        let &[low, middle, high] = tried else {
+            return None;
+        };
+        let is_past = |at: f64| (at < 0.0) != (middle.1 < 0.0);
+        let nears = middle.1.abs() < low.1.abs().min(high.1.abs());
+        if !nears || is_past(low.1) || is_past(high.1) {
+            return None;
+        }
+        let (mut nearest, mut span) = (middle, [low.0, high.0]);
+        for _ in 0..STEPS {
+            let sides = span.map(|end| end - nearest.0);
+            let later = usize::from(sides[1] > -sides[0]);
+            let next = nearest.0 + SECTION * sides[later];
+            let at = self.ahead(place_m, time_s, next)[family];
+            if is_past(at) {
+                return Some((next, at));
+            }
+            if at.abs() < nearest.1.abs() {
+                span[1 - later] = nearest.0;
+                nearest = (next, at);
+            } else {
+                span[later] = next;
+            }
+        }
+        None
     }
 
     /// Where one of the distances of [`Self::ahead`] changes its sign, by false position (Illinois).

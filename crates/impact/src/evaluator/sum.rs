@@ -113,7 +113,27 @@ impl<'a> Sum<'a> {
             }
         }
         sum.open = sum.not_resolved(&sum.left, BESIDE);
+        if discs.radii.len() > 1 {
+            let blurred = sum.blurred().into_iter();
+            let more: Vec<usize> = blurred.filter(|i| !sum.open.contains(i)).collect();
+            sum.open.extend(more);
+        }
         Ok(sum)
+    }
+
+    /// The samples at which a front of a body wave from the beginning or the end of a contact passes: a contact that is
+    /// smaller than the smallest disc has a sharper one, of which the terms that are left out do not tell.
+    fn blurred(&self) -> Vec<usize> {
+        /// Times that a longitudinal wave takes over the largest radius.
+        const BLUR: f64 = 0.025;
+        let (excitation, [r_m, z_m]) = (self.forcing.excitation, self.place_m);
+        let blur_s = BLUR * excitation.units().time_s();
+        let [p_s, s_s, _] = excitation.speeds().arrivals_s(r_m, z_m, 0.0);
+        let ends_s = excitation.contacts_s().iter().flatten();
+        let fronts_s: Vec<f64> = ends_s.flat_map(|end_s| [end_s + p_s, end_s + s_s]).collect();
+        let passes = |t: f64| fronts_s.iter().any(|front_s| (t - front_s).abs() < blur_s);
+        let times_s = &self.forcing.times_s;
+        (0..times_s.len()).filter(|&i| passes(times_s[i])).collect()
     }
 
     /// The largest index of a component.
