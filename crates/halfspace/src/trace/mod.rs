@@ -48,6 +48,7 @@ pub struct Trace {
     end: f64,
     static_field: Six,
     segments: Vec<Segment>,
+    breaks: Vec<f64>,
     /// Estimated error of a response to the force that the trace is for, over the peak of the force.
     pub error: Six,
 }
@@ -122,6 +123,7 @@ impl Kernel {
             first_arrival,
             end,
             static_field,
+            breaks: segments.iter().flat_map(Segment::breaks).collect(),
             segments,
             error,
         })
@@ -132,7 +134,7 @@ impl Trace {
     /// Times between which R is a polynomial of few terms in the root of the time from a front, ascending, fronts among
     /// them.
     pub fn breaks(&self) -> impl Iterator<Item = f64> {
-        self.segments.iter().flat_map(Segment::breaks)
+        self.breaks.iter().copied()
     }
 
     /// R at a time; after the end of the trace, its value there.

@@ -44,7 +44,7 @@ const DIGITS_APART: f64 = 5.0;
 /// Terms of 3 j1(ka)/(ka) over those before, some radii away as many times as in the first instants, when waves are short, a
 /// front may bring.
 const OMITTED: [f64; 4] = [1.0 / 10.0, 1.0 / 28.0, 1.0 / 54.0, 1.0 / 88.0];
-const CAUTION: f64 = 8.0;
+const CAUTION: f64 = 6.0;
 
 /// Tolerance of the kernels of discs over that of the fields: small where the discs' differences tell what is left, large
 /// some radii away, where what kernels leave is mostly in short times. Series of the fewest terms say little of what they

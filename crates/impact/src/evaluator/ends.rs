@@ -215,6 +215,9 @@ impl Part {
             let (x, rises) = self.rises([pair[0], pair[1]]);
             let values = trace.at_each(x.map(|x| (since_s - self.sign * x * x) / unit_s));
             for (sum, rises) in sums.iter_mut().zip(rises) {
+                if rises == [0.0; NODES] {
+                    continue;
+                }
                 for (sum, values) in sum.iter_mut().zip(&values) {
                     *sum += rises
                         .iter()

@@ -108,8 +108,11 @@ impl<'a> Sum<'a> {
             for i in sum.not_resolved(&sum.rough, 0.0) {
                 sum.integrate_zones(i, cells);
             }
-            for i in sum.not_resolved(&sum.left, BESIDE) {
-                sum.integrate_zones(i, cells);
+            // what the highest power leaves is in the zones, too
+            if discs.omitted.is_empty() {
+                for i in sum.not_resolved(&sum.left, BESIDE) {
+                    sum.integrate_zones(i, cells);
+                }
             }
         }
         sum.open = sum.not_resolved(&sum.left, BESIDE);
