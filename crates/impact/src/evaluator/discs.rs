@@ -53,8 +53,11 @@ const OF_DIFFERENCES: f64 = 0.03;
 const OF_APART: f64 = 4.0;
 pub(crate) const COARSEST: f64 = 3e-3;
 
-/// Discs for each digit of the tolerance where kernels are computed: more of them near the load.
+/// Discs for each digit of the tolerance where kernels are computed: more of them near the load. There kernels vary as powers
+/// of 1/a, which no polynomial follows to a = 0: the smallest radius that the nodes cover, over the largest, times their
+/// number. Below it polynomials grow by cosh(2 BELOW).
 const A_DIGIT: [f64; 4] = [0.75, 2.0, 4.0, 8.0];
+const BELOW: f64 = 1.0;
 
 /// Discs where kernels are looked up, and the smallest radius that they cover over the largest: the farther a point, the
 /// fewer small discs the table has for it.
@@ -70,7 +73,7 @@ impl Discs {
         let digits = (-tolerance.log10()).clamp(2.0, 8.0);
         let apart = COUNTS_APART.into_iter().filter(|_| digits <= DIGITS_APART);
         let beside = A_DIGIT.map(|a_digit| (a_digit * digits).round() as usize);
-        let beside = beside.map(|count| Self::following(count, 0.0));
+        let beside = beside.map(|count| Self::following(count, BELOW / count as f64));
         apart.map(Self::apart).chain(beside).collect()
     }
 

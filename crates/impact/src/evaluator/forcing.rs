@@ -44,8 +44,9 @@ pub(crate) struct Forcing<'a> {
     pub(crate) runs: Vec<Run>,
     /// Of each run the samples that the outputs need, ascending.
     pub(crate) needed: Vec<Vec<usize>>,
-    /// Their times, of all runs.
+    /// Their times, of all runs, and the pressures then.
     pub(crate) times_s: Vec<f64>,
+    pub(crate) pressures: Vec<[Pressed; 2]>,
     /// The first that each output is made of, among those of all runs.
     pub(crate) outputs: Vec<usize>,
     /// The cell from which on the runs leave out what earlier ones have changed for good, and the sum of these changes.
@@ -168,6 +169,7 @@ impl<'a> Forcing<'a> {
             tolerance: grid.tolerance,
             runs,
             needed,
+            pressures: times_s.iter().map(|&t| excitation.pressures(t)).collect(),
             times_s,
             outputs,
             left_out: match derivative {
@@ -189,14 +191,15 @@ impl<'a> Forcing<'a> {
 
     /// What a function of the pressures, or its rate, sums up to over those of a time.
     fn sum<const N: usize>(&self, time_s: f64, of: impl Fn(Pressed) -> [f64; N]) -> [f64; N] {
-        let Ok(sum) = self.try_sum(time_s, PART, |one| Ok::<_, Infallible>(of(one)));
+        let pressures = self.excitation.pressures(time_s);
+        let Ok(sum) = self.try_sum(pressures, PART, |one| Ok::<_, Infallible>(of(one)));
         sum
     }
 
     /// The same of a function that may fail, its rate by its difference over a part of the force.
     pub(crate) fn try_sum<const N: usize, E>(
         &self,
-        time_s: f64,
+        pressures: [Pressed; 2],
         part: f64,
         of: impl Fn(Pressed) -> Result<[f64; N], E>,
     ) -> Result<[f64; N], E> {
@@ -204,7 +207,7 @@ impl<'a> Forcing<'a> {
             Reading::Force => of(one),
             Reading::Rate => one.rate_of(part, &of),
         };
-        let [one, other] = self.excitation.pressures(time_s).map(read);
+        let [one, other] = pressures.map(read);
         let (one, other) = (one?, other?);
         Ok(std::array::from_fn(|i| one[i] + other[i]))
     }

@@ -104,15 +104,10 @@ impl<'a> Sum<'a> {
             sum.add_following_static()?;
         }
         sum.still_before_arrival();
-        if cells.iter().all(|cells| cells.trace.is_some()) {
-            for i in sum.not_resolved(&sum.rough, 0.0) {
+        // what the highest power leaves is in the zones, too
+        if discs.omitted.is_empty() && cells.iter().all(|cells| cells.trace.is_some()) {
+            for i in sum.not_resolved(&sum.left, BESIDE) {
                 sum.integrate_zones(i, cells);
-            }
-            // what the highest power leaves is in the zones, too
-            if discs.omitted.is_empty() {
-                for i in sum.not_resolved(&sum.left, BESIDE) {
-                    sum.integrate_zones(i, cells);
-                }
             }
         }
         sum.open = sum.not_resolved(&sum.left, BESIDE);
@@ -223,9 +218,9 @@ impl<'a> Sum<'a> {
         /// Part of the force over which the static field is differenced: a smooth function of it.
         const PART: f64 = 1e-4;
         let excitation = self.forcing.excitation;
-        for (i, &time_s) in self.forcing.times_s.iter().enumerate() {
+        for (i, &pressures) in self.forcing.pressures.iter().enumerate() {
             let of = |one| excitation.static_si(self.place_m, [one]);
-            let fixed = self.forcing.try_sum(time_s, PART, of)?;
+            let fixed = self.forcing.try_sum(pressures, PART, of)?;
             for (samples, value) in self.values.iter_mut().zip(fixed) {
                 samples[i] += value;
             }
@@ -320,6 +315,11 @@ impl<'a> Sum<'a> {
         past: Option<&Past<'_>>,
         cells: &[Cells],
     ) -> Result<Vec<Trace>, ImpactError> {
+        if cells.iter().all(|cells| cells.trace.is_some()) {
+            for i in self.not_resolved(&self.rough, 0.0) {
+                self.integrate_zones(i, cells);
+            }
+        }
         let radius = self.forcing.excitation.radius();
         let follows = matches!(radius, PressureRadius::Following { .. });
         let zones = follows || self.integrated.contains(&true);
