@@ -105,7 +105,8 @@ impl<'a> Sum<'a> {
         }
         sum.still_before_arrival();
         // what the highest power leaves is in the zones, too
-        if discs.omitted.is_empty() && cells.iter().all(|cells| cells.trace.is_some()) {
+        if discs.omitted.is_empty() && are_traces(cells) {
+            sum.integrate_rough(cells);
             for i in sum.not_resolved(&sum.left, BESIDE) {
                 sum.integrate_zones(i, cells);
             }
@@ -315,10 +316,8 @@ impl<'a> Sum<'a> {
         past: Option<&Past<'_>>,
         cells: &[Cells],
     ) -> Result<Vec<Trace>, ImpactError> {
-        if cells.iter().all(|cells| cells.trace.is_some()) {
-            for i in self.not_resolved(&self.rough, 0.0) {
-                self.integrate_zones(i, cells);
-            }
+        if are_traces(cells) {
+            self.integrate_rough(cells);
         }
         let radius = self.forcing.excitation.radius();
         let follows = matches!(radius, PressureRadius::Following { .. });
@@ -407,6 +406,13 @@ impl<'a> Sum<'a> {
             }
         }
         change
+    }
+
+    /// Replaces the cells of the zones by integrals in the samples in which they leave more than is allowed.
+    fn integrate_rough(&mut self, cells: &[Cells]) {
+        for i in self.not_resolved(&self.rough, 0.0) {
+            self.integrate_zones(i, cells);
+        }
     }
 
     /// Replaces the cells of the zones in one sample by integrals.
@@ -507,6 +513,11 @@ impl<'a> Sum<'a> {
         };
         self.forcing.outputs.iter().map(of).collect()
     }
+}
+
+/// Whether kernels are known at each instant, not in cells alone.
+fn are_traces(cells: &[Cells]) -> bool {
+    cells.iter().all(|cells| cells.trace.is_some())
 }
 
 /// Samples a step apart that are beside one.
