@@ -120,17 +120,22 @@ impl<'a> Sum<'a> {
         Ok(sum)
     }
 
-    /// The samples at which a front of a body wave from the beginning or the end of a contact passes: a contact that is
-    /// smaller than the smallest disc has a sharper one, of which the terms that are left out do not tell.
+    /// The samples at which a front from the beginning or the end of a contact passes: a contact that is smaller than the
+    /// smallest disc has a sharper one, of which the terms that are left out do not tell.
     fn blurred(&self) -> Vec<usize> {
-        /// Times that a longitudinal wave takes over the largest radius.
-        const BLUR: f64 = 0.025;
+        /// Times that a longitudinal wave takes over the largest radius, and how many kinds of fronts: Rayleigh's is sharp in
+        /// rates alone.
+        const BLUR: [(f64, usize); 2] = [(0.025, 2), (0.16, 3)];
         let (excitation, [r_m, z_m]) = (self.forcing.excitation, self.place_m);
-        let blur_s = BLUR * excitation.units().time_s();
-        let [p_s, s_s, _] = excitation.speeds().arrivals_s(r_m, z_m, 0.0);
-        let ends_s = excitation.contacts_s().iter().flatten();
-        let fronts_s: Vec<f64> = ends_s.flat_map(|end_s| [end_s + p_s, end_s + s_s]).collect();
-        let passes = |t: f64| fronts_s.iter().any(|front_s| (t - front_s).abs() < blur_s);
+        let (blur, kinds) = BLUR[usize::from(self.forcing.derivative != Derivative::Field)];
+        let blur_s = blur * excitation.units().time_s();
+        let fronts_s = excitation.speeds().arrivals_s(r_m, z_m, 0.0);
+        let passes = |t: f64| {
+            let ends_s = excitation.contacts_s().iter().flatten();
+            let mut since_s =
+                ends_s.flat_map(|end_s| fronts_s[..kinds].iter().map(move |s| t - end_s - s));
+            since_s.any(|s| s.abs() < blur_s)
+        };
         let times_s = &self.forcing.times_s;
         (0..times_s.len()).filter(|&i| passes(times_s[i])).collect()
     }
