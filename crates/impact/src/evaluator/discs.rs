@@ -56,18 +56,13 @@ pub(crate) const COARSEST: f64 = 3e-3;
 /// Discs for each digit of the tolerance where kernels are computed: more of them near the load.
 const A_DIGIT: [f64; 4] = [0.75, 2.0, 4.0, 8.0];
 
-/// Under the load kernels vary as powers of 1/a, which no polynomial follows to a = 0: the smallest radius that nodes cover
-/// there, over the largest, times their number. Below it polynomials grow by cosh(2 BELOW).
-const BELOW: f64 = 1.0;
-
 /// Discs where kernels are looked up, and the smallest radius that they cover over the largest: the farther a point, the
 /// fewer small discs the table has for it.
 const LOOKED_UP: usize = 4;
 const COVERED: [f64; 4] = [0.0, 0.25, 0.5, 0.75];
 
 impl Discs {
-    /// Those for kernels that are computed, the fewest first: some radii away from the load, beside it or far away, and under
-    /// it.
+    /// Those for kernels that are computed, the fewest first: some radii away from the load, and beside it or far away.
     pub(crate) fn computed(radius: PressureRadius, tolerance: f64) -> Vec<Self> {
         if let PressureRadius::Fixed(_) = radius {
             return vec![Self::following(1, 1.0)];
@@ -75,10 +70,8 @@ impl Discs {
         let digits = (-tolerance.log10()).clamp(2.0, 8.0);
         let apart = COUNTS_APART.into_iter().filter(|_| digits <= DIGITS_APART);
         let beside = A_DIGIT.map(|a_digit| (a_digit * digits).round() as usize);
-        let under = beside.map(|count| Self::following(count, BELOW / count as f64));
         let beside = beside.map(|count| Self::following(count, 0.0));
-        let near = beside.into_iter().chain(under);
-        apart.map(Self::apart).chain(near).collect()
+        apart.map(Self::apart).chain(beside).collect()
     }
 
     /// Those for kernels that are looked up, the smallest radii first.
@@ -124,11 +117,6 @@ impl Discs {
     /// Whether they stand for the load some radii away from it.
     pub(crate) fn is_apart(&self) -> bool {
         self.omitted.len() > 1
-    }
-
-    /// Whether they leave the smallest radii out, as those under the load do.
-    pub(crate) fn is_under(&self) -> bool {
-        self.least > 0.0
     }
 
     /// The product of a^2 less the square of each radius.

@@ -101,9 +101,9 @@ impl<'a> Evaluator<'a> {
         let mut choices = Discs::looked_up(radius);
         if computed {
             choices = Discs::computed(radius, tolerance);
-            let held = |discs: &Discs| discs.radii.len() * grid.count();
-            let most = MOST_HELD.max(held(&choices[0]));
-            choices.retain(|discs| held(discs) <= most);
+            let held = |discs: &&Discs| discs.radii.len() * grid.count() <= MOST_HELD;
+            let kept = choices.iter().take_while(held).count().max(1);
+            choices.truncate(kept);
         }
         let mut derivatives = vec![Derivative::Field];
         for (derivative, _) in quantities.iter().filter_map(|one| one.rate()) {
@@ -220,11 +220,7 @@ impl<'a> Evaluator<'a> {
         // whose force has a kink begins short waves where it is large, too
         let smooth = self.grid.excitation.kinks_s().is_empty();
         let apart = computed && smooth && (APART..FAR).contains(&self.distance(place_m));
-        let under = r.max(z) < 1.0;
-        let fits = |choice: &usize| {
-            let own = &self.choices[*choice];
-            !computed || own.is_apart() == apart && own.is_under() == under
-        };
+        let fits = |choice: &usize| self.choices[*choice].is_apart() == apart;
         let mut found: Vec<usize> = (0..count).filter(served).collect();
         if found.iter().any(fits) {
             found.retain(fits);
