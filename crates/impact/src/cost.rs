@@ -31,7 +31,7 @@ const CELL_S: f64 = 4e-7;
 const LOOKED_UP_S: f64 = 4.5e-7;
 
 /// Part of a point's samples that are integrated over the radii, and kernels of each over the square of the digits.
-const OPEN: f64 = 0.02;
+const OPEN: f64 = 0.01;
 const KERNELS_OF_OPEN: f64 = 2.6;
 
 /// Radii from the axis and below the surface within which whole contacts are integrated, and kernels of each over the square
