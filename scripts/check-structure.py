@@ -16,8 +16,8 @@ MOST_IN_FOLDER = 14
 # Code without tests, blanks and comments, source files, names of types: these numbers only go down, but for what users get:
 # they rose by 2,123 lines for contacts that yield, by 600 for seals, records of instruments and errors with one face, and
 # by 20 for what killed runs leave, sizes without a mass and legends, by 50 for sections under growing contacts in four
-# fifths of the time, and by 80 for these in four fifths of that.
-CEILINGS = {"code lines": 41_916, "source files": 350, "type names": 370}
+# fifths of the time, by 80 for these in four fifths of that, and by 80 for fronts that turn and that are sharper than discs.
+CEILINGS = {"code lines": 41_994, "source files": 350, "type names": 370}
 
 
 def modules(src):

@@ -121,9 +121,6 @@ impl Sampled {
 /// Part of the force over which a polynomial of the radius is differenced (T61).
 const PART: f64 = 1e-6;
 
-/// What discs leave of a rate over what is taken: its waves are shorter than those of the force.
-const OF_RATES: f64 = 3.5;
-
 /// Slopes and bends below this fraction of the largest sample are left to the differences of the samples.
 const NEGLIGIBLE: f64 = 1e-9;
 
@@ -283,11 +280,7 @@ impl<'a> Forcing<'a> {
                 // as its samples are
                 let nodes = CellNodes::new(run.count.saturating_sub(1), |_, _| {});
                 let beyond = |one: Pressed| [one.force_n * discs.product(one.square)];
-                let caution = match self.reading {
-                    Reading::Rate if discs.is_apart() => OF_RATES,
-                    Reading::Force | Reading::Rate => 1.0,
-                };
-                let left = self.bent(caution * count, |t| self.sum(t, beyond)[0], run);
+                let left = self.bent(*count, |t| self.sum(t, beyond)[0], run);
                 Some(Sampled::new(0.0, &left, &nodes, (needed, 1.0)))
             }
             (PressureRadius::Following { .. }, None) => Some(of(1, 1e-3)),
