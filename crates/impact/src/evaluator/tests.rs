@@ -294,6 +294,37 @@ fn tractions_below_the_surface_are_within_their_estimate_in_the_middle_of_a_long
     }
 }
 
+/// In its first instants the edge of a contact is faster than any wave: its front passes a point and turns, within less
+/// than a hundredth of a step.
+#[test]
+fn fronts_that_are_sharper_than_any_disc_are_seen() {
+    let excitation = contact(0.3, 130.0);
+    let exact = Past::new(&excitation, 1e-8).unwrap();
+    let tolerance = 1e-4;
+    let source = KernelSource::direct(excitation.medium(), 0.1 * tolerance).unwrap();
+    let grid = grid(&excitation, &source, tolerance, 10.0);
+    let times: Vec<f64> = grid.times_s().collect();
+    let kappa = excitation.medium().kappa();
+    let mut largest = 0.0_f64;
+    // before and behind the first S wave from the centre
+    for (from, sine) in [(5.0, 0.25), (5.0, 0.5), (12.0, 0.25), (12.0, 0.7)] {
+        for ahead in [-0.006, -0.003, -0.0015, 0.001, 0.004, 0.01] {
+            let n = times.partition_point(|t| *t < from / kappa);
+            let distance = kappa * (times[n] - ahead);
+            let place = [distance * sine, distance * f64::sqrt(1.0 - sine * sine)];
+            let all: Vec<usize> = (0..times.len()).collect();
+            let point = at(&source, &grid, &all, place);
+            for (f, exact) in exact.at(place, times[n]).unwrap().into_iter().enumerate() {
+                let (error, peak) = ((point[f].samples[n] - exact).abs(), point[f].peak().abs());
+                assert!(error < point[f].error, "{place:?} {ahead} {f}: {error:e}");
+                largest = largest.max(error / peak);
+            }
+        }
+    }
+    println!("largest error {largest:.1e} of the peak");
+    assert!(largest < 5.0 * tolerance);
+}
+
 /// Just below the surface the Rayleigh waves of the smallest contacts are peaks as long as the depth, a depth of a
 /// rounding error is none, and under the contact its edge passes over the point.
 #[test]
