@@ -44,8 +44,9 @@ pub(crate) struct Forcing<'a> {
     pub(crate) runs: Vec<Run>,
     /// Of each run the samples that the outputs need, ascending.
     pub(crate) needed: Vec<Vec<usize>>,
-    /// Their times, of all runs, and the pressures then.
+    /// Their times, of all runs.
     pub(crate) times_s: Vec<f64>,
+    /// Of a contact that follows its load the pressures then.
     pub(crate) pressures: Vec<[Pressed; 2]>,
     /// The first that each output is made of, among those of all runs.
     pub(crate) outputs: Vec<usize>,
@@ -157,6 +158,8 @@ impl<'a> Forcing<'a> {
                 count: run.count + differences,
             });
         }
+        let follows = matches!(excitation.radius(), PressureRadius::Following { .. });
+        let followed = times_s.iter().filter(|_| follows);
         Self {
             excitation,
             derivative,
@@ -166,7 +169,7 @@ impl<'a> Forcing<'a> {
             tolerance: grid.tolerance,
             runs,
             needed,
-            pressures: times_s.iter().map(|&t| excitation.pressures(t)).collect(),
+            pressures: followed.map(|&t| excitation.pressures(t)).collect(),
             times_s,
             outputs,
             left_out: match derivative {

@@ -400,20 +400,18 @@ impl<'a> Past<'a> {
                 let part = 8.0 * from_end.powi(4);
                 low + (high - low) * if 2 * i < TRIALS { part } else { 1.0 - part }
             };
-            let trials_s: Vec<f64> = (0..=TRIALS).map(graded).collect();
-            let ahead = trials_s.iter().map(|&s| self.ahead(place_m, time_s, s));
-            let ahead: Vec<_> = ahead.collect();
+            let at = |s: f64| (s, self.ahead(place_m, time_s, s));
+            let trials: Vec<_> = (0..=TRIALS).map(graded).map(at).collect();
             for family in 0..families {
-                let each = trials_s.iter().zip(&ahead);
-                let mut tried: Vec<_> = each.map(|(&s, ahead)| (s, ahead[family])).collect();
+                let own = trials.iter().map(|(s, ahead)| (*s, ahead[family]));
+                let mut tried: Vec<_> = own.collect();
                 let turn = |three: &[_]| self.turn(place_m, time_s, three, family);
                 let turns: Vec<_> = tried.windows(3).filter_map(turn).collect();
                 tried.extend(turns);
                 tried.sort_by(|a, b| a.0.total_cmp(&b.0));
                 for pair in tried.windows(2) {
                     if (pair[0].1 < 0.0) != (pair[1].1 < 0.0) {
-                        let span = [pair[0], pair[1]];
-                        cuts.push(self.crossing(place_m, time_s, span, family));
+                        cuts.push(self.crossing(place_m, time_s, [pair[0], pair[1]], family));
                     }
                 }
             }

@@ -113,15 +113,14 @@ impl<'a> Sum<'a> {
         }
         sum.open = sum.not_resolved(&sum.left, BESIDE);
         if discs.radii.len() > 1 {
-            let blurred = sum.blurred().into_iter();
-            let more: Vec<usize> = blurred.filter(|i| !sum.open.contains(i)).collect();
-            sum.open.extend(more);
+            let blurred = sum.blurred();
+            sum.open.extend(blurred);
         }
         Ok(sum)
     }
 
-    /// The samples at which a front from the beginning or the end of a contact passes: a contact that is smaller than the
-    /// smallest disc has a sharper one, of which the terms that are left out do not tell.
+    /// More samples that are open, at which a front from the beginning or the end of a contact passes: a contact that is
+    /// smaller than the smallest disc has a sharper one, of which the terms that are left out do not tell.
     fn blurred(&self) -> Vec<usize> {
         /// Times that a longitudinal wave takes over the largest radius, and how many kinds of fronts: Rayleigh's is sharp in
         /// rates alone.
@@ -137,7 +136,8 @@ impl<'a> Sum<'a> {
             since_s.any(|s| s.abs() < blur_s)
         };
         let times_s = &self.forcing.times_s;
-        (0..times_s.len()).filter(|&i| passes(times_s[i])).collect()
+        let more = |&i: &usize| passes(times_s[i]) && !self.open.contains(&i);
+        (0..times_s.len()).filter(more).collect()
     }
 
     /// The largest index of a component.
