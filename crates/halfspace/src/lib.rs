@@ -20,7 +20,7 @@
 //! # What is here
 //!
 //! - [`Medium`]: wave speeds and the Rayleigh function of a Poisson ratio.
-//! - [`Kernel`]: static field, step-response remainder, its time integral and its averages over time cells.
+//! - [`Kernel`]: static field, step-response remainder, impulse response and time integral.
 //! - [`Trace`]: the remainder at one place over time, with averages and moments over cells of any width.
 //! - [`SurfaceResponse`]: the deflection under the load itself, with finite memory, in nanoseconds.
 //! - [`Arrivals`]: times of all wave fronts.

@@ -10,8 +10,8 @@ use std::path::PathBuf;
 const EXAMPLES: &str = "Example:
   hertzlamb paper -o paper
 
-The folder gets report.md, numbers.csv, claims.csv, and of each of the Figures 4 to 11 an SVG, a PNG and the CSV of
-its curves.";
+The folder gets report.md, numbers.csv, claims.csv, and an SVG, a PNG and a CSV of curves for each of the Figures 4 to 11
+and for the time step.";
 
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]

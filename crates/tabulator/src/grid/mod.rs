@@ -25,7 +25,7 @@ pub const PULSE_LENGTHS: [f64; 6] = [1.0, 3.0, 10.0, 20.0, 40.0, 100.0];
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Grid {
-    /// Poisson ratios, one slice each, ascending, in (-1, 0.5).
+    /// Poisson ratios, one slice each, ascending, in [-0.95, 0.495].
     pub poisson_ratios: Vec<f64>,
     /// Poisson ratios that have a slice of their own and take no part in interpolation, ascending.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
