@@ -9,9 +9,6 @@ use impact::{Impact, ImpactError, Run, Scene};
 /// Relative error of the loss of an elastic contact where the scene asks for none: that of one that flows is of order one.
 const LOSS_TOLERANCE: f64 = 1e-4;
 
-/// Indentation over that at the onset of yield up to which Jackson and Green's fit is Hertz's law.
-const FITTED: f64 = 1.9;
-
 /// A contact, solved at the velocity of its scene.
 pub(super) struct Case {
     /// The bodies; of two balls one with the reduced mass and radius strikes.
@@ -81,7 +78,10 @@ impl Case {
             impact.settings.yield_pressure_pa = None;
         }
         let mut run = solve(&impact).map_err(ImpactError::from)?;
-        if self.echo_s.is_some_and(|echo_s| echo_s <= run.contact_time_s) {
+        if self
+            .echo_s
+            .is_some_and(|echo_s| echo_s <= run.contact_time_s)
+        {
             impact.settings.model = Model::Hertz;
             run = solve(&impact).map_err(ImpactError::from)?;
         }
@@ -133,28 +133,22 @@ impl Case {
     fn onset(&self) -> Option<String> {
         let law = self.impact.settings.plasticity;
         let (results, v) = (&self.run.results, self.impact.velocity_m_s);
-        // Hertz's pressure goes with v^(2/5), his indentation with v^(4/5)
+        // Hertz's pressure goes with v^(2/5)
         let onset = results.loading.yield_onset.map(|over| v * over.powf(-2.5));
-        Some(match (results.plastic.yield_velocity_m_s, law) {
-            (Some(onset), Plasticity::JacksonGreen) => format!(
-                "yield: begins at {} by the plasticity \"{}\", whose fit is the elastic contact up to {}",
-                short(onset, "m/s"),
-                law.name(),
-                short(onset * FITTED.powf(1.25), "m/s")
-            ),
-            (Some(onset), _) => format!(
+        Some(match results.plastic.yield_velocity_m_s {
+            Some(onset) => format!(
                 "yield: begins at {} by the plasticity \"{}\"; below it the contact is elastic",
                 short(onset, "m/s"),
                 law.name()
             ),
-            (None, _) => format!(
+            None => format!(
                 "yield: begins under the surface at {}, and from there on the elastic restitution is an upper bound; set contact.plasticity",
                 short(onset?, "m/s")
             ),
         })
     }
 
-    /// The results of the contact itself, which a code has only in part.
+    /// The results of the model, which a code has only in part.
     fn outcome(&self) -> String {
         let (run, velocity) = (&self.run, short(self.impact.velocity_m_s, "m/s"));
         let [time, force] = [si(run.contact_time_s, "s"), si(run.peak_force_n, "N")];

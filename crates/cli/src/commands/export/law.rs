@@ -4,7 +4,7 @@ use crate::commands::export::case::Case;
 use crate::commands::export::motion::{Damping, Rebound};
 use crate::failure::Failure;
 use crate::report::{short, si};
-use contact::{BodyError, HalfSpace, Material, Model, Striker};
+use contact::{BodyError, HalfSpace, Material, Model, Plasticity, Striker};
 use impact::{Impact, Run};
 use serde_json::{Value, json};
 
@@ -57,6 +57,7 @@ pub(super) struct Laws {
     pub(super) like: Vec<Law>,
     /// Contact time of `both` at the velocity of the scene in s.
     pub(super) contact_time_s: f64,
+    /// Its largest force there in N.
     pub(super) peak_force_n: f64,
     /// Velocities in m/s from and to which the loss of one restitution holds.
     range_m_s: Option<[f64; 2]>,
@@ -68,16 +69,10 @@ impl Laws {
     pub(super) fn new(case: &Case, code: Code) -> Result<Self, Failure> {
         let (collision, v) = (case.impact.collision(), case.impact.velocity_m_s);
         let units = collision.units();
-        let lag = match (case.run.solved.flow, code, case.balls.len()) {
-            (None, Code::Yade, _) | (None, Code::Lammps, 1) => case.lag(),
-            // LAMMPS has no dashpot on the area of two balls
-            (None, Code::Lammps, _) | (Some(_), ..) => 0.0,
-        };
-        let loses = case.run.solved.flow.is_some() || case.lag() > 0.0;
-        let damping = match () {
-            () if lag > 0.0 => Damping::Area(lag),
-            () if loses => Damping::of_restitution(case.run.restitution, code.pulls()),
-            () => Damping::None,
+        let damping = damping(case, code);
+        let lag = match damping {
+            Damping::Area(lag) => lag,
+            Damping::None | Damping::Ratio(_) => 0.0,
         };
         let both = Law {
             modulus_pa: collision.effective_modulus_pa,
@@ -85,9 +80,10 @@ impl Laws {
             lag_m_s_n: lag * units.length_m * units.time_s / units.force_n,
             ratio: ratio(damping),
         };
-        let range_m_s = (ratio(damping) > 0.0)
-            .then(|| range(v, case.run.loss, |v| case.at(v, false)));
-        let found = damping.rebound(code.pulls() && lag == 0.0);
+        let range_m_s =
+            (ratio(damping) > 0.0).then(|| range(v, case.run.loss, |v| case.at(v, false)));
+        let pulls = code.pulls() && range_m_s.is_some();
+        let found = damping.rebound(pulls);
         let mut laws = Self {
             both,
             like: Vec::new(),
@@ -97,14 +93,18 @@ impl Laws {
             notes: Vec::new(),
         };
         laws.notes.push(laws.text(case));
-        let bodies = [&case.impact.striker.material, case.impact.half_space.material()];
+        let bodies = [
+            &case.impact.striker.material,
+            case.impact.half_space.material(),
+        ];
         let names = ["striker", "target"];
         for ((name, material), ball) in names.into_iter().zip(bodies).zip(&case.balls) {
             let (law, note) = alike(case, code, name, material, *ball)?;
             laws.like.push(law);
             laws.notes.push(note);
         }
-        laws.notes.push(outcome(v, &found, laws.contact_time_s, laws.peak_force_n));
+        laws.notes
+            .push(outcome(v, &found, laws.contact_time_s, laws.peak_force_n));
         Ok(laws)
     }
 
@@ -131,7 +131,7 @@ impl Laws {
                 None => "contact with waves",
             };
             return format!(
-                "law: F = 4/3 E* sqrt(R) d^1.5 with one restitution, that of the {kind} at {here}; {}",
+                "law: F = 4/3 E* sqrt(R) d^1.5 with one restitution, that of the {kind} at {here}; {}, and the table format has other velocities",
                 held(range)
             );
         }
@@ -156,6 +156,23 @@ impl Laws {
     }
 }
 
+/// How the law of striker and target loses energy: by a dashpot on the area where the code can have one.
+fn damping(case: &Case, code: Code) -> Damping {
+    let (flows, lag) = (case.run.solved.flow.is_some(), case.lag());
+    let has_area = match code {
+        // a force on each ball from a plane; its pairs have stock models alone
+        Code::Lammps => case.balls.len() == 1,
+        Code::Yade => true,
+    };
+    if !flows && lag == 0.0 {
+        Damping::None
+    } else if !flows && has_area {
+        Damping::Area(lag)
+    } else {
+        Damping::of_restitution(case.run.restitution, code.pulls())
+    }
+}
+
 fn ratio(damping: Damping) -> f64 {
     match damping {
         Damping::Ratio(ratio) => ratio,
@@ -165,14 +182,12 @@ fn ratio(damping: Damping) -> f64 {
 
 fn held([from, to]: [f64; 2]) -> String {
     let [from, to] = [from, to].map(|v| short(v, "m/s"));
-    format!(
-        "the loss is within 10 % of that contact's from {from} to {to}, and the table format has other velocities"
-    )
+    format!("the loss is within 10 % of that contact's from {from} to {to}")
 }
 
 fn outcome(v: f64, found: &Rebound, contact_time_s: f64, peak_force_n: f64) -> String {
     format!(
-        "in the code at {}: restitution {:.8}, loss {:.6e}, contact time {}, peak force {}",
+        "this file at {}: restitution {:.8}, loss {:.6e}, contact time {}, peak force {}",
         short(v, "m/s"),
         found.restitution,
         1.0 - found.restitution * found.restitution,
@@ -195,7 +210,11 @@ fn range<E>(v: f64, loss: f64, at: impl Fn(f64) -> Result<Run, E>) -> [f64; 2] {
         // to 3e-6
         for _ in 0..15 {
             let middle = (inside * outside).sqrt();
-            *if holds(middle) { &mut inside } else { &mut outside } = middle;
+            *if holds(middle) {
+                &mut inside
+            } else {
+                &mut outside
+            } = middle;
         }
         match factor < 1.0 {
             true => (inside * (1.0 + MARGIN)).min(v),
@@ -229,8 +248,14 @@ fn alike(
     let v = case.impact.velocity_m_s;
     let here = short(v, "m/s");
     let pair = pair(case, material, ball)?;
-    let run = match pair.solve() {
-        Ok(run) if run.solved.flow.is_some() => run,
+    let run = match pair.settings.plasticity {
+        Plasticity::None => Ok(None),
+        Plasticity::Thornton | Plasticity::Recovery | Plasticity::JacksonGreen => {
+            pair.solve().map(Some)
+        }
+    };
+    let run = match run {
+        Ok(Some(run)) if run.solved.flow.is_some() => run,
         Ok(_) => {
             let note = format!(
                 "{begin}, elastic at {here}; no energy is lost, since echoes bring back the waves of balls of like size"
@@ -268,9 +293,14 @@ fn pair(
 ) -> Result<Impact, Failure> {
     let mut material = material.clone();
     // without waves the density does not matter
-    material.density_kg_m3.get_or_insert(case.impact.half_space.density_kg_m3());
+    material
+        .density_kg_m3
+        .get_or_insert(case.impact.half_space.density_kg_m3());
     let strength = material.yield_strength_pa;
-    let bodies = [&case.impact.striker.material, case.impact.half_space.material()];
+    let bodies = [
+        &case.impact.striker.material,
+        case.impact.half_space.material(),
+    ];
     let others = bodies.into_iter().filter_map(|body| body.yield_strength_pa);
     let is_softest = strength.is_some_and(|own| others.fold(true, |so, other| so && own <= other));
     let striker = Striker::new(material.clone(), 0.5 * mass_kg, 0.5 * radius_m);

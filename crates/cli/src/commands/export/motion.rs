@@ -66,9 +66,8 @@ impl Damping {
     /// The contact of this damping beside Hertz's spring, to 1e-6; `pulls` where the force is not cut at zero.
     pub(super) fn rebound(self, pulls: bool) -> Rebound {
         let slope = |[d, v]: [f64; 2]| [v, -1.25 * self.force(d.max(0.0), v)];
-        let moved = |[d, v]: [f64; 2], [by, speed]: [f64; 2], step: f64| {
-            [d + step * by, v + step * speed]
-        };
+        let moved =
+            |[d, v]: [f64; 2], [by, speed]: [f64; 2], step: f64| [d + step * by, v + step * speed];
         let (mut state, mut time, mut largest, mut peak_force) =
             ([TOUCH, 1.0], TOUCH, LARGEST, 0.0_f64);
         while state[0] >= TOUCH && largest > SMALLEST {
@@ -119,6 +118,9 @@ mod tests {
     fn the_first_order_of_the_area_dashpot_is_that_of_the_radiation_law() {
         let found = Damping::Area(1e-4).rebound(false);
         let loss = 1.0 - found.restitution.powi(2);
-        assert!((loss / (contact::law::radiation::LOSS * 1e-4) - 1.0).abs() < 1e-3, "{loss}");
+        assert!(
+            (loss / (contact::law::radiation::LOSS * 1e-4) - 1.0).abs() < 1e-3,
+            "{loss}"
+        );
     }
 }
