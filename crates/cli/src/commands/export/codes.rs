@@ -11,8 +11,8 @@ const HERTZ_TIME: f64 = 2.868;
 const LAMMPS_STEPS: f64 = 250.0;
 const YADE_STEPS: f64 = 2500.0;
 
-/// Steps over the shortest contact below which a run stops: there a dashpot on the area loses 1 % too little, with a quarter
-/// of them a ball gains energy. YADE's comes a step late and needs more.
+/// Steps over the shortest contact below which a run stops: with these the loss of the dashpot on the area is within 2 %
+/// (`scripts/check-exports`), with a fifth to a tenth of them a ball gains energy. YADE's comes a step late and needs more.
 const LEAST_LAMMPS_STEPS: f64 = 25.0;
 const LEAST_YADE_STEPS: f64 = 100.0;
 

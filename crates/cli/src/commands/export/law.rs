@@ -14,11 +14,12 @@ use serde_json::{Value, json};
 const LEFT_OUT: f64 = 0.15;
 const LARGEST_MEMORY: f64 = 0.5;
 
-/// Relative error of the loss up to which one restitution serves other velocities.
-const OFF: f64 = 0.1;
+/// Relative error of the loss up to which one restitution serves other velocities: 10 %, less the 1e-3 that the steps of a
+/// code may change (`scripts/check-exports` runs both ends).
+const OFF: f64 = 0.1 - 1e-3;
 
-/// Furthest velocity over that of the scene at which this is looked for, the factor between two tries, and the relative
-/// margin of the end that is found, more than its four digits leave out.
+/// Largest ratio of such a velocity to that of the scene that is tried, the ratio of two tries, and how far an end is moved
+/// inwards: more than is lost where it is printed with four digits.
 const FURTHEST: f64 = 100.0;
 const FACTOR: f64 = 1.1;
 const MARGIN: f64 = 1e-3;
@@ -301,8 +302,8 @@ fn pair(
         &case.impact.striker.material,
         case.impact.half_space.material(),
     ];
-    let others = bodies.into_iter().filter_map(|body| body.yield_strength_pa);
-    let is_softest = strength.is_some_and(|own| others.fold(true, |so, other| so && own <= other));
+    let mut others = bodies.into_iter().filter_map(|body| body.yield_strength_pa);
+    let is_softest = strength.is_some_and(|own| others.all(|other| own <= other));
     let striker = Striker::new(material.clone(), 0.5 * mass_kg, 0.5 * radius_m);
     let failed = |error: BodyError| Failure::input(error.to_string());
     let half_space = HalfSpace::new(material).map_err(failed)?;
