@@ -382,7 +382,7 @@ fn one_restitution_serves_up_to_both_ends() {
                 .map(|own| (loss / own - 1.0).abs())
                 .collect::<Vec<f64>>()
         };
-        let (ends, beyond) = (off(from, to), off(0.97 * from, 1.03 * to));
+        let (ends, beyond) = (off(from, to), off(0.9 * from, 1.1 * to));
         assert!(ends.iter().all(|off| *off <= 0.1), "{plasticity}: {ends:?}");
         assert!(
             beyond.iter().all(|off| *off > 0.1),
