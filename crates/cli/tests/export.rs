@@ -422,7 +422,14 @@ fn what_no_particle_code_has_is_refused() {
     let disc = format!("{SCENE}disc_radius_m = 0.002\n");
     let wave = format!("{SCENE}model = \"wave\"\n");
     let fast = SCENE.replace("velocity_m_s = 1.0", "velocity_m_s = 4000.0");
-    let cases: [(&str, &[&str], &str); 9] = [
+    // a ball of gum that is pressed in by more than its radius
+    let soft = SCENE
+        .replace("2.1e11", "1e6")
+        .replace("density_kg_m3 = 7800", "density_kg_m3 = 1000")
+        .replace("velocity_m_s = 1.0", "velocity_m_s = 90.0");
+    let cases: [(&str, &[&str], &str); 11] = [
+        (&soft, &["lammps"], "a particle code loses it from 5 mm on"),
+        (&soft, &["yade"], "use a lower striker.velocity_m_s"),
         (&disc, &["lammps"], "disc_radius_m"),
         (&wave, &["yade"], "fixed disc"),
         (&fast, &["table"], "velocity_m_s"),

@@ -85,6 +85,17 @@ impl Laws {
             (ratio(damping) > 0.0).then(|| range(v, case.run.loss, |v| case.at(v, false)));
         let pulls = code.pulls() && range_m_s.is_some();
         let found = damping.rebound(pulls);
+        let depth_m = found.depth * units.length_m;
+        // a code takes a centre beyond the other body for a contact from its other side
+        let deepest_m: f64 = case.balls.iter().map(|[radius_m, _]| radius_m).sum();
+        if depth_m >= deepest_m {
+            return Err(Failure::input(format!(
+                "the contact is {} deep at {}, and a particle code loses it from {} on: use a lower striker.velocity_m_s",
+                short(depth_m, "m"),
+                short(v, "m/s"),
+                short(deepest_m, "m")
+            )));
+        }
         let mut laws = Self {
             both,
             like: Vec::new(),

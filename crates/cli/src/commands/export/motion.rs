@@ -21,6 +21,8 @@ pub(super) struct Rebound {
     pub(super) restitution: f64,
     pub(super) contact_time: f64,
     pub(super) peak_force: f64,
+    /// Largest indentation.
+    pub(super) depth: f64,
 }
 
 /// How a law loses energy.
@@ -68,8 +70,8 @@ impl Damping {
         let slope = |[d, v]: [f64; 2]| [v, -1.25 * self.force(d.max(0.0), v)];
         let moved =
             |[d, v]: [f64; 2], [by, speed]: [f64; 2], step: f64| [d + step * by, v + step * speed];
-        let (mut state, mut time, mut largest, mut peak_force) =
-            ([TOUCH, 1.0], TOUCH, LARGEST, 0.0_f64);
+        let (mut state, mut time, mut largest) = ([TOUCH, 1.0], TOUCH, LARGEST);
+        let (mut peak_force, mut depth) = (0.0_f64, 0.0_f64);
         while state[0] >= TOUCH && largest > SMALLEST {
             let step = (STEP * state[0] / state[1].abs()).min(largest);
             let first = slope(state);
@@ -85,11 +87,13 @@ impl Damping {
             }
             (state, time) = (next, time + step);
             peak_force = peak_force.max(force);
+            depth = depth.max(state[0]);
         }
         Rebound {
             restitution: -state[1],
             contact_time: time,
             peak_force,
+            depth,
         }
     }
 }
@@ -104,6 +108,7 @@ mod tests {
         assert!((hertz.restitution - 1.0).abs() < 1e-7, "{hertz:?}");
         assert!((hertz.contact_time / 2.943_275_184_324_705 - 1.0).abs() < 1e-6);
         assert!((hertz.peak_force - 1.0).abs() < 1e-6);
+        assert!((hertz.depth - 1.0).abs() < 1e-6);
         for restitution in [0.999, 0.9, 0.5, 0.2, 0.03] {
             for pulls in [true, false] {
                 let found = Damping::of_restitution(restitution, pulls).rebound(pulls);
