@@ -1,50 +1,83 @@
-//! Inputs of LAMMPS and YADE: the numbers of a case, and scripts that take them.
+//! Inputs of LAMMPS and YADE: the numbers of a case and its laws, and scripts that take them.
 
 use crate::commands::export::case::Case;
-use std::f64::consts::PI;
+use crate::commands::export::law::{Law, Laws};
 
-/// Steps over the contact: more change the loss by less than 1e-3 of itself (`scripts/check-exports`).
-const LAMMPS_STEPS: f64 = 400.0;
-const YADE_STEPS: f64 = 4000.0;
+/// Hertz's contact time over (m^2/(E*^2 R v))^(1/5).
+const HERTZ_TIME: f64 = 2.868;
 
-impl Case {
-    /// Its notes as comments, which all three formats have in the same way.
-    pub(super) fn header(&self) -> String {
-        let version = env!("CARGO_PKG_VERSION");
-        let mut text = format!("# hertzlamb {version}: SI units\n");
-        let warnings = self.run.warnings.iter();
-        let warnings = warnings.map(|warning| format!("warning: {warning}"));
-        for note in self.notes.iter().cloned().chain(warnings) {
-            text += &format!("# {note}\n");
-        }
-        text
-    }
-}
+/// Steps over the shortest contact that the balls of a file can have: more change the loss by less than 1e-3 of itself
+/// (`scripts/check-exports`).
+const LAMMPS_STEPS: f64 = 250.0;
+const YADE_STEPS: f64 = 2500.0;
 
-/// An input of LAMMPS.
-pub(super) fn lammps(case: &Case) -> String {
-    let mut text = case.header();
+/// Steps over the shortest contact below which a run stops: with these the loss of the dashpot on the area is within 2 %
+/// (`scripts/check-exports`), with a fifth to a tenth of them a ball gains energy. YADE's comes a step late and needs more.
+const LEAST_LAMMPS_STEPS: f64 = 25.0;
+const LEAST_YADE_STEPS: f64 = 100.0;
+
+/// An input of LAMMPS, whose atoms of type 1 are of the striker's material and those of type 2 of the target's.
+pub(super) fn lammps(case: &Case, laws: &Laws) -> String {
+    let mut text = String::new();
     let mut variable = |name: &str, value: f64, what: &str| {
         text += &format!("variable {name:2} equal {value:<24?} # {what}\n");
     };
-    variable("V", case.impact.velocity_m_s, "velocity of approach, m/s");
-    let modulus_pa = case.impact.collision().effective_modulus_pa;
-    variable("ES", modulus_pa, "E*, Pa");
-    variable("E0", case.run.restitution, "restitution at V");
-    if let Some(lag) = case.lag_m_s_n() {
-        variable("C", lag, "J/(mu c2) of the block, m s/N");
+    let target = ["block", "second ball"][case.balls.len() - 1];
+    let v = case.impact.velocity_m_s;
+    variable("V", v, "velocity of approach, m/s");
+    variable("T", laws.contact_time_s, "contact time at V, s");
+    let both = &laws.both;
+    variable(
+        "ES",
+        both.modulus_pa,
+        &format!("E* of striker and {target}, Pa"),
+    );
+    variable("E0", both.restitution, "its restitution at V");
+    if case.balls.len() == 1 && case.run.solved.flow.is_none() {
+        variable("C", both.lag_m_s_n, "J/(mu c2) of the block, m s/N");
     }
-    for (number, [radius_m, mass_kg]) in (1..).zip(&case.balls) {
-        variable(&format!("R{number}"), *radius_m, "radius of a ball, m");
+    for (number, (law, [radius_m, mass_kg])) in (1..).zip(laws.like.iter().zip(&case.balls)) {
+        let whose = ["striker", "second ball"][number - 1];
+        variable(
+            &format!("R{number}"),
+            *radius_m,
+            &format!("radius of the {whose}, m"),
+        );
         variable(&format!("M{number}"), *mass_kg, "its mass, kg");
+        variable(
+            &format!("ES{number}"),
+            law.modulus_pa,
+            "E* of two such balls, Pa",
+        );
+        variable(
+            &format!("E0{number}"),
+            law.restitution,
+            "their restitution at V",
+        );
     }
-    variable("dt", case.run.contact_time_s / LAMMPS_STEPS, "time step, s");
-    let parts: &[&str] = match (case.balls.len(), case.lag_m_s_n()) {
-        (1, Some(_)) => &[BALL, PAIR, DASHPOT, BLOCK, RUN],
-        (1, None) => &[BALL, PAIR, BLOCK, RUN],
-        _ => &[BALL, SECOND, PAIR, RUN],
+    let stiffest = stiffest(laws);
+    variable("EM", stiffest, "the largest E*, Pa");
+    let parts: &[&str] = match (case.balls.len(), case.run.solved.flow) {
+        (1, None) => &[BALL, PAIR, DASHPOT, BLOCK],
+        (1, Some(_)) => &[BALL, PAIR, BLOCK],
+        _ => &[BALL, PAIR, SECOND],
     };
-    text + &parts.concat()
+    let types = case.balls.len().to_string();
+    let size = ["8*v_R1", "4*(v_R1+v_R2)"][case.balls.len() - 1];
+    let parts = parts
+        .concat()
+        .replace("TYPES", &types)
+        .replace("SIZE", size);
+    let run = RUN
+        .replace("HERTZ_TIME", &HERTZ_TIME.to_string())
+        .replace("LEAST", &LEAST_LAMMPS_STEPS.to_string())
+        .replace("STEPS", &LAMMPS_STEPS.to_string());
+    text + &parts + &run
+}
+
+fn stiffest(laws: &Laws) -> f64 {
+    let like = laws.like.iter().map(|law| law.modulus_pa);
+    like.fold(laws.both.modulus_pa, f64::max)
 }
 
 /// The parts of an input of LAMMPS.
@@ -54,9 +87,9 @@ atom_style  sphere
 atom_modify map yes
 boundary    f f f
 comm_modify vel yes
-variable    L equal 8*v_R1
+variable    L equal SIZE
 region      box block $(-v_L) ${L} $(-v_L) ${L} $(-v_L) ${L}
-create_box  1 box
+create_box  TYPES box
 create_atoms 1 single 0 0 ${R1}
 set         atom 1 diameter $(2*v_R1)
 set         atom 1 mass ${M1}
@@ -64,23 +97,26 @@ velocity    all set 0 0 $(-v_V)
 variable    e equal vz[1]/v_V
 ";
 
+const PAIR: &str = "
+# balls of the striker's material on each other, of any radius: Hertz's law and one restitution, without friction
+pair_style  granular
+pair_coeff  1 1 hertz $(4/3*v_ES1) ${E01} tangential linear_nohistory 0 0 damping coeff_restitution
+";
+
 const SECOND: &str = "
-create_atoms 1 single 0 0 $(-v_R2)
+# the second ball, at rest: on the striker, and balls of its material on each other
+create_atoms 2 single 0 0 $(-v_R2)
 set         atom 2 diameter $(2*v_R2)
 set         atom 2 mass ${M2}
 variable    e equal (vz[1]-vz[2])/v_V
-";
-
-const PAIR: &str = "
-# balls on each other: Hertz's law with one restitution, without friction
-pair_style  granular
-pair_coeff  * * hertz $(4/3*v_ES) ${E0} tangential linear_nohistory 0 0 damping coeff_restitution
+pair_coeff  1 2 hertz $(4/3*v_ES) ${E0} tangential linear_nohistory 0 0 damping coeff_restitution
+pair_coeff  2 2 hertz $(4/3*v_ES2) ${E02} tangential linear_nohistory 0 0 damping coeff_restitution
 ";
 
 /// The dashpot on the contact's area needs no memory: it is a force on each ball above the plane z = 0. It stands before
 /// the stock block, which it makes a comment.
 const DASHPOT: &str = "
-# the block below z = 0, for balls of any radius at any velocity; d is the depth, fz not below zero
+# the block below z = 0, for balls of any radius at any velocity below yield; d is the depth, fz not below zero
 variable    d  atom \"(z<radius)*(radius-z)\"
 variable    f  atom \"4/3*v_ES*sqrt(radius)*v_d*sqrt(v_d)-4*v_C*v_ES^2*radius*v_d*vz\"
 variable    fz atom \"(v_f>0)*v_f\"
@@ -91,49 +127,59 @@ fix         block all addforce 0 0 v_fz
 const BLOCK: &str = "fix block all wall/gran granular hertz $(4/3*v_ES) ${E0} tangential linear_nohistory 0 0 damping coeff_restitution zplane 0 NULL
 ";
 
+/// The shortest contact has the lightest ball and the highest velocity: m >= m1/2, R <= R1 and v <= V + 2 max v in Hertz's
+/// contact time, which no pair of balls in the file falls below.
 const RUN: &str = "
+# time step: by the shortest contact that the balls here can have, which goes with the radius; a later, smaller or faster
+# ball that is left with too few steps stops the run
+variable    light atom mass^2/radius
+variable    speed atom sqrt(vx^2+vy^2+vz^2)
+compute     light all reduce min v_light
+compute     fast all reduce max v_speed
+variable    short equal HERTZ_TIME*(c_light/(4*v_EM^2*(v_V+2*c_fast)))^0.2
+variable    steps equal v_short/dt
+thermo_style custom step c_light c_fast
 fix         motion all nve/sphere
-timestep    ${dt}
-run         500
+run         0
+timestep    $(v_short/STEPS)
+fix         steps_per_contact all halt 10 v_steps < LEAST error hard
+
+variable    force equal sqrt(fx[1]^2+fy[1]^2+fz[1]^2)
+variable    touch equal v_force>0
+fix         force all vector 1 v_force v_touch
+run         $(ceil(1.25*v_T/dt))
 print       \"restitution $(v_e:%.10g)\"
+print       \"peak force $(max(f_force[1]):%.10g) N, contact time $(dt*sum(f_force[2]):%.6g) s\"
 ";
 
 /// A script for YADE.
-pub(super) fn yade(case: &Case) -> String {
-    let restitution = case.run.restitution;
-    let (lag, beta) = match case.lag_m_s_n() {
-        Some(lag) => (lag, 0.0),
-        None => (0.0, damping(restitution)),
-    };
-    let body = case.impact.collision();
-    let modulus_pa = body.effective_modulus_pa;
+pub(super) fn yade(case: &Case, laws: &Laws) -> String {
+    let mut text = String::new();
     let numbers = [
         ("V", case.impact.velocity_m_s, "velocity of approach, m/s"),
-        ("E_STAR", modulus_pa, "1/E* = sum of (1 - nu^2)/E, Pa"),
-        ("R", body.tip_radius_m, "radius of Hertz's law, m"),
-        ("M", body.mass_kg, "mass of the motion, kg"),
-        ("LAG", lag, "J/(mu c2) of the block, m s/N"),
+        ("T", laws.contact_time_s, "contact time at V, s"),
         (
-            "BETA",
-            beta,
-            "damping ratio of one restitution, 0 with the lag",
+            "HERTZ",
+            HERTZ_TIME,
+            "Hertz's contact time over (m^2/(E*^2 R v))^(1/5)",
         ),
-        ("STEP", case.run.contact_time_s / YADE_STEPS, "time step, s"),
+        ("STEPS", YADE_STEPS, "steps over the shortest contact"),
+        ("LEAST", LEAST_YADE_STEPS, "steps below which the run stops"),
     ];
-    let mut text = case.header();
     for (name, value, what) in numbers {
         text += &format!("{name} = {value:?}  # {what}\n");
     }
     text += &format!("BALLS = {:?}  # radius in m and mass in kg\n", case.balls);
-    text + include_str!("yade.py")
-}
-
-/// YADE's `betan` for a restitution e, whose force is not negative.
-///
-/// Without that cut the ratio is exact for Hertz's law, `sqrt(5/6) |ln e|/sqrt(pi^2 + ln^2 e)`, and with it the ball
-/// leaves with e + 0.203 (1 - e)^2: within 1e-3 of it for e from 0.3 to 1.
-fn damping(restitution: f64) -> f64 {
-    let asked = 1.0 - (1.0 - (1.0 - 0.812 * (1.0 - restitution)).max(0.0).sqrt()) / 0.406;
-    let decay = -asked.clamp(1e-3, 1.0).ln();
-    (5.0_f64 / 6.0).sqrt() * decay / decay.hypot(PI)
+    text += "# E* in Pa, lag J/(mu c2) in m s/N of the area dashpot, ratio of damping of one restitution\nLAWS = {\n";
+    let mut law = |one: &str, two: &str, law: &Law| {
+        text += &format!(
+            "    (\"{one}\", \"{two}\"): ({:?}, {:?}, {:?}),\n",
+            law.modulus_pa, law.lag_m_s_n, law.ratio
+        );
+    };
+    law("striker", "target", &laws.both);
+    for (name, like) in ["striker", "target"].into_iter().zip(&laws.like) {
+        law(name, name, like);
+    }
+    text + "}\n" + include_str!("yade.py")
 }

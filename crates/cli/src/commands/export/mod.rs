@@ -2,6 +2,8 @@
 
 mod case;
 mod codes;
+mod law;
+mod motion;
 mod table;
 
 use crate::arguments::Overwrite;
@@ -9,6 +11,8 @@ use crate::failure::{Failure, lines, say, show};
 use case::{Case, named};
 use clap::{Args, ValueEnum};
 use formats::read_with_inputs;
+use impact::Run;
+use law::{Code, Laws};
 use output::CSV;
 use serde_json::json;
 use std::path::PathBuf;
@@ -19,7 +23,7 @@ const EXAMPLES: &str = "Examples:
   hertzlamb export table scenes/plastic-drop.toml --velocities 0.01,10 -o drop.csv
   hertzlamb export lammps scenes/plastic-drop.toml --target-diameter 0.005 -o in.pair
 
-Run them with `lmp -in in.drop` and `yade -n -x drop.py`: both print the restitution.";
+Run them with `lmp -in in.drop` and `yade -n -x drop.py`: both print restitution, peak force and contact time.";
 
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
@@ -70,21 +74,46 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let (scene, inputs) = read_with_inputs(&arguments.scene)?;
     let claimed = arguments.overwrite.claim(output, &inputs)?;
     let case = Case::new(&scene, arguments.target_diameter)?;
+    let mut notes = case.notes.clone();
+    let mut value = json!({ "output": output.display().to_string() });
+    let mut laws = |code| {
+        let laws = Laws::new(&case, code)?;
+        notes.extend(laws.notes.iter().cloned());
+        value["law"] = laws.value();
+        Ok::<_, Failure>((head(&case.run, &notes), laws))
+    };
     let text = match format {
-        Format::Lammps => codes::lammps(&case),
-        Format::Yade => codes::yade(&case),
+        Format::Lammps => {
+            let (head, laws) = laws(Code::Lammps)?;
+            head + &codes::lammps(&case, &laws)
+        }
+        Format::Yade => {
+            let (head, laws) = laws(Code::Yade)?;
+            head + &codes::yade(&case, &laws)
+        }
         Format::Table => table::table(&case, velocities, rows.unwrap_or(41))?,
     };
     claimed.write(|part| std::fs::write(part, &text))?;
     for warning in &case.run.warnings {
         say(format!("warning: {warning}"));
     }
-    let mut value = json!({ "output": output.display().to_string() });
     for (name, number) in named(&case.run) {
         value[name] = number.into();
     }
-    value["notes"] = json!(case.notes);
+    value["notes"] = json!(notes);
     let written = lines([("written", output.display())]);
-    let text = format!("{}\n{written}", case.notes.join("\n"));
+    let text = format!("{}\n{written}", notes.join("\n"));
     show(arguments.json, &value, text)
+}
+
+/// Notes and warnings as comments, which all three formats have in the same way.
+fn head(run: &Run, notes: &[String]) -> String {
+    let version = env!("CARGO_PKG_VERSION");
+    let mut text = format!("# hertzlamb {version}: SI units\n");
+    let warnings = run.warnings.iter();
+    let warnings = warnings.map(|warning| format!("warning: {warning}"));
+    for note in notes.iter().cloned().chain(warnings) {
+        text += &format!("# {note}\n");
+    }
+    text
 }

@@ -1,6 +1,7 @@
 //! The rebound over velocities as CSV, elastic and, where the scene has a law of flow, plastic.
 
 use crate::commands::export::case::{Case, named};
+use crate::commands::export::head;
 use crate::failure::Failure;
 use contact::Plasticity;
 
@@ -20,11 +21,13 @@ pub(super) fn table(case: &Case, velocities: Option<&[f64]>, rows: u32) -> Resul
             "--velocities = {from},{to} is outside 0 < FROM < TO < inf"
         )));
     }
-    let mut text = case.header();
+    let mut text = head(&case.run, &case.notes);
     let factor = case.loss_factor();
     if factor > 0.0 {
+        let from = case.echoes_below_m_s();
+        let from = from.map_or_else(String::new, |v| format!(" and from about {v:.4} m/s on"));
         text += &format!(
-            "# elastic loss 1 - e^2 = {factor:.6e} v^0.6, v in m/s, to 1 % below {:.4} m/s\n",
+            "# elastic loss 1 - e^2 = {factor:.6e} v^0.6, v in m/s, to 1 % below {:.4} m/s{from}\n",
             (0.01 / SECOND_ORDER / factor).powf(5.0 / 3.0)
         );
     }
