@@ -107,6 +107,18 @@ fn quantities_and_peaks_are_written_with_units_and_agree_with_the_fields() {
             .fold(0.0_f32, f32::max);
         assert!(f64::from(shown) <= middle.abs() * (1.0 + 1e-6), "{name}");
         assert!(file.dataset(&format!("VTKHDF/PointData/{name}")).is_ok());
+        // one map of peaks for all steps
+        let peaks = file
+            .dataset(&format!("VTKHDF/PointData/{name}_peak"))
+            .unwrap();
+        assert_eq!(peaks.shape(), [1, 3, 3]);
+        let all: Vec<f32> = read(&format!("map/{name}_peak"))
+            .iter()
+            .map(|p| *p as f32)
+            .collect();
+        assert_eq!(peaks.read_raw::<f32>().unwrap(), all);
+        let offsets = file.dataset(&format!("VTKHDF/Steps/PointDataOffsets/{name}_peak"));
+        assert_eq!(offsets.unwrap().read_raw::<i64>().unwrap(), [0; 7]);
         assert!(
             file.dataset(&format!("VTKHDF/Steps/PointDataOffsets/{name}"))
                 .is_ok()

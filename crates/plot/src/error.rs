@@ -1,6 +1,6 @@
 //! Why there is no picture; and what is looked for by its name, with the error that it is not there.
 
-use crate::request::{Kind, Request};
+use crate::request::Kind;
 use contact::{Choice, nearest};
 use fault::{Class, Culprit, Fault};
 use formats::SceneError;
@@ -67,12 +67,15 @@ impl PlotError {
         word: &str,
         known: impl IntoIterator<Item = &'a str>,
     ) -> Self {
-        if impact::Quantity::named(word).is_some() {
+        let known: Vec<&str> = known.into_iter().collect();
+        // a part of a name, such as that of a quantity without its probe
+        let mut longer = known.iter().filter(|name| name.contains(word));
+        let whole = longer.next().map(|&name| name.to_owned());
+        if whole.is_none() && impact::Quantity::named(word).is_some() {
             let hint = format!("give the scene [output] quantities = [\"{word}\"]");
             return Self::absent(path, word, &hint);
         }
-        let known: Vec<&str> = known.into_iter().collect();
-        let suggestion = nearest(word, known.iter().copied());
+        let suggestion = whole.or_else(|| nearest(word, known.iter().copied()));
         let near = suggestion.as_ref();
         let near = near.map_or_else(String::new, |word| format!(" (did you mean {word}?)"));
         Self::Refused {
@@ -102,19 +105,6 @@ impl Fault for PlotError {
             },
         }
     }
-}
-
-/// The kind of picture that is asked for, or else the one that suits the file; times are not asked of one that shows all.
-pub(crate) fn kind_of(request: &Request, suits: Kind) -> Result<Kind, PlotError> {
-    let kind = request.kind.unwrap_or(suits);
-    if request.times_s.is_empty() || matches!(kind, Kind::Waves | Kind::Axis) {
-        return Ok(kind);
-    }
-    let shown = "shows all times: only waves and axis show those that are given";
-    Err(PlotError::refused(
-        None,
-        format!("the picture {kind} {shown}"),
-    ))
 }
 
 /// The only one of some files or paths.

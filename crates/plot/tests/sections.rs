@@ -120,7 +120,7 @@ fn limits_and_ratios_are_those_that_are_asked_for() {
     let path = section(folder.path(), 9, "");
     let asked = Request {
         limits: Some((1e3, 1e6)),
-        logarithmic: true,
+        scale: Some(Scale::Logarithmic),
         ..request(Kind::Waves, "stress_zz")
     };
     let (figure, _) = compose(std::slice::from_ref(&path), &asked).unwrap();

@@ -7,14 +7,14 @@ mod histories;
 mod labels;
 mod spectrum;
 
-use crate::error::{Drawn, PlotError, kind_of, only};
+use crate::error::{Drawn, PlotError, only};
 use crate::request::{Kind, Request};
 use crate::section::{axis_profile, frames, peak, space_time};
 use crate::words::with_unit;
 use contact::Shape;
 use figure::{Figure, Sharing};
 use formats::stored::{StoredImpact, Value};
-use histories::{FEW, contact_panels, loop_panel, probe_panels};
+use histories::{FEW, contact_names, contact_panels, loop_panel, probe_panels};
 use labels::labels;
 use spectrum::spectrum;
 use std::collections::BTreeMap;
@@ -29,14 +29,20 @@ pub(crate) fn of_impacts(impacts: &[StoredImpact], request: &Request) -> Drawn<F
         [only] if only.section()?.is_some() => Kind::Waves,
         _ => Kind::Impact,
     };
-    let kind = kind_of(request, suits)?;
+    let kind = request.kind_or(suits)?;
     let one = || only(impacts, kind);
     let panel = match kind {
         Kind::Loop => loop_panel(impacts, &labels(impacts))?,
         Kind::Spectrum => spectrum(impacts, &labels(impacts))?,
-        Kind::Peak => peak(one()?, request)?,
+        Kind::Peak => {
+            let (panel, notes) = peak(one()?, request)?;
+            return Ok((headed(impacts, request, 1).panel(panel), notes));
+        }
         Kind::Axis => axis_profile(one()?, request)?,
-        Kind::Surface | Kind::Depth => space_time(one()?, request)?,
+        Kind::Surface | Kind::Depth => {
+            let (panel, notes) = space_time(one()?, request, kind)?;
+            return Ok((headed(impacts, request, 1).panel(panel), notes));
+        }
         Kind::Waves => {
             let (panels, notes) = frames(one()?, request, request.frames.unwrap_or(4))?;
             let columns = if panels.len() > 4 { 3 } else { 2 };
@@ -68,8 +74,20 @@ fn histories(impacts: &[StoredImpact], kind: Kind, request: &Request) -> Drawn<F
     let labels = labels(impacts);
     let is_all = kind == Kind::Probes;
     let most = if is_all { usize::MAX } else { FEW };
-    let (probes, left_out) = probe_panels(impacts, &labels, &request.quantities, most)?;
-    if is_all && probes.is_empty() {
+    let is_of_contact = |name: &String| contact_names().contains(&name.as_str());
+    let (of_contact, at_probes): (Vec<String>, Vec<String>) =
+        request.quantities.iter().cloned().partition(is_of_contact);
+    if let (true, [name, ..]) = (is_all, of_contact.as_slice()) {
+        let sentence = format!(
+            "{name} is a quantity of the contact, not of a probe: the picture impact shows it"
+        );
+        return Err(PlotError::refused(None, sentence));
+    }
+    let (probes, left_out) = match of_contact.is_empty() || !at_probes.is_empty() {
+        true => probe_panels(impacts, &labels, (request, &at_probes), most)?,
+        false => (Vec::new(), 0),
+    };
+    if (is_all || !at_probes.is_empty()) && probes.is_empty() {
         let hint = "give the scene a [[probe]] with r_m and z_m";
         return Err(PlotError::absent(impacts[0].path(), "probes", hint));
     }
@@ -77,7 +95,10 @@ fn histories(impacts: &[StoredImpact], kind: Kind, request: &Request) -> Drawn<F
     let notes = (left_out > 0).then(note).into_iter().collect();
     let mut panels = match is_all {
         true => Vec::new(),
-        false => contact_panels(impacts, &labels)?,
+        false => {
+            let asked: Vec<&str> = of_contact.iter().map(String::as_str).collect();
+            contact_panels(impacts, &labels, request, &asked)?
+        }
     };
     let (columns, sharing) = match probes.len() {
         0 => (1, Sharing::X),
