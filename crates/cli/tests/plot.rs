@@ -93,5 +93,15 @@ fn what_is_no_picture_is_refused() {
         &["plot", "none.h5", "-o", "a.svg", "--kind", "cake"],
         "possible values",
     );
+    refused(
+        at,
+        &["plot", "none.h5", "-o", "a.svg", "--scale", "3"],
+        "a.svg does not use --scale",
+    );
+    refused(
+        at,
+        &["plot", "none.h5", "-o", "a.svg", "--log", "--linear"],
+        "cannot be used with",
+    );
     assert!(!at.join("a.svg").exists());
 }

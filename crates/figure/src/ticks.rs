@@ -322,7 +322,8 @@ mod tests {
         // a logarithmic axis too, unless it has so many decades that its numbers are powers of ten
         for (low, high, label) in [
             (5e-6, 8e-5, "t [\u{b5}s]"),
-            (2e-7, 4e-5, "t [ns]"),
+            (2e-7, 4e-6, "t [ns]"),
+            (2e-7, 4e-5, "t [\u{b5}s]"),
             (0.05, 20.0, "t [s]"),
             (1e-11, 1e-3, "t [s]"),
         ] {

@@ -10,7 +10,7 @@ mod spectrum;
 use crate::error::{Drawn, PlotError, only};
 use crate::request::{Kind, Request};
 use crate::section::{axis_profile, frames, peak, space_time};
-use crate::words::with_unit;
+use crate::words::{digits, with_unit};
 use contact::Shape;
 use figure::{Figure, Sharing};
 use formats::stored::{StoredImpact, Value};
@@ -91,7 +91,7 @@ fn histories(impacts: &[StoredImpact], kind: Kind, request: &Request) -> Drawn<F
         let hint = "give the scene a [[probe]] with r_m and z_m";
         return Err(PlotError::absent(impacts[0].path(), "probes", hint));
     }
-    let note = || format!("{left_out} probes are not shown: --kind probes shows all");
+    let note = || format!("{left_out} probes are not shown: the picture probes shows all");
     let notes = (left_out > 0).then(note).into_iter().collect();
     let mut panels = match is_all {
         true => Vec::new(),
@@ -115,12 +115,19 @@ fn title(impacts: &[StoredImpact]) -> String {
     if impacts.len() > 1 {
         return format!("{} impacts", impacts.len());
     }
-    let Some(strike) = &impacts[0].strike else {
-        return "A given force on the half-space".to_owned();
-    };
     let keys: BTreeMap<String, Value> = impacts[0].keys().into_iter().collect();
     let material = |key: &str| keys.get(key).and_then(Value::as_str);
-    let target = material("target.material").map_or_else(String::new, |name| format!(" {name}"));
+    let target = material("target.material").map_or_else(
+        || {
+            let modulus_pa = impacts[0].target.material().youngs_modulus_pa;
+            format!("a block of E = {}", with_unit(modulus_pa, "Pa"))
+        },
+        str::to_owned,
+    );
+    let Some(strike) = &impacts[0].strike else {
+        let file = material("force.file").unwrap_or("a record");
+        return format!("force of {file} on {target}");
+    };
     let of = material("striker.material").map_or_else(String::new, |name| format!("{name} "));
     let speed = with_unit(strike.velocity_m_s, "m/s");
     let length = |metres| with_unit(metres, "m");
@@ -140,7 +147,7 @@ fn title(impacts: &[StoredImpact]) -> String {
             format!("{of}mass of {mass}, tip radius {tip},")
         }
     };
-    format!("{body} strikes{target} at {speed}")
+    format!("{body} strikes {target} at {speed}")
 }
 
 /// The most important numbers of a single impact.
@@ -157,6 +164,8 @@ fn subtitle(impacts: &[StoredImpact]) -> String {
         let value = impact.number(key)?;
         Some(format!("{name} {}", with_unit(value, unit)))
     });
-    let parts = parts.collect::<Vec<_>>().join(", ");
+    let onset = impact.number("yield_onset").filter(|onset| *onset > 1.0);
+    let yields = onset.map(|onset| format!("pressure {} times the onset of yield", digits(onset)));
+    let parts = parts.chain(yields).collect::<Vec<_>>().join(", ");
     format!("{parts} (model {})", impact.model.replace('_', " "))
 }

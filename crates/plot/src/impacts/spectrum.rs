@@ -60,6 +60,10 @@ pub(super) fn spectrum(impacts: &[StoredImpact], labels: &[String]) -> Result<Pa
 struct Pulse {
     time_s: Vec<f64>,
     force_n: Vec<f64>,
+    /// Integral of the squared force over the square of the largest, in s.
+    squares_s: f64,
+    /// Mean step in s of all samples, weighed with their share of that integral; 0 for no force.
+    step_s: f64,
 }
 
 impl Pulse {
@@ -68,6 +72,12 @@ impl Pulse {
         let range = loaded(force_n);
         let (time_s, force_n) = (&time_s[range.clone()], &force_n[range]);
         let largest = force_n.iter().fold(0.0_f64, |m, p| m.max(p.abs()));
+        let (mut squares_s, mut weights) = (0.0, 0.0);
+        for (t, p) in time_s.windows(2).zip(force_n.windows(2)) {
+            let square = (p[0] * p[0] + p[0] * p[1] + p[1] * p[1]) / (3.0 * largest * largest);
+            squares_s += (t[1] - t[0]) * square;
+            weights += square;
+        }
         let mut kept: Vec<usize> = (0..force_n.len()).collect();
         let mut missed_n = 1e-6 * largest;
         while kept.len() > MOST_SAMPLES && largest > 0.0 {
@@ -78,6 +88,8 @@ impl Pulse {
         Self {
             time_s: of(time_s),
             force_n: of(force_n),
+            squares_s,
+            step_s: squares_s / weights,
         }
     }
 
@@ -113,20 +125,12 @@ impl Pulse {
     fn frequencies(&self) -> Option<[f64; 2]> {
         /// Length of Hertz's pulse over the integral of its squared force in units of the largest: 3 pi/4.
         const HERTZ: f64 = 0.75 * PI;
-        let (mut squares, mut steps) = (0.0, 0.0);
-        let largest = self.force_n.iter().fold(0.0_f64, |m, p| m.max(p.abs()));
-        for (t, p) in self.time_s.windows(2).zip(self.force_n.windows(2)) {
-            let square = (p[0] * p[0] + p[0] * p[1] + p[1] * p[1]) / 3.0;
-            squares += (t[1] - t[0]) * square;
-            // samples within the pulse, weighed with their share of it
-            steps += square;
-        }
         let whole_s = self.time_s[self.time_s.len() - 1] - self.time_s[0];
-        if !(whole_s > 0.0 && squares > 0.0) {
+        if !(whole_s > 0.0 && self.squares_s > 0.0) {
             return None;
         }
-        let length_s = (HERTZ * squares / (largest * largest)).min(whole_s);
-        let samples = length_s * steps / squares;
+        let length_s = (HERTZ * self.squares_s).min(whole_s);
+        let samples = length_s / self.step_s;
         Some([0.02 / whole_s, (0.1 * samples).clamp(4.0, 20.0) / length_s])
     }
 
@@ -204,7 +208,7 @@ mod tests {
             .map(|i| 5e-6 * i as f64 / samples as f64)
             .collect();
         let force_n: Vec<f64> = time_s.iter().map(|t| force(t / 5e-6)).collect();
-        Pulse { time_s, force_n }
+        Pulse::new(&time_s, &force_n)
     }
 
     #[test]

@@ -111,9 +111,20 @@ pub(crate) fn of_sweep(path: &Path, request: &Request) -> Drawn<Figure> {
     }
     let subtitle = subtitle(&view, (kind, along), &rows)?;
     let columns = if panels.len() == 1 { 1 } else { 2 };
-    let title = format!("Sweep {}", stem(path));
+    let title = title(path, sweep);
     let figure = request.figure(&title, &subtitle, columns);
     Ok((figure.panels(panels), Vec::new()))
+}
+
+/// The name of a sweep and the keys that vary.
+fn title(path: &Path, sweep: &StoredSweep) -> String {
+    /// Keys that are named, at most.
+    const MOST_KEYS: usize = 4;
+    let columns = sweep.axes.iter().flat_map(|axis| &axis.columns);
+    let keys: Vec<String> = columns.map(|column| of_key(&column.name()).0).collect();
+    let more = if keys.len() > MOST_KEYS { ", ..." } else { "" };
+    let named = keys[..keys.len().min(MOST_KEYS)].join(", ");
+    format!("Sweep {} over {named}{more}", stem(path))
 }
 
 /// How many scenes, how many of them fail or yield, and what bands are.
