@@ -105,3 +105,35 @@ fn what_is_no_picture_is_refused() {
     );
     assert!(!at.join("a.svg").exists());
 }
+
+const SWEEP: &str = "\
+[scene.striker]
+shape = \"ball\"
+material = \"bearing-steel\"
+diameter_m = 0.002
+[scene.target]
+material = \"granite\"
+[scene.output]
+quantities = [\"velocity_r\"]
+peaks = true
+[[scene.probe]]
+r_m = 0.008
+z_m = 0.006
+[product.striker]
+velocity_m_s = [1.0, 2.0]
+";
+
+#[test]
+fn a_quantity_of_a_sweep_without_its_probe_is_understood() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    std::fs::write(at.join("sweep.toml"), SWEEP).unwrap();
+    done(at, &["sweep", "sweep.toml", "-o", "s.h5"]);
+    let plot = ["plot", "s.h5", "-o", "s.svg", "--quantity"];
+    let advice = "did you mean probe_1_velocity_r_peak?";
+    refused(at, &[plot.as_slice(), &["velocity_r"]].concat(), advice);
+    done(
+        at,
+        &[plot.as_slice(), &["probe_1_velocity_r_peak"]].concat(),
+    );
+}

@@ -69,8 +69,9 @@ impl PlotError {
     ) -> Self {
         let known: Vec<&str> = known.into_iter().collect();
         // a part of a name, such as that of a quantity without its probe
-        let mut longer = known.iter().filter(|name| name.contains(word));
-        let whole = longer.next().map(|&name| name.to_owned());
+        let longer = known.iter().filter(|name| name.contains(word));
+        let whole = longer.min_by_key(|name| name.len());
+        let whole = whole.map(|&name| name.to_owned());
         if whole.is_none() && impact::Quantity::named(word).is_some() {
             let hint = format!("give the scene [output] quantities = [\"{word}\"]");
             return Self::absent(path, word, &hint);

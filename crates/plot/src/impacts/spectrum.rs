@@ -84,10 +84,9 @@ impl Pulse {
             kept = needed(time_s, force_n, missed_n);
             missed_n *= 2.0;
         }
-        let of = |samples: &[f64]| kept.iter().map(|&i| samples[i]).collect();
         Self {
-            time_s: of(time_s),
-            force_n: of(force_n),
+            time_s: kept.iter().map(|&i| time_s[i]).collect(),
+            force_n: with_their_area(time_s, force_n, &kept),
             squares_s,
             step_s: squares_s / weights,
         }
@@ -196,6 +195,26 @@ fn needed(time_s: &[f64], force_n: &[f64], missed_n: f64) -> Vec<usize> {
     kept.push(force_n.len() - 1);
     kept.dedup();
     kept
+}
+
+/// The samples that are kept, moved so that the straight lines between them have the integral of all samples: noise that is
+/// left out would add up over a long record.
+fn with_their_area(time_s: &[f64], force_n: &[f64], kept: &[usize]) -> Vec<f64> {
+    let area = |i: usize, k: usize| 0.5 * (force_n[i] + force_n[k]) * (time_s[k] - time_s[i]);
+    let mut missing = vec![0.0; kept.len()];
+    let mut lengths_s = vec![0.0; kept.len()];
+    for (i, ends) in kept.windows(2).enumerate() {
+        let [from, to] = [ends[0], ends[1]];
+        let all: f64 = (from..to).map(|k| area(k, k + 1)).sum();
+        for end in [i, i + 1] {
+            missing[end] += all - area(from, to);
+            lengths_s[end] += time_s[to] - time_s[from];
+        }
+    }
+    let parts = kept.iter().zip(missing.iter().zip(&lengths_s));
+    let moved = parts
+        .map(|(&i, (missing, length_s))| force_n[i] + missing / length_s.max(f64::MIN_POSITIVE));
+    moved.collect()
 }
 
 #[cfg(test)]
