@@ -1,8 +1,8 @@
 //! From files to a figure.
 
-use crate::error::{Drawn, PlotError, only};
+use crate::error::{Drawn, PlotError};
 use crate::impacts::{frames_of, of_impacts};
-use crate::request::{Kind, Request};
+use crate::request::{Kind, Request, only};
 use crate::sweep::of_sweep;
 use crate::table::of_table;
 use contact::Choice;

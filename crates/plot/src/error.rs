@@ -1,6 +1,5 @@
 //! Why there is no picture; and what is looked for by its name, with the error that it is not there.
 
-use crate::request::Kind;
 use contact::{Choice, nearest};
 use fault::{Class, Culprit, Fault};
 use formats::SceneError;
@@ -104,18 +103,6 @@ impl Fault for PlotError {
                 suggestion: suggestion.as_deref().map(Into::into),
                 ..Culprit::of(Class::Scene)
             },
-        }
-    }
-}
-
-/// The only one of some files or paths.
-pub(crate) fn only<T>(given: &[T], kind: Kind) -> Result<&T, PlotError> {
-    match given {
-        [only] => Ok(only),
-        several => {
-            let given = several.len();
-            let sentence = format!("the picture {kind} shows one file, and {given} were given");
-            Err(PlotError::refused(None, sentence))
         }
     }
 }

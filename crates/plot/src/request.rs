@@ -161,6 +161,18 @@ impl Request {
     }
 }
 
+/// The only one of some files or paths.
+pub(crate) fn only<T>(given: &[T], kind: Kind) -> Result<&T, PlotError> {
+    match given {
+        [only] => Ok(only),
+        several => {
+            let given = several.len();
+            let sentence = format!("the picture {kind} shows one file, and {given} were given");
+            Err(PlotError::refused(None, sentence))
+        }
+    }
+}
+
 /// A kind does not use something that is asked for.
 fn not_used(kind: Kind, wish: Wish) -> PlotError {
     let same = |other: &&Kind| other.file() == kind.file() && other.wishes().contains(&wish);

@@ -7,8 +7,8 @@ mod histories;
 mod labels;
 mod spectrum;
 
-use crate::error::{Drawn, PlotError, only};
-use crate::request::{Kind, Request};
+use crate::error::{Drawn, PlotError};
+use crate::request::{Kind, Request, only};
 use crate::section::{axis_profile, frames, peak, space_time};
 use crate::words::{digits, with_unit};
 use contact::Shape;
