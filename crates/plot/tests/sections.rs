@@ -255,8 +255,7 @@ fn a_contact_does_not_fill_its_cell() {
 fn a_wave_along_the_surface_has_no_teeth() {
     let folder = tempfile::tempdir().unwrap();
     let path = section(folder.path(), 150, "");
-    let (figure, notes) =
-        compose(&[path.clone()], &request(Kind::Surface, "displacement_z")).unwrap();
+    let (figure, notes) = compose(&[path], &request(Kind::Surface, "displacement_z")).unwrap();
     assert!(notes.is_empty(), "{notes:?}");
     let image = sides(&figure);
     let parts = (image.y.len() - 1) / 12;
@@ -324,6 +323,28 @@ fn a_span_chooses_the_frames() {
     };
     let said = compose(&[path], &both).unwrap_err().to_string();
     assert!(said.ends_with("give one of them"), "{said}");
+}
+
+/// Frames that the scene puts at some times are those that a picture of these times shows.
+#[test]
+fn times_of_a_scene_are_times_of_a_picture() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = "[target]\nmaterial = \"steel\"\n[striker]\nmaterial = \"bearing-steel\"\nmass_kg = 3.3e-8\n\
+        tip_radius_m = 1e-4\nvelocity_m_s = 2\n[map]\nr_max_m = 0.01\nz_max_m = 0.01\npoints = [4, 4]\n\
+        times_s = [7.77e-7, 1.5e-6, 2.22e-6]\n";
+    let scene = parse_scene(text, folder.path()).unwrap();
+    let outcome = simulate(&scene, &KernelChoice::Direct).unwrap();
+    let path = folder.path().join("times.h5");
+    write_results(&path, &scene, &outcome, Existing::Keep).unwrap();
+    let of = |times_s: &[f64]| {
+        let asked = Request {
+            times_s: times_s.to_vec(),
+            ..request(Kind::Waves, "stress_zz")
+        };
+        compose(std::slice::from_ref(&path), &asked)
+    };
+    assert_eq!(of(&[7.77e-7, 2.22e-6]).unwrap().0.panels.len(), 2);
+    assert!(of(&[6e-7]).is_err() && of(&[2.4e-6]).is_err());
 }
 
 #[test]

@@ -79,8 +79,11 @@ impl<'a> Section<'a> {
     pub(super) fn asked(&self, times_s: &[f64]) -> Result<Vec<usize>, PlotError> {
         let known = &self.stored.time_s;
         let (first_s, last_s) = (known[0], known[known.len() - 1]);
+        // a frame at a time that the scene gives is the nearest sample of the output
+        let samples_s = &self.impact.series.time_s;
+        let step_s = samples_s[1] - samples_s[0];
         let frame = |&time_s: &f64| {
-            if (first_s..=last_s).contains(&time_s) {
+            if (first_s - step_s..=last_s + step_s).contains(&time_s) {
                 return Ok(self.nearest(time_s));
             }
             let [time, first, last] = [time_s, first_s, last_s].map(fault::number);

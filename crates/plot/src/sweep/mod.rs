@@ -87,7 +87,8 @@ pub(crate) fn of_sweep(path: &Path, request: &Request) -> Drawn<Figure> {
     for number in chosen(path, &known, &request.quantities, usual)? {
         let quantity = &known[number];
         let values = sweep.values(&quantity.name)?;
-        let usual = scale_of(rows.iter().map(|&row| values[row]));
+        let shown: Vec<f64> = rows.iter().map(|&row| values[row]).collect();
+        let usual = scale_of(&shown);
         let scale = request.scale.unwrap_or(usual);
         let axis = axis(&result_words(quantity), &quantity.unit, scale);
         let view = &view;
@@ -178,8 +179,8 @@ fn result_words(quantity: &Described) -> String {
 }
 
 /// Whether numbers are shown better by their ratios: all positive, and over a decade and a half.
-fn scale_of(values: impl Iterator<Item = f64> + Clone) -> Scale {
-    let known = || values.clone().filter(|v| v.is_finite());
+fn scale_of(values: &[f64]) -> Scale {
+    let known = || values.iter().copied().filter(|v| v.is_finite());
     let low = known().fold(f64::INFINITY, f64::min);
     match low > 0.0 && known().fold(0.0, f64::max) > 30.0 * low {
         true => Scale::Logarithmic,
@@ -202,7 +203,7 @@ fn nodes(
     let factor = if unit == "kg" { 1e3 } else { 1.0 };
     let nodes: Vec<f64> = values.iter().map(|x| factor * x).collect();
     let linear = scale.filter(|scale| *scale == Scale::Linear);
-    let scale = linear.unwrap_or_else(|| scale_of(nodes.iter().copied()));
+    let scale = linear.unwrap_or_else(|| scale_of(&nodes));
     Ok((axis(&name, unit, scale), nodes))
 }
 
@@ -303,7 +304,7 @@ fn heat_map(
         }
     }
     let mut colours = shown.axis.clone();
-    colours.scale = scale.unwrap_or_else(|| scale_of(values.iter().copied()));
+    colours.scale = scale.unwrap_or_else(|| scale_of(&values));
     let [columns, rows] =
         [x, y].map(|nodes| nodes.into_iter().map(|node| node.1).collect::<Vec<_>>());
     // between a few values nothing is known: each has its own column, on an axis that has room below the first
