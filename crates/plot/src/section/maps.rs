@@ -91,12 +91,7 @@ pub(crate) fn peak(impact: &StoredImpact, request: &Request) -> Drawn<Panel> {
     };
     let sizes: Vec<f64> = values.into_iter().map(f64::abs).collect();
     let mut grid = section.finer(&quantity, &sizes);
-    let layers = landmarks(
-        &section,
-        &quantity,
-        &sizes,
-        &contour_of_yield(&section, &quantity, &grid),
-    );
+    let of_yield = contour_of_yield(&section, &quantity, &grid);
     let positive = || grid.values.iter().copied().filter(|v| *v > 0.0);
     let [low, high] = [0.05, 0.999].map(|share| quantile_of_sizes(positive(), share));
     // where no wave has come there is rounding, or nothing: the colour of the lower end
@@ -106,8 +101,9 @@ pub(crate) fn peak(impact: &StoredImpact, request: &Request) -> Drawn<Panel> {
     }
     let words = format!("{}, largest over {over}", of_quantity(&quantity.name));
     let colours = axis(&words, &quantity.unit, Scale::Logarithmic).range(low, high);
-    let mut panel = section.map(grid, colours, ColourMap::Sequential);
-    panel.layers.extend(layers);
+    let panel = section.map(grid, colours, ColourMap::Sequential);
+    let largest = largest_of(&section, &sizes);
+    let panel = with_landmarks(&section, panel, largest, of_yield, &quantity.unit);
     Ok((panel, notes))
 }
 
@@ -122,36 +118,36 @@ fn contour_of_yield(
     is_shown.then(|| (strength_pa, contour(grid, strength_pa)))
 }
 
-/// The largest value with its place, the size of the contact, and the contour of yield.
-fn landmarks(
+/// A panel with the largest value at its place, the size of the contact, and the contour of yield.
+fn with_landmarks(
     section: &Section<'_>,
-    quantity: &Quantity,
-    sizes: &[f64],
-    of_yield: &Option<(f64, Vec<(f64, f64)>)>,
-) -> Vec<Layer> {
+    mut panel: Panel,
+    (largest, at): (f64, (f64, f64)),
+    of_yield: Option<(f64, Vec<(f64, f64)>)>,
+    unit: &str,
+) -> Panel {
+    let mut words = format!("contact radius {}", with_unit(section.disc_radius_m, "m"));
+    if let Some((strength_pa, points)) = of_yield {
+        let strength = with_unit(strength_pa, "Pa");
+        let reached = match (points.is_empty(), largest < strength_pa) {
+            (true, true) => "not reached",
+            (true, false) => "reached everywhere",
+            (false, _) => "reached within the line",
+        };
+        words += &format!(", yield strength {strength} {reached}");
+        panel = panel.line("", Style::Rimmed, points);
+    }
+    let label = format!("largest {}", with_unit(largest, unit));
+    panel.title(&words).layer(Layer::star(at, &label))
+}
+
+/// The largest of some sizes over the section with its place.
+fn largest_of(section: &Section<'_>, sizes: &[f64]) -> (f64, (f64, f64)) {
     let width = section.stored.r_m.len();
     let by_size = |a: &usize, b: &usize| sizes[*a].total_cmp(&sizes[*b]);
     let largest = (0..sizes.len()).max_by(by_size).unwrap_or(0);
-    let at = (
-        section.stored.r_m[largest % width],
-        section.depths_m()[largest / width],
-    );
-    let [value, radius] = [
-        with_unit(sizes[largest], &quantity.unit),
-        with_unit(section.disc_radius_m, "m"),
-    ];
-    let mut layers = Vec::new();
-    let mut words = format!("largest {value}; contact radius {radius}");
-    if let Some((strength_pa, points)) = of_yield {
-        let strength = with_unit(*strength_pa, "Pa");
-        words += &match points.is_empty() && sizes[largest] < *strength_pa {
-            true => format!("; yield strength {strength} not reached"),
-            false => format!("; yield strength {strength} reached within the line"),
-        };
-        layers.push(Layer::line("", Style::Rimmed, points.clone()));
-    }
-    layers.push(Layer::star(at, &words));
-    layers
+    let (r_m, z_m) = (&section.stored.r_m, section.depths_m());
+    (sizes[largest], (r_m[largest % width], z_m[largest / width]))
 }
 
 /// The largest sizes over the frames, for a file that has none over all samples, with words for them and for the user.
