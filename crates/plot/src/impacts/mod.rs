@@ -18,7 +18,7 @@ use histories::{FEW, contact_names, contact_panels, loop_panel, probe_panels};
 use labels::labels;
 use spectrum::spectrum;
 use std::collections::BTreeMap;
-use std::slice;
+use std::{mem, slice};
 
 /// Frames of an animation, at most.
 const MOST_FRAMES: usize = 120;
@@ -35,8 +35,11 @@ pub(crate) fn of_impacts(impacts: &[StoredImpact], request: &Request) -> Drawn<F
         Kind::Loop => loop_panel(impacts, &labels(impacts))?,
         Kind::Spectrum => spectrum(impacts, &labels(impacts))?,
         Kind::Peak => {
-            let (panel, notes) = peak(one()?, request)?;
-            return Ok((headed(impacts, request, 1).panel(panel), notes));
+            let (mut panel, notes) = peak(one()?, request)?;
+            // beside the other numbers: a star at the surface would cover a title of the panel
+            let mut figure = headed(impacts, request, 1);
+            figure.subtitle = format!("{}; {}", figure.subtitle, mem::take(&mut panel.title));
+            return Ok((figure.panel(panel), notes));
         }
         Kind::Axis => axis_profile(one()?, request)?,
         Kind::Surface | Kind::Depth => {
