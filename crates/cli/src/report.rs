@@ -3,7 +3,8 @@
 use crate::failure::lines;
 use contact::{Material, Shape};
 use formats::{choices, kernel_name};
-use impact::{Cause, Load, Outcome, ProbeFields, RecordResults, Scene, Treated};
+use impact::{Cause, Load, Outcome, ProbeFields, RecordResults, Scene, SectionFields, Treated};
+use std::ops::Range;
 
 /// The results for people.
 pub(crate) fn text_report(scene: &Scene, outcome: &Outcome) -> String {
@@ -150,6 +151,7 @@ fn of_output(outcome: &Outcome) -> Vec<(&'static str, String)> {
         let scales = [&section.r_m, &section.z_m, &section.time_s];
         let [r, z, frames] = scales.map(Vec::len);
         told.push(("section", format!("{r} x {z} points, {frames} frames")));
+        told.push(("section errors", section_errors(section)));
     }
     if let Some(used) = &outcome.used {
         let (kernel, convolution) = (used.kernel(), used.convolution.name());
@@ -165,24 +167,61 @@ fn of_output(outcome: &Outcome) -> Vec<(&'static str, String)> {
 
 /// The largest estimated errors at the probes, over the largest value of their kind at the same probe.
 fn field_errors(fields: &ProbeFields) -> String {
-    let of = |kind: &str, range: std::ops::Range<usize>| {
-        let mut worst = (0.0, 0);
-        for probe in 0..fields.r_m.len() {
-            let values = fields.values[range.clone()].iter();
-            let peak = values
-                .flat_map(|rows| &rows[probe])
-                .fold(0.0_f64, |m, v| m.max(v.abs()));
-            let errors = fields.errors[range.clone()].iter();
-            let error = errors.fold(0.0_f64, |m, rows| m.max(rows[probe]));
-            if peak > 0.0 && error / peak > worst.0 {
-                worst = (error / peak, probe);
-            }
-        }
-        let (error, probe) = (worst.0, worst.1 + 1);
-        format!("{error:.1e} of the largest {kind} at probe {probe}")
+    let peak = |field: usize, probe: usize| {
+        let samples = fields.values[field][probe].iter();
+        samples.fold(0.0_f64, |m, v| m.max(v.abs()))
+    };
+    let of = |kind: &str, range: Range<usize>| {
+        let ratios = ratios(range, fields.r_m.len(), &fields.errors, peak);
+        let (error, probe) = ratios.last().copied().unwrap_or_default();
+        format!("{error:.1e} of the largest {kind} at probe {}", probe + 1)
     };
     let [displacement, stress] = [of("displacement", 0..2), of("stress", 2..6)];
     format!("at most {displacement}, {stress}")
+}
+
+/// The same on a section, whose largest values are those over all samples, where they are known, or over the frames; and in
+/// the middle of all places.
+fn section_errors(fields: &SectionFields) -> String {
+    let (width, size) = (fields.r_m.len(), fields.r_m.len() * fields.z_m.len());
+    let peak = |field: usize, place: usize| match &fields.peaks {
+        Some(peaks) => peaks[field].values[place].abs(),
+        None => {
+            let frames = fields.values[field].iter().skip(place).step_by(size);
+            f64::from(frames.fold(0.0_f32, |m, v| m.max(v.abs())))
+        }
+    };
+    let of = |kind: &str, range: Range<usize>| {
+        let ratios = ratios(range, size, &fields.errors, peak);
+        let middle = ratios.get(ratios.len() / 2).copied().unwrap_or_default();
+        let (error, place) = ratios.last().copied().unwrap_or_default();
+        let [r, z] = [fields.r_m[place % width], fields.z_m[place / width]].map(|x| short(x, "m"));
+        format!(
+            "{:.1e} of the largest {kind} at half of the points, at most {error:.1e} at r = {r}, z = {z}",
+            middle.0
+        )
+    };
+    let [displacement, stress] = [of("displacement", 0..2), of("stress", 2..6)];
+    format!("{displacement}; {stress}")
+}
+
+/// The largest error of some fields over their largest value at each place where there is one, with its number, the largest
+/// last.
+fn ratios(
+    fields: Range<usize>,
+    places: usize,
+    errors: &[Vec<f64>],
+    peak: impl Fn(usize, usize) -> f64,
+) -> Vec<(f64, usize)> {
+    let of = |place: usize| {
+        let largest = |of: &dyn Fn(usize) -> f64| fields.clone().map(of).fold(0.0, f64::max);
+        let peak = largest(&|field| peak(field, place));
+        let error = largest(&|field| errors[field][place]);
+        (peak > 0.0).then_some((error / peak, place))
+    };
+    let mut found: Vec<_> = (0..places).filter_map(of).collect();
+    found.sort_by(|a, b| a.0.total_cmp(&b.0));
+    found
 }
 
 /// When the first echo comes to the probes, where the block has faces.

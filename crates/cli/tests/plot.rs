@@ -93,5 +93,65 @@ fn what_is_no_picture_is_refused() {
         &["plot", "none.h5", "-o", "a.svg", "--kind", "cake"],
         "possible values",
     );
+    refused(
+        at,
+        &["plot", "none.h5", "-o", "a.svg", "--scale", "3"],
+        "a.svg does not use --scale",
+    );
+    refused(
+        at,
+        &["plot", "none.h5", "-o", "a.svg", "--log", "--linear"],
+        "cannot be used with",
+    );
     assert!(!at.join("a.svg").exists());
+}
+
+const SWEEP: &str = "\
+[scene.striker]
+shape = \"ball\"
+material = \"bearing-steel\"
+diameter_m = 0.002
+[scene.target]
+material = \"granite\"
+[scene.output]
+quantities = [\"velocity_r\"]
+peaks = true
+[[scene.probe]]
+r_m = 0.008
+z_m = 0.006
+[product.striker]
+velocity_m_s = [1.0, 2.0]
+";
+
+#[test]
+fn a_quantity_of_a_sweep_without_its_probe_is_understood() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    std::fs::write(at.join("sweep.toml"), SWEEP).unwrap();
+    done(at, &["sweep", "sweep.toml", "-o", "s.h5"]);
+    let plot = ["plot", "s.h5", "-o", "s.svg", "--quantity"];
+    let advice = "did you mean probe_1_velocity_r_peak?";
+    refused(at, &[plot.as_slice(), &["velocity_r"]].concat(), advice);
+    done(
+        at,
+        &[plot.as_slice(), &["probe_1_velocity_r_peak"]].concat(),
+    );
+}
+
+#[test]
+fn a_section_without_probes_has_its_errors_on_the_console() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let (scene, _) = SCENE.split_once("[[probe]]").unwrap();
+    let map = "[map]\nr_max_m = 0.01\nz_max_m = 0.01\npoints = [4, 3]\nframes = 9\n";
+    std::fs::write(at.join("scene.toml"), format!("{scene}{map}")).unwrap();
+    let done = hertzlamb(at, &["impact", "scene.toml"]);
+    let text = String::from_utf8_lossy(&done.stdout).into_owned();
+    let line = text.lines().find(|line| line.starts_with("section errors"));
+    let words = line.unwrap().split_whitespace();
+    let errors: Vec<f64> = words.filter_map(|word| word.parse().ok()).collect();
+    // at half of the points and at most, of displacements and of stresses; then places
+    assert!(errors.len() >= 4, "{text}");
+    let is_small = |error: &&f64| **error > 1e-9 && **error < 0.1;
+    assert!(errors.iter().filter(is_small).count() >= 4, "{text}");
 }

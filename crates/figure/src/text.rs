@@ -64,13 +64,34 @@ pub(crate) fn width(markup: &str, size: f64) -> f64 {
     size * runs(markup).iter().map(Run::width).sum::<f64>()
 }
 
-/// Lines no wider than `width` pixels at a size, broken between words; a word that is too wide alone is broken
-/// between letters, unless parts of it are raised or lowered.
+/// Words of a text, a number together with the word after it, which may be its unit.
+fn words(text: &str) -> Vec<String> {
+    let mut words: Vec<String> = Vec::new();
+    let mut is_number = false;
+    for word in text.split_whitespace() {
+        match words.last_mut().filter(|_| is_number) {
+            Some(number) => *number += &format!(" {word}"),
+            None => words.push(word.to_owned()),
+        }
+        is_number = word.replace(MINUS, "-").parse::<f64>().is_ok();
+    }
+    words
+}
+
+/// Lines no wider than `width` pixels at a size, broken between words, but not between a number and its unit; a word that is
+/// too wide alone is broken between letters, unless parts of it are raised or lowered.
 pub(crate) fn wrap(text: &str, size: f64, width: f64) -> Vec<String> {
     let fits = |line: &str| self::width(line, size) <= width;
     let mut lines = Vec::new();
     let mut line = String::new();
-    for word in text.split_whitespace() {
+    let all = words(text);
+    // a number and a unit that are too wide together are two words
+    let parts = |word: &String| match fits(word) {
+        true => vec![word.clone()],
+        false => word.split_whitespace().map(str::to_owned).collect(),
+    };
+    for word in all.iter().flat_map(parts) {
+        let word = word.as_str();
         let longer = format!("{line} {word}").trim_start().to_owned();
         if fits(&longer) {
             line = longer;
@@ -195,6 +216,17 @@ mod tests {
         assert!(lines.iter().all(|l| width(l, 12.0) <= 150.0));
         assert_eq!(lines.join(" "), name);
         assert!(wrap("  ", 12.0, 50.0).is_empty());
+    }
+
+    #[test]
+    fn a_number_keeps_its_unit() {
+        let text = "a ball of 2.5 mm strikes steel at \u{2212}1.4 m/s";
+        for pixels in 60..300 {
+            for line in wrap(text, 12.0, f64::from(pixels)) {
+                assert!(!line.ends_with("1.4") && !line.ends_with("2.5"), "{line}");
+            }
+        }
+        assert_eq!(wrap("12 km", 12.0, 20.0), ["12", "km"]);
     }
 
     #[test]

@@ -107,8 +107,7 @@ fn logarithmic(interval: &Interval, factor: f64, decades: f64, room: &Room<'_>) 
     let first = (low.log10() - 1e-9).floor() as i32;
     let last = (high.log10() + 1e-9).ceil() as i32;
     let inside = |value: f64| interval.contains(value * factor);
-    // plain numbers where all are short
-    let plain = low > 0.9e-3 && high < 1.1e4;
+    let plain = is_plain(low, high);
     let tick = |digit: u32, exponent: i32| {
         let shown = f64::from(digit) * ten(exponent);
         let label = match plain {
@@ -144,6 +143,11 @@ fn logarithmic(interval: &Interval, factor: f64, decades: f64, room: &Room<'_>) 
     room.first_that_fits(interval, candidates)
 }
 
+/// Whether numbers on a logarithmic axis are written as they are: all of them are short.
+fn is_plain(low: f64, high: f64) -> bool {
+    low > 0.9e-3 && high < 1.1e4
+}
+
 /// A power of ten to the last bit.
 fn ten(exponent: i32) -> f64 {
     format!("1e{exponent}").parse().unwrap_or(f64::NAN)
@@ -157,18 +161,22 @@ const PREFIXES: [&str; 17] = [
 /// Label and factor of the multiple of a unit that suits the values of an interval: values are shown over the factor.
 ///
 /// A unit of the SI takes a prefix and any other one a power of ten, so that the largest value has one to three
-/// digits before the point; values from 0.1 on keep the unit itself unless they are lengths, and so does a logarithmic axis.
+/// digits before the point; values from 0.1 on keep the unit itself unless they are lengths. A logarithmic axis keeps it
+/// unless a prefix makes short numbers of all powers of ten.
 pub(crate) fn shown(axis: &Axis, interval: &Interval) -> (String, f64) {
     let largest = interval.low.abs().max(interval.high.abs());
     let exponent = match interval.scale {
         Scale::Linear if largest > 0.0 => largest.log10().floor() as i32,
+        Scale::Logarithmic if axis.has_prefixes => short_numbers(interval).unwrap_or(0),
         Scale::Linear | Scale::Logarithmic => 0,
     };
     let thousands = 3 * exponent.div_euclid(3);
     let unit = axis.unit.as_str();
     let (exponent, unit) = match axis.has_prefixes {
         // tenths are read as they are, but for lengths: 120 mm
-        true if exponent == -1 && unit != "m" => (0, unit.to_owned()),
+        true if exponent == -1 && unit != "m" && interval.scale == Scale::Linear => {
+            (0, unit.to_owned())
+        }
         true => {
             let exponent = thousands.clamp(-24, 24);
             let prefix = PREFIXES[((exponent + 24) / 3) as usize];
@@ -187,6 +195,14 @@ pub(crate) fn shown(axis: &Axis, interval: &Interval) -> (String, f64) {
             .to_owned(),
     };
     (label, 10.0_f64.powi(exponent))
+}
+
+/// The power of ten, zero or of a prefix, over which all numbers of a logarithmic axis are short; none where it has too many
+/// decades.
+fn short_numbers(interval: &Interval) -> Option<i32> {
+    let first = 3 * (interval.low.log10().floor() as i32).div_euclid(3);
+    let mut powers = [0].into_iter().chain((0..3).map(|i| first + 3 * i));
+    powers.find(|&power| is_plain(interval.low / ten(power), interval.high / ten(power)))
 }
 
 #[cfg(test)]
@@ -303,9 +319,17 @@ mod tests {
         assert_eq!(si("m", 0.12).0, "x [mm]");
         assert_eq!(si("Pa", 2.1e11).1, 1e9);
         assert_eq!(si("Pa", 0.0).1, 1.0);
-        // a logarithmic axis has powers of ten already
-        let long = Interval::logarithmic(1e-9, 1e-3);
-        assert_eq!(shown(&Axis::linear("t").si("s"), &long).0, "t [s]");
+        // a logarithmic axis too, unless it has so many decades that its numbers are powers of ten
+        for (low, high, label) in [
+            (5e-6, 8e-5, "t [\u{b5}s]"),
+            (2e-7, 4e-6, "t [ns]"),
+            (2e-7, 4e-5, "t [\u{b5}s]"),
+            (0.05, 20.0, "t [s]"),
+            (1e-11, 1e-3, "t [s]"),
+        ] {
+            let interval = Interval::logarithmic(low, high);
+            assert_eq!(shown(&Axis::linear("t").si("s"), &interval).0, label);
+        }
     }
 
     #[test]

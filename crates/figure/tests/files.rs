@@ -3,8 +3,8 @@
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 
 use figure::{
-    Axis, Classes, ColourMap, Figure, Image, Interval, Layer, Line, Panel, Scale, Style, to_pdf,
-    to_png, to_svg,
+    Axis, Classes, ColourMap, Figure, Image, Interval, Layer, Line, Panel, Scale, Style, to_gif,
+    to_pdf, to_png, to_svg,
 };
 use std::path::Path;
 use tiny_skia::{Pixmap, PremultipliedColorU8};
@@ -112,6 +112,25 @@ fn the_png_has_the_curve_its_text_and_its_size() {
     let mut silent = curve();
     silent.title.clear();
     assert!(dark(&pixels) > 100 + dark(&decode(&silent)), "the title");
+}
+
+/// Pages whose height ends within a pixel, of several widths.
+#[test]
+fn an_animation_is_white_to_its_last_row() {
+    for pixels in [293.0, 300.5, 411.0, 607.3] {
+        let figures = [curve().width(pixels), curve().width(pixels)];
+        let bytes = to_gif(&figures, 1.0, 0.1).unwrap();
+        let mut options = gif::DecodeOptions::new();
+        options.set_color_output(gif::ColorOutput::RGBA);
+        let mut decoder = options.read_info(bytes.as_slice()).unwrap();
+        let (width, mut frames) = (usize::from(decoder.width()), 0);
+        while let Some(frame) = decoder.read_next_frame().unwrap() {
+            let last = &frame.buffer[frame.buffer.len() - 4 * width..];
+            assert!(last.iter().all(|byte| *byte == 255), "{pixels}");
+            frames += 1;
+        }
+        assert_eq!(frames, 2);
+    }
 }
 
 #[test]

@@ -40,6 +40,18 @@ fn the_table_has_every_quantity_and_the_document_every_row() {
     }
 }
 
+/// The peaks of a quantity are one map for all steps.
+fn has_one_map_of_peaks(file: &hdf5::File, name: &str) {
+    let read = |path: &str| file.dataset(&format!("{path}/{name}_peak")).unwrap();
+    let peaks = read("VTKHDF/PointData");
+    assert_eq!(peaks.shape(), [1, 3, 3]);
+    let all = read("map").read_raw::<f64>().unwrap();
+    let all: Vec<f32> = all.into_iter().map(|peak| peak as f32).collect();
+    assert_eq!(peaks.read_raw::<f32>().unwrap(), all);
+    let offsets = read("VTKHDF/Steps/PointDataOffsets");
+    assert_eq!(offsets.read_raw::<i64>().unwrap(), [0; 7]);
+}
+
 #[test]
 fn quantities_and_peaks_are_written_with_units_and_agree_with_the_fields() {
     let scene = parse_scene(&text(), Path::new(".")).unwrap();
@@ -107,6 +119,7 @@ fn quantities_and_peaks_are_written_with_units_and_agree_with_the_fields() {
             .fold(0.0_f32, f32::max);
         assert!(f64::from(shown) <= middle.abs() * (1.0 + 1e-6), "{name}");
         assert!(file.dataset(&format!("VTKHDF/PointData/{name}")).is_ok());
+        has_one_map_of_peaks(&file, name);
         assert!(
             file.dataset(&format!("VTKHDF/Steps/PointDataOffsets/{name}"))
                 .is_ok()

@@ -212,3 +212,44 @@ fn the_resolved_scene_gives_the_same_numbers() {
     let again = parse_scene(&resolved(&scene), Path::new(".")).unwrap();
     assert_eq!(simulate(&again, &KernelChoice::Direct).unwrap(), first);
 }
+
+/// The frames of a section at given times are the samples nearest to them.
+#[test]
+fn a_section_has_frames_at_the_times_that_are_given() {
+    let scene = include_str!("../../../scenes/copper-on-steel.toml");
+    let section = "[map]\nr_max_m = 0.006\nz_max_m = 0.003\npoints = [2, 2]\n";
+    let folder = tempfile::tempdir().unwrap();
+    let parsed = |times: &str| parse_scene(&format!("{scene}\n{section}{times}"), folder.path());
+    let wanted_s = [0.0, 3.3e-7, 1.234e-6, 2.05e-6];
+    let scene = parsed(&format!("times_s = {wanted_s:?}\n")).unwrap();
+    let again = parse_scene(&resolved(&scene), folder.path()).unwrap();
+    assert_eq!(again.section, scene.section);
+    let outcome = simulate(&scene, &KernelChoice::Direct).unwrap();
+    let (time_s, section) = (&outcome.series.time_s, outcome.section.unwrap());
+    assert_eq!(section.time_s.len(), wanted_s.len());
+    let half_s = 0.5 * (time_s[1] - time_s[0]);
+    for (found, wanted) in section.time_s.iter().zip(wanted_s) {
+        assert!((found - wanted).abs() <= 1.001 * half_s, "{found} {wanted}");
+    }
+    let late = parsed("times_s = [1e-6, 1.0]\n").unwrap();
+    let said = simulate(&late, &KernelChoice::Direct)
+        .unwrap_err()
+        .to_string();
+    assert!(
+        said.starts_with("map.times_s = 1 is outside [0, "),
+        "{said}"
+    );
+    for (times, part) in [
+        ("times_s = [2e-6, 1e-6]\n", "numbers that rise"),
+        ("times_s = [-1e-6, 1e-6]\n", "numbers that rise"),
+        ("times_s = []\n", "numbers that rise"),
+        (
+            "times_s = [1e-6]\nframes = 3\n",
+            "map.frames cannot be combined with map.times_s",
+        ),
+        ("", "map.frames is missing"),
+    ] {
+        let said = parsed(times).unwrap_err().to_string();
+        assert!(said.contains(part), "{said}");
+    }
+}

@@ -94,7 +94,7 @@ fn points_beside(scene: &Scene, radius_m: f64) -> f64 {
     let [far_m, deep_m] = BESIDE.map(|radii| radii * radius_m);
     let beside = |probe: &&Probe| probe.r_m < far_m && probe.z_m < deep_m;
     let probes = scene.probes.iter().filter(beside).count();
-    let section = scene.section.map_or(0.0, |s| {
+    let section = scene.section.as_ref().map_or(0.0, |s| {
         let part = (far_m / s.r_max_m).min(1.0) * (deep_m / s.z_max_m).min(1.0);
         (s.points[0] * s.points[1]) as f64 * part
     });
@@ -253,7 +253,7 @@ impl Forecast {
             limit_gb: 1e-9 * memory_bytes,
             points: self.points,
             samples: self.samples,
-            frames: scene.section.map_or(0, |section| section.frames),
+            frames: scene.section.as_ref().map_or(0, |section| section.frames),
             change,
         })
     }

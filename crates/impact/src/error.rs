@@ -76,6 +76,18 @@ pub enum ImpactError {
         /// What to change.
         change: &'static str,
     },
+    /// A frame of the section after the output.
+    #[error(
+        "map.times_s = {} is outside [0, {}], the times of the output: give output.duration_s",
+        fault::number(*wanted_s),
+        fault::number(*end_s)
+    )]
+    LateFrame {
+        /// Its time in s.
+        wanted_s: f64,
+        /// Last time of the output in s.
+        end_s: f64,
+    },
     /// Whoever asked for the scene has seen the forecast and does not want it.
     #[error("the scene was given up before it was begun: it takes about {seconds:.1e} s")]
     GivenUp {
@@ -136,6 +148,10 @@ impl Fault for ImpactError {
             Self::TooMuchMemory { .. } => Culprit::of(Class::Memory),
             Self::TooManySamples { .. } | Self::GivenUp { .. } | Self::NotFinite { .. } => culprit,
             Self::NoDisc => culprit.key("disc_radius_m"),
+            Self::LateFrame { wanted_s, end_s } => Culprit {
+                limits: Some([0.0, *end_s]),
+                ..culprit.key("map.times_s").number(*wanted_s)
+            },
             Self::TooWide {
                 radius_m,
                 largest_m,

@@ -32,7 +32,7 @@ impl Wanted {
             tolerance: scene.settings.tolerance,
             step_s: scene.settings.step_s,
             duration_s: scene.duration_s,
-            frames: scene.section.map(|section| section.frames),
+            frames: scene.section.as_ref().map(|section| section.frames),
             farthest_m: (scene.points() > 0).then(|| scene.farthest_m()),
         }
     }

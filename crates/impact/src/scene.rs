@@ -32,7 +32,7 @@ pub struct Probe {
 }
 
 /// A meridional section.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Section {
     /// Largest distance from the axis in m.
     pub r_max_m: f64,
@@ -40,8 +40,10 @@ pub struct Section {
     pub z_max_m: f64,
     /// Points along r and z.
     pub points: [usize; 2],
-    /// Frames in time.
+    /// Frames in time, at most.
     pub frames: usize,
+    /// Their times in s, each rising and not negative; empty: evenly over the output.
+    pub times_s: Vec<f64>,
 }
 
 /// A scene, validated.
@@ -94,7 +96,10 @@ impl Scene {
         let near = |probe: &&Probe| probe.r_m.hypot(probe.z_m) < near_m;
         let probes = self.probes.iter().filter(near).count();
         let probes = (probes > 0).then(|| format!("{probes} of the probes"));
-        let section = self.section.map(|_| "the middle of the section".to_owned());
+        let section = self
+            .section
+            .iter()
+            .map(|_| "the middle of the section".to_owned());
         let found: Vec<String> = probes.into_iter().chain(section).collect();
         (!found.is_empty()).then(|| {
             format!(
@@ -114,7 +119,10 @@ impl Scene {
 
     /// Points at which fields are asked for.
     pub fn points(&self) -> usize {
-        let section = self.section.map_or(0, |s| s.points[0] * s.points[1]);
+        let section = self
+            .section
+            .as_ref()
+            .map_or(0, |s| s.points[0] * s.points[1]);
         self.probes.len() + section
     }
 }

@@ -211,7 +211,7 @@ fn add_fields(
         convolution = evaluator.method();
     }
     if let Some(section) = &scene.section {
-        let at = frames(section, all.len());
+        let at = frames(section, &outcome.series.time_s)?;
         let (wanted, shown) = match scene.peaks {
             true => (&all, at.clone()),
             false => (&at, (0..at.len()).collect()),

@@ -1,12 +1,12 @@
 //! From files to a figure.
 
-use crate::error::{Drawn, PlotError, kind_of, only};
+use crate::error::{Drawn, PlotError};
 use crate::impacts::{frames_of, of_impacts};
-use crate::request::{Kind, Request};
+use crate::request::{Kind, Request, only};
 use crate::sweep::of_sweep;
 use crate::table::of_table;
 use contact::Choice;
-use figure::{Axis, ColourMap, Figure, Image, Layer, Scale};
+use figure::{Axis, ColourMap, Figure, Image, Layer, Line, Panel, Scale};
 use formats::stored::{FileKind, StoredImpact, file_kind};
 use std::path::PathBuf;
 
@@ -29,20 +29,22 @@ pub fn compose(paths: &[PathBuf], request: &Request) -> Drawn<Figure> {
     }
     let (mut figure, notes) = match file {
         FileKind::Impact => of_impacts(&open(paths)?, request)?,
-        FileKind::Sweep => (of_sweep(only(paths, Kind::Sweep)?, request)?, Vec::new()),
+        FileKind::Sweep => of_sweep(only(paths, Kind::Sweep)?, request)?,
         FileKind::Table => {
-            let kind = kind_of(request, Kind::Errors)?;
+            let kind = request.kind_or(Kind::Errors)?;
             (of_table(only(paths, kind)?, request)?, Vec::new())
         }
         FileKind::SweepPart => return unsuitable(Kind::Sweep),
     };
-    scale(&mut figure, request)?;
+    scale(&mut figure, request, file)?;
     Ok((figure, notes))
 }
 
-/// Shows what is asked for: limits, and sizes by their ratios; of colours where there are some, else of the y axis.
-/// Limits that are not above zero make a scale linear that a kind of picture chooses to be logarithmic.
-fn scale(figure: &mut Figure, request: &Request) -> Result<(), PlotError> {
+/// Shows the limits and the scale that are asked for: of colours where there are some, else of the y axis.
+/// Limits that are not above zero make a scale linear that a kind of picture chooses to be logarithmic. The axes of a sweep
+/// have the scale already.
+fn scale(figure: &mut Figure, request: &Request, file: FileKind) -> Result<(), PlotError> {
+    let scale = request.scale.filter(|_| file != FileKind::Sweep);
     if let Some((low, high)) = request.limits {
         let refused = |why| {
             let [low, high] = [low, high].map(fault::number);
@@ -52,8 +54,8 @@ fn scale(figure: &mut Figure, request: &Request) -> Result<(), PlotError> {
         if !(low < high && high.is_finite()) {
             return refused("the first has to be below the second");
         }
-        if request.logarithmic && low <= 0.0 {
-            return refused("sizes by their ratios are above zero");
+        if request.scale == Some(Scale::Logarithmic) && low <= 0.0 {
+            return refused("a logarithmic scale needs values above zero");
         }
         let mut quantities = figure.panels.iter().map(|panel| &panel.y.quantity);
         let first = quantities.next();
@@ -62,12 +64,14 @@ fn scale(figure: &mut Figure, request: &Request) -> Result<(), PlotError> {
         }
     }
     let asked = |axis: &mut Axis| {
-        if request.logarithmic {
-            axis.scale = Scale::Logarithmic;
+        let from_zero = request.limits.is_some_and(|(low, _)| low <= 0.0);
+        let scale = from_zero.then_some(Scale::Linear).or(scale);
+        if let (Some(Scale::Linear), Scale::Logarithmic, Some((_, high))) =
+            (scale, axis.scale, axis.range)
+        {
+            axis.range = Some((0.0, high));
         }
-        if request.limits.is_some_and(|(low, _)| low <= 0.0) {
-            axis.scale = Scale::Linear;
-        }
+        axis.scale = scale.unwrap_or(axis.scale);
         axis.range = request.limits.or(axis.range);
     };
     for panel in &mut figure.panels {
@@ -75,23 +79,31 @@ fn scale(figure: &mut Figure, request: &Request) -> Result<(), PlotError> {
         for layer in &mut panel.layers {
             if let Layer::Image(image) = layer {
                 has_colours = true;
-                if request.logarithmic {
+                if scale == Some(Scale::Logarithmic) {
                     show_sizes(image);
                 }
                 asked(&mut image.colours);
             }
         }
         if !has_colours {
+            if scale == Some(Scale::Logarithmic) {
+                show_sizes_of_curves(panel);
+            }
             asked(&mut panel.y);
         }
     }
-    Ok(())
+    figure.panels.iter().try_for_each(shows_something)
+}
+
+/// The name of an axis that shows values without their signs.
+fn size_of(quantity: &str) -> String {
+    format!("size of the {quantity}")
 }
 
 /// Sizes in place of values with a sign, over four decades.
 fn show_sizes(image: &mut Image) {
     if image.map == ColourMap::Diverging {
-        image.colours.quantity = format!("size of the {}", image.colours.quantity);
+        image.colours.quantity = size_of(&image.colours.quantity);
         for value in &mut image.values {
             *value = value.abs();
         }
@@ -103,10 +115,69 @@ fn show_sizes(image: &mut Image) {
     image.map = ColourMap::Sequential;
 }
 
+/// Smallest size that curves of values with a sign show, over the largest: below it they are rounding on their way through
+/// zero. A test of signed histories fails without it.
+const SIGNED_DECADES: f64 = 1e-6;
+
+/// Sizes in place of the values of curves of which some are negative, with the sizes of their bands.
+fn show_sizes_of_curves(panel: &mut Panel) {
+    let mut lines: Vec<&mut Line> = Vec::new();
+    for layer in &mut panel.layers {
+        if let Layer::Line(line) = layer {
+            lines.push(line);
+        }
+    }
+    let values = || {
+        lines
+            .iter()
+            .flat_map(|line| line.points.iter().map(|p| p.1))
+    };
+    if values().all(|value| value >= 0.0) {
+        return;
+    }
+    let largest = values().map(f64::abs).fold(0.0, f64::max);
+    let low = SIGNED_DECADES * largest;
+    for line in lines {
+        line.points.iter_mut().for_each(|p| p.1 = p.1.abs());
+        let [lower, upper] = &mut line.band;
+        for (a, b) in lower.iter_mut().zip(upper) {
+            let crosses = a.1 < 0.0 && b.1 > 0.0;
+            let [one, other] = [a.1.abs(), b.1.abs()];
+            // a band that holds zero reaches down to the end of the axis
+            a.1 = if crosses {
+                low
+            } else {
+                one.min(other).max(low)
+            };
+            b.1 = one.max(other).max(low);
+        }
+    }
+    panel.y.quantity = size_of(&panel.y.quantity);
+    panel.y.range = (largest > 0.0).then_some((low, 2.0 * largest));
+}
+
+/// A logarithmic axis has to have a value above zero to show.
+fn shows_something(panel: &Panel) -> Result<(), PlotError> {
+    let lines = || {
+        panel.layers.iter().filter_map(|layer| match layer {
+            Layer::Line(line) => Some(line),
+            _ => None,
+        })
+    };
+    let shown = |line: &Line| line.points.iter().any(|p| panel.y.scale.shows(p.1));
+    if panel.y.scale == Scale::Linear || lines().next().is_none() || lines().any(shown) {
+        return Ok(());
+    }
+    let quantity = &panel.y.quantity;
+    let sentence =
+        format!("{quantity}: no value is above zero, so a logarithmic axis has nothing to show");
+    Err(PlotError::refused(None, sentence))
+}
+
 /// Composes the frames of an animation of a section, one figure each; and sentences for its user.
 pub fn animate(paths: &[PathBuf], request: &Request) -> Drawn<Vec<Figure>> {
     let file = common_kind(paths)?;
-    let kind = request.kind.unwrap_or(Kind::Waves);
+    let kind = request.kind_or(Kind::Waves)?;
     if file != FileKind::Impact || kind != Kind::Waves {
         let path = &paths[0];
         let shown = (request.kind).map_or_else(String::new, |kind| format!(", shown as {kind}"));
@@ -118,7 +189,7 @@ pub fn animate(paths: &[PathBuf], request: &Request) -> Drawn<Vec<Figure>> {
     }
     let (mut figures, notes) = frames_of(only(&open(paths)?, kind)?, request)?;
     for figure in &mut figures {
-        scale(figure, request)?;
+        scale(figure, request, file)?;
     }
     Ok((figures, notes))
 }

@@ -1,6 +1,5 @@
 //! Why there is no picture; and what is looked for by its name, with the error that it is not there.
 
-use crate::request::{Kind, Request};
 use contact::{Choice, nearest};
 use fault::{Class, Culprit, Fault};
 use formats::SceneError;
@@ -67,12 +66,16 @@ impl PlotError {
         word: &str,
         known: impl IntoIterator<Item = &'a str>,
     ) -> Self {
-        if impact::Quantity::named(word).is_some() {
+        let known: Vec<&str> = known.into_iter().collect();
+        // a part of a name, such as that of a quantity without its probe
+        let longer = known.iter().filter(|name| name.contains(word));
+        let whole = longer.min_by_key(|name| name.len());
+        let whole = whole.map(|&name| name.to_owned());
+        if whole.is_none() && impact::Quantity::named(word).is_some() {
             let hint = format!("give the scene [output] quantities = [\"{word}\"]");
             return Self::absent(path, word, &hint);
         }
-        let known: Vec<&str> = known.into_iter().collect();
-        let suggestion = nearest(word, known.iter().copied());
+        let suggestion = whole.or_else(|| nearest(word, known.iter().copied()));
         let near = suggestion.as_ref();
         let near = near.map_or_else(String::new, |word| format!(" (did you mean {word}?)"));
         Self::Refused {
@@ -100,31 +103,6 @@ impl Fault for PlotError {
                 suggestion: suggestion.as_deref().map(Into::into),
                 ..Culprit::of(Class::Scene)
             },
-        }
-    }
-}
-
-/// The kind of picture that is asked for, or else the one that suits the file; times are not asked of one that shows all.
-pub(crate) fn kind_of(request: &Request, suits: Kind) -> Result<Kind, PlotError> {
-    let kind = request.kind.unwrap_or(suits);
-    if request.times_s.is_empty() || matches!(kind, Kind::Waves | Kind::Axis) {
-        return Ok(kind);
-    }
-    let shown = "shows all times: only waves and axis show those that are given";
-    Err(PlotError::refused(
-        None,
-        format!("the picture {kind} {shown}"),
-    ))
-}
-
-/// The only one of some files or paths.
-pub(crate) fn only<T>(given: &[T], kind: Kind) -> Result<&T, PlotError> {
-    match given {
-        [only] => Ok(only),
-        several => {
-            let given = several.len();
-            let sentence = format!("the picture {kind} shows one file, and {given} were given");
-            Err(PlotError::refused(None, sentence))
         }
     }
 }

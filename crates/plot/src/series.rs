@@ -9,11 +9,12 @@ use std::ops::Range;
 /// Points of a curve that is drawn: with more, parts of it are drawn by their extremes.
 const MOST_POINTS: usize = 4000;
 
-/// A curve over times up to an end, with its extremes kept where there are too many samples.
-pub(crate) fn curve(time_s: &[f64], samples: &[f64], end_s: f64) -> Vec<(f64, f64)> {
-    let count = time_s.partition_point(|&t| t <= end_s);
-    let points = time_s[..count].iter().copied();
-    let points: Vec<(f64, f64)> = points.zip(samples.iter().copied()).collect();
+/// A curve over times from and to, and a sample further at both ends, with its extremes kept where there are too many samples.
+pub(crate) fn curve(time_s: &[f64], samples: &[f64], [from_s, to_s]: [f64; 2]) -> Vec<(f64, f64)> {
+    let first = time_s.partition_point(|&t| t < from_s).saturating_sub(1);
+    let end = (time_s.partition_point(|&t| t <= to_s) + 1).clamp(first, time_s.len());
+    let pairs = time_s[first..end].iter().zip(&samples[first..end]);
+    let points: Vec<(f64, f64)> = pairs.map(|(t, x)| (*t, *x)).collect();
     if points.len() <= MOST_POINTS {
         return points;
     }
@@ -60,11 +61,17 @@ mod tests {
         let time: Vec<f64> = (0..100_000).map(f64::from).collect();
         let mut samples: Vec<f64> = time.iter().map(|t| (0.01 * t).sin()).collect();
         samples[54_321] = 7.0;
-        let found = curve(&time, &samples, 90_000.0);
+        let found = curve(&time, &samples, [0.0, 90_000.0]);
         assert!(found.len() <= MOST_POINTS + 4 && found.contains(&(54_321.0, 7.0)));
         assert!(found.windows(2).all(|pair| pair[0].0 < pair[1].0));
-        assert_eq!(found.last().map(|p| p.0), Some(90_000.0));
-        assert_eq!(curve(&time[..10], &samples, 4.0).len(), 5);
+        assert_eq!(found.last().map(|p| p.0), Some(90_001.0));
+        // the lines run to the ends of the axis
+        let places = |span| -> Vec<f64> {
+            let points = curve(&time[..10], &samples, span);
+            points.into_iter().map(|p| p.0).collect()
+        };
+        assert_eq!(places([2.5, 4.5]), [2.0, 3.0, 4.0, 5.0]);
+        assert_eq!(places([-1.0, 99.0]).len(), 10);
     }
 
     #[test]

@@ -76,7 +76,9 @@ pub(crate) fn axis(name: &str, unit: &str, scale: Scale) -> Axis {
         "1" | "" => axis,
         "kg" => axis.si("g"),
         "kg/m^3" => axis.unit("kg/m^{3}"),
-        unit => axis.si(&unit.replace("^2", "^{2}")),
+        // a power in the unit would raise the prefix as well
+        unit if unit.contains('^') => axis.unit(&unit.replace("^2", "^{2}")),
+        unit => axis.si(unit),
     }
 }
 
@@ -92,13 +94,14 @@ pub(crate) fn of_quantity(name: &str) -> String {
     meaning.split(',').take(1).collect()
 }
 
-/// Name of a component for the legend: "axial u_{z}".
+/// Name of a quantity for the legend, of a component with its symbol: "axial u_{z}".
 pub(crate) fn component(name: &str) -> String {
     let symbols = [
         ("displacement_", "u"),
         ("velocity_", "v"),
         ("acceleration_", "a"),
         ("stress_", "σ"),
+        ("strain_", "ε"),
     ];
     let found = symbols.iter().find_map(|(kind, symbol)| {
         let words = of_quantity(name);
@@ -108,7 +111,7 @@ pub(crate) fn component(name: &str) -> String {
             name.strip_prefix(kind)?
         ))
     });
-    found.unwrap_or_else(|| name.replace('_', " "))
+    found.unwrap_or_else(|| of_quantity(name))
 }
 
 /// A file's name without its ending.
@@ -137,6 +140,24 @@ mod tests {
         ] {
             assert_eq!(with_unit(value, unit), text);
         }
+    }
+
+    #[test]
+    fn legends_have_words() {
+        for (name, words) in [
+            ("velocity_z", "axial v_{z}"),
+            ("strain_tt", "hoop \u{3b5}_{tt}"),
+            ("von_mises", "von Mises' equivalent stress"),
+            ("principal_3", "smallest principal stress"),
+        ] {
+            assert_eq!(component(name), words);
+        }
+    }
+
+    #[test]
+    fn units_with_powers_have_no_prefix() {
+        let of = |unit| axis("a", unit, Scale::Linear).has_prefixes;
+        assert_eq!(["m/s", "m/s^2", "Pa"].map(of), [true, false, true]);
     }
 
     #[test]

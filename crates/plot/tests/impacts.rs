@@ -136,3 +136,199 @@ fn what_cannot_be_drawn_is_told_in_one_sentence() {
     let refused = compose(&[probes], &request).unwrap_err().to_string();
     assert!(refused.contains("did you mean stress_zz?"), "{refused}");
 }
+
+fn curves(figure: &Figure, panel: usize) -> Vec<&figure::Line> {
+    let layers = figure.panels[panel].layers.iter();
+    let lines = layers.filter_map(|layer| match layer {
+        figure::Layer::Line(line) => Some(line),
+        _ => None,
+    });
+    lines.collect()
+}
+
+#[test]
+fn sizes_keep_the_negative_parts() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = impact(folder.path(), "sizes.h5", 1.3, PROBES);
+    let asked = |scale| Request {
+        kind: Some(Kind::Probes),
+        quantities: vec!["stress_rr".to_owned()],
+        scale,
+        ..Request::default()
+    };
+    let signed = compose(std::slice::from_ref(&path), &asked(None))
+        .unwrap()
+        .0;
+    let sizes = asked(Some(figure::Scale::Logarithmic));
+    let sizes = compose(std::slice::from_ref(&path), &sizes).unwrap().0;
+    texts(&sizes);
+    for panel in 0..2 {
+        let [signed, shown] = [&signed, &sizes].map(|figure| curves(figure, panel)[0]);
+        assert!(signed.points.iter().any(|p| p.1 < 0.0));
+        let same = |(a, b): (&(f64, f64), &(f64, f64))| a.0 == b.0 && a.1.abs() == b.1;
+        assert!(signed.points.iter().zip(&shown.points).all(same));
+        assert_eq!(signed.points.len(), shown.points.len());
+        let largest = shown.points.iter().map(|p| p.1).fold(0.0, f64::max);
+        let axis = &sizes.panels[panel].y;
+        assert_eq!(axis.quantity, "size of the radial stress");
+        // not the eighteen decades of rounding
+        assert!(axis.range.unwrap().0 >= 1e-7 * largest && axis.range.unwrap().1 >= largest);
+        let [lower, upper] = &shown.band;
+        let mut sides = lower.iter().zip(upper).zip(&shown.points);
+        assert!(sides.all(|((l, u), p)| l.1 > 0.0 && l.1 <= u.1 && u.1 >= p.1));
+    }
+}
+
+#[test]
+fn an_option_that_a_kind_does_not_use_is_refused_with_the_kinds_that_do() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = impact(folder.path(), "o.h5", 1.7, PROBES);
+    let of = |kind, change: fn(&mut Request)| {
+        let mut request = Request {
+            kind: Some(kind),
+            ..Request::default()
+        };
+        change(&mut request);
+        compose(std::slice::from_ref(&path), &request)
+            .unwrap_err()
+            .to_string()
+    };
+    type Change = fn(&mut Request);
+    let frames: Change = |r| r.frames = Some(3);
+    let two: Change = |r| r.quantities = vec!["stress_zz".to_owned(), "stress_rr".to_owned()];
+    let one: Change = |r| r.quantities = vec!["stress_zz".to_owned()];
+    let times: Change = |r| r.times_s = vec![1e-6];
+    let along: Change = |r| r.along = Some("striker.mass_kg".to_owned());
+    let at: Change = |r| r.at = vec![("striker.mass_kg".to_owned(), "1".to_owned())];
+    let span: Change = |r| r.span_s = Some((0.0, 1e-6));
+    let scale: Change = |r| r.scale = Some(figure::Scale::Linear);
+    for (kind, change, said) in [
+        (
+            Kind::Spectrum,
+            one,
+            "the picture spectrum does not use quantity: impact, probes, waves, peak, x-t, depth-t and axis do",
+        ),
+        (
+            Kind::Waves,
+            two,
+            "the picture waves does not use several quantities: impact and probes do",
+        ),
+        (
+            Kind::Axis,
+            two,
+            "the picture axis does not use several quantities: impact and probes do",
+        ),
+        (
+            Kind::Impact,
+            frames,
+            "the picture impact does not use frames: only waves does",
+        ),
+        (
+            Kind::Peak,
+            times,
+            "the picture peak does not use times: waves and axis do",
+        ),
+        (
+            Kind::Probes,
+            along,
+            "the picture probes does not use along: no picture of the results of an impact does",
+        ),
+        (
+            Kind::Surface,
+            at,
+            "the picture x-t does not use at: no picture of the results of an impact does",
+        ),
+        (
+            Kind::Loop,
+            span,
+            "the picture loop does not use span: impact, probes, waves, x-t and depth-t do",
+        ),
+        (
+            Kind::Loop,
+            scale,
+            "the picture loop does not use log or linear: impact, probes, spectrum, waves, peak, x-t, depth-t and axis do",
+        ),
+    ] {
+        assert_eq!(of(kind, change), said);
+    }
+}
+
+#[test]
+fn a_quantity_of_the_contact_is_drawn_alone() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = impact(folder.path(), "q.h5", 0.7, PROBES);
+    let asked = |kind, names: &[&str]| Request {
+        kind,
+        quantities: names.iter().map(|&name| name.to_owned()).collect(),
+        ..Request::default()
+    };
+    let of = |kind, names: &[&str]| compose(std::slice::from_ref(&path), &asked(kind, names));
+    let (figure, _) = of(None, &["force"]).unwrap();
+    assert_eq!(figure.panels.len(), 1);
+    let largest = curves(&figure, 0)[0]
+        .points
+        .iter()
+        .map(|p| p.1)
+        .fold(0.0, f64::max);
+    let peak = formats::stored::StoredImpact::open(&path)
+        .unwrap()
+        .number("peak_force_n")
+        .unwrap();
+    assert!((largest / peak - 1.0).abs() < 1e-2);
+    let (figure, _) = of(None, &["velocity", "stress_zz"]).unwrap();
+    let quantities: Vec<&str> = figure
+        .panels
+        .iter()
+        .map(|panel| panel.y.quantity.as_str())
+        .collect();
+    assert_eq!(
+        quantities,
+        ["velocity of the striker", "axial stress", "axial stress"]
+    );
+    let said = of(Some(Kind::Probes), &["force"]).unwrap_err().to_string();
+    assert!(said.ends_with("the picture impact shows it"), "{said}");
+    // what cannot be drawn is not left out in silence
+    let bare = impact(folder.path(), "b.h5", 0.7, "");
+    let said = compose(&[bare], &asked(None, &["stress_zz"]))
+        .unwrap_err()
+        .to_string();
+    assert!(said.contains("has no probes"), "{said}");
+}
+
+#[test]
+fn a_span_is_the_time_axis() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = impact(folder.path(), "z.h5", 1.1, PROBES);
+    let asked = |kind, span_s| Request {
+        kind: Some(kind),
+        span_s: Some(span_s),
+        ..Request::default()
+    };
+    for kind in [Kind::Impact, Kind::Probes] {
+        let (figure, _) = compose(std::slice::from_ref(&path), &asked(kind, (4e-6, 7e-6))).unwrap();
+        for (i, panel) in figure.panels.iter().enumerate() {
+            assert_eq!(panel.x.range, Some((4e-6, 7e-6)));
+            let points = &curves(&figure, i)[0].points;
+            // a sample at both sides, so that curves run to the ends
+            assert!(points[0].0 <= 4e-6 && points[points.len() - 1].0 >= 7e-6);
+            assert!(points[1].0 >= 4e-6 && points[points.len() - 2].0 <= 7e-6);
+        }
+    }
+    for (span_s, why) in [
+        ((7e-6, 4e-6), "has to be before"),
+        ((1.0, 2.0), "there is nothing"),
+    ] {
+        let said = compose(std::slice::from_ref(&path), &asked(Kind::Probes, span_s));
+        let said = said.unwrap_err().to_string();
+        assert!(said.contains(why), "{said}");
+    }
+}
+
+#[test]
+fn spectra_begin_together() {
+    let folder = tempfile::tempdir().unwrap();
+    let paths = [0.02, 5.0].map(|v| impact(folder.path(), &format!("{v}.h5"), v, ""));
+    let (figure, _) = picture(&paths, Some(Kind::Spectrum)).unwrap();
+    let first = |i: usize| curves(&figure, 0)[i].points[0].0;
+    assert_eq!(first(0), first(1));
+}

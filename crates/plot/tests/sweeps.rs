@@ -244,3 +244,257 @@ fn restitution_has_the_slope_where_something_yields() {
         assert_eq!(lines[curves - 1].0 == "slope -1/4", curves == 2, "{name}");
     }
 }
+
+const HEIGHTS: &str = "[product.striker]\ndrop_height_m = [0.0204, 0.0816, 0.3264, 1.3056]\ndiameter_m = [0.002, 0.003]\n";
+
+/// A sweep of a ball on granite, which has no velocity and no mass of its own.
+fn ball(folder: &Path, name: &str, scene: &str, varies: &str) -> PathBuf {
+    let text = format!(
+        "[scene.target]\nmaterial = \"granite\"\n[scene.striker]\nmaterial = \"bearing-steel\"\nshape = \"ball\"\n\
+         {scene}{varies}"
+    );
+    let spec = Spec::from_toml(&text, folder).unwrap();
+    let path = folder.join(name);
+    let part = folder.join("part");
+    let done = run_rows(&spec, &part, Existing::Replace, |_| true).unwrap();
+    let output = Output::claim(&path, Existing::Keep).unwrap();
+    let staged = stage_rows(&output, &spec, &done.unwrap()).unwrap();
+    staged.commit().unwrap();
+    path
+}
+
+fn marks(figure: &Figure) -> usize {
+    let layers = figure.panels.iter().flat_map(|panel| &panel.layers);
+    layers.filter(|l| matches!(l, Layer::Mark { .. })).count()
+}
+
+#[test]
+fn a_histogram_of_a_design_has_no_quantiles_and_holds_its_keys() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = ball(folder.path(), "d.h5", "", HEIGHTS);
+    let request = Request {
+        kind: Some(Kind::Histogram),
+        quantities: vec!["peak_force_n".to_owned()],
+        ..Request::default()
+    };
+    let figure = drawn(&path, &request);
+    let counted = |figure: &Figure| 0.5 * lines(figure, 0)[0].1.iter().map(|p| p.1).sum::<f64>();
+    assert_eq!((marks(&figure), counted(&figure)), (0, 8.0));
+    let held = Request {
+        at: vec![("striker.diameter_m".to_owned(), "0.003".to_owned())],
+        ..request
+    };
+    let figure = drawn(&path, &held);
+    assert_eq!(counted(&figure), 4.0);
+    assert!(
+        figure.subtitle.starts_with("4 of 8 scenes"),
+        "{}",
+        figure.subtitle
+    );
+}
+
+#[test]
+fn a_sweep_says_how_many_of_its_rows_yield() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = ball(
+        folder.path(),
+        "y.h5",
+        "diameter_m = 0.003\n",
+        "[product.target]\nmaterial = [\"mild-steel\", \"granite\"]\n[product.striker]\nvelocity_m_s = [1e-4, 3.0, 9.0]\n",
+    );
+    let onset = formats::stored::StoredSweep::open(&path)
+        .unwrap()
+        .values("yield_onset")
+        .unwrap();
+    let yielding = onset.iter().filter(|x| **x > 1.0).count();
+    assert!((2..6).contains(&yielding), "{onset:?}");
+    for kind in [Kind::Sweep, Kind::Histogram, Kind::Loss] {
+        let request = Request {
+            kind: Some(kind),
+            ..Request::default()
+        };
+        let subtitle = drawn(&path, &request).subtitle;
+        assert!(
+            subtitle.contains(&format!("6 scenes, {yielding} of 6 yield")),
+            "{subtitle}"
+        );
+    }
+    let at = vec![("striker.velocity_m_s".to_owned(), "0.0001".to_owned())];
+    let slow = Request {
+        kind: Some(Kind::Histogram),
+        at,
+        ..Request::default()
+    };
+    assert!(!drawn(&path, &slow).subtitle.contains("yield"));
+}
+
+#[test]
+fn losses_over_heights_are_those_over_velocities() {
+    let folder = tempfile::tempdir().unwrap();
+    let heights = ball(
+        folder.path(),
+        "h.h5",
+        "diameter_m = 0.0025\n",
+        "[product.striker]\ndrop_height_m = [0.05, 0.2, 0.8]\n",
+    );
+    for kind in [Kind::Loss, Kind::Restitution] {
+        let request = Request {
+            kind: Some(kind),
+            ..Request::default()
+        };
+        let figure = drawn(&heights, &request);
+        check(&figure);
+        let points = lines(&figure, 0)[0].1.to_vec();
+        assert_eq!(points.len(), 3);
+        for ((v, _), h) in points.iter().zip([0.05_f64, 0.2, 0.8]) {
+            assert!(
+                (v / (2.0 * 9.80665 * h).sqrt() - 1.0).abs() < 1e-12,
+                "{kind}: {v}"
+            );
+        }
+    }
+    // a law without loss has nothing to show on a logarithmic axis
+    let none = ball(
+        folder.path(),
+        "n.h5",
+        "diameter_m = 0.0025\n",
+        "[scene.contact]\nmodel = \"hertz\"\n[product.striker]\nvelocity_m_s = [0.1, 1.0]\n",
+    );
+    let request = Request {
+        kind: Some(Kind::Loss),
+        ..Request::default()
+    };
+    let said = compose(&[none], &request).unwrap_err().to_string();
+    assert!(said.contains("no value is above zero"), "{said}");
+}
+
+#[test]
+fn advice_can_be_followed() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = ball(
+        folder.path(),
+        "a.h5",
+        "drop_height_m = 0.1\n",
+        "[product.striker]\ndiameter_m = { from = 1e-3, to = 5e-3, count = 9 }\nmaterial = [\"bearing-steel\", \"tungsten-carbide\", \"copper\", \"ice\"]\n[product.target]\nmaterial = [\"granite\", \"steel\", \"pmma\", \"soda-lime-glass\"]\n",
+    );
+    let mut request = Request::default();
+    for _ in 0..3 {
+        match compose(std::slice::from_ref(&path), &request) {
+            Ok((figure, _)) => return check(&figure),
+            Err(error) => {
+                let said = error.to_string();
+                let (_, advice) = said.split_once("--at ").unwrap();
+                let (key, value) = advice.split_once('=').unwrap();
+                request.at.push((key.to_owned(), value.to_owned()));
+            }
+        }
+    }
+    unreachable!("the advice {:?} leads nowhere", request.at);
+}
+
+#[test]
+fn a_part_of_a_name_is_understood() {
+    let folder = tempfile::tempdir().unwrap();
+    let varies = "[product.target]\ndensity_kg_m3 = [2600.0, 2700.0]\n";
+    let path = ball(
+        folder.path(),
+        "p.h5",
+        "drop_height_m = 0.1\ndiameter_m = 0.002\n",
+        varies,
+    );
+    let said = |request: Request| {
+        compose(std::slice::from_ref(&path), &request)
+            .unwrap_err()
+            .to_string()
+    };
+    let along = Request {
+        along: Some("density".to_owned()),
+        ..Request::default()
+    };
+    let found = said(along);
+    assert!(
+        found.contains("did you mean target.density_kg_m3?"),
+        "{found}"
+    );
+    let quantity = Request {
+        quantities: vec!["contact_time".to_owned()],
+        ..Request::default()
+    };
+    let found = said(quantity);
+    assert!(found.contains("did you mean contact_time_s?"), "{found}");
+}
+
+#[test]
+fn a_scale_is_that_of_what_is_shown_or_asked_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let varies =
+        "[product.striker]\nvelocity_m_s = [0.01, 0.1, 1.0, 10.0]\ndiameter_m = [0.002, 0.003]\n";
+    let path = ball(folder.path(), "s.h5", "", varies);
+    let scale = |request: Request| {
+        let request = Request {
+            quantities: vec!["contact_time_s".to_owned(), "peak_force_n".to_owned()],
+            ..request
+        };
+        let figure = drawn(&path, &request);
+        check(&figure);
+        [
+            figure.panels[0].x.scale,
+            figure.panels[0].y.scale,
+            figure.panels[1].y.scale,
+        ]
+    };
+    use figure::Scale::{Linear, Logarithmic};
+    assert_eq!(
+        scale(Request::default()),
+        [Logarithmic, Linear, Logarithmic]
+    );
+    assert_eq!(
+        scale(Request {
+            scale: Some(Linear),
+            ..Request::default()
+        }),
+        [Linear; 3]
+    );
+    assert_eq!(
+        scale(Request {
+            scale: Some(Logarithmic),
+            ..Request::default()
+        }),
+        [Logarithmic; 3]
+    );
+    // of one velocity forces are not decades apart
+    let at = vec![("striker.velocity_m_s".to_owned(), "1".to_owned())];
+    assert_eq!(
+        scale(Request {
+            at,
+            ..Request::default()
+        })[1..],
+        [Linear; 2]
+    );
+}
+
+#[test]
+fn between_few_values_nothing_is_drawn() {
+    let folder = tempfile::tempdir().unwrap();
+    let varies = "[product.striker]\nvelocity_m_s = { from = 0.1, to = 3, count = 9 }\ndiameter_m = [0.001, 0.002, 0.004]\n";
+    let path = ball(folder.path(), "c.h5", "", varies);
+    let along = |key: &str| {
+        let request = Request {
+            along: Some(key.to_owned()),
+            quantities: vec!["loss".to_owned()],
+            ..Request::default()
+        };
+        let figure = drawn(&path, &request);
+        check(&figure);
+        figure.panels[0]
+            .layers
+            .iter()
+            .find_map(|layer| match layer {
+                Layer::Image(image) => Some((image.x.len(), image.has_cells)),
+                _ => None,
+            })
+    };
+    assert_eq!(along("striker.diameter_m"), Some((3, true)));
+    // the other way there are three curves
+    assert_eq!(along("striker.velocity_m_s"), None);
+}

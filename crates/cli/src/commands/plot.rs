@@ -5,7 +5,7 @@ use crate::failure::{Failure, print, say};
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 use contact::Choice;
-use figure::{Figure, to_gif, to_pdf, to_png, to_svg};
+use figure::{Figure, Scale, to_gif, to_pdf, to_png, to_svg};
 use output::Role;
 use plot::{Kind, Request, animate, compose};
 use std::path::{Path, PathBuf};
@@ -36,30 +36,36 @@ pub(crate) struct Arguments {
     /// Times in s at which fields are shown, divided by commas.
     #[arg(long, value_name = "SECONDS", value_delimiter = ',', value_parser = number)]
     times: Vec<f64>,
-    /// Frames of a section: four in a picture without it, up to 120 in an animation.
+    /// Number of frames of a section. Default: 4 in a picture, up to 120 in an animation.
     #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u16).range(1..=2000))]
     frames: Option<u16>,
+    /// Times in s from and to which the time axis runs, or the frames of a section.
+    #[arg(long, value_name = "FROM:TO", value_parser = interval, allow_hyphen_values = true)]
+    span: Option<(f64, f64)>,
     /// The key of a sweep along x; without it the one with the most numbers.
     #[arg(long, value_name = "KEY")]
     along: Option<String>,
     /// A key of a sweep with the value at which it is held; may be given again.
     #[arg(long, value_name = "KEY=VALUE", value_parser = held)]
     at: Vec<(String, String)>,
-    /// From and to which values colours run, or else the y axis, in SI units.
+    /// Limits of the colour scale, or of the y axis if there are no colours, in SI units.
     #[arg(long, value_name = "LOW:HIGH", value_parser = interval, allow_hyphen_values = true)]
     limits: Option<(f64, f64)>,
-    /// Show sizes by their ratios, on a logarithmic scale of colours, or else y axis.
+    /// Use a logarithmic colour scale or y axis, or axis of values of a histogram; of values with a sign, it shows the sizes.
     #[arg(long)]
     log: bool,
+    /// Use a linear colour scale or y axis, or axis of values of a histogram, and linear keys of a sweep.
+    #[arg(long, conflicts_with = "log")]
+    linear: bool,
     /// Title; without it one that says what strikes what.
     #[arg(long)]
     title: Option<String>,
     /// Width in pixels of 1/96 inch; 321 is a column of a journal.
     #[arg(long, value_name = "PIXELS", value_parser = clap::value_parser!(u16).range(160..=8000))]
     width: Option<u16>,
-    /// Pixels of a PNG for each of its own.
-    #[arg(long, value_name = "FACTOR", default_value_t = 2, value_parser = clap::value_parser!(u8).range(1..=4))]
-    scale: u8,
+    /// Pixels of a PNG for each of its own. Default: 2.
+    #[arg(long, value_name = "FACTOR", value_parser = clap::value_parser!(u8).range(1..=4))]
+    scale: Option<u8>,
     #[command(flatten)]
     overwrite: Overwrite,
 }
@@ -100,6 +106,11 @@ fn ending(path: &Path) -> Result<String, Failure> {
 
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let ending = ending(&arguments.output)?;
+    if ending != "png" && arguments.scale.is_some() {
+        let output = arguments.output.display();
+        let sentence = format!("{output} does not use --scale: only a .png has pixels of its own");
+        return Err(Failure::input(sentence));
+    }
     let files = arguments.files.iter().cloned();
     let inputs: Vec<Role> = files.map(|path| ("a file", path)).collect();
     let output = arguments.overwrite.claim(&arguments.output, &inputs)?;
@@ -111,7 +122,12 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         along: arguments.along.clone(),
         at: arguments.at.clone(),
         limits: arguments.limits,
-        logarithmic: arguments.log,
+        span_s: arguments.span,
+        scale: match (arguments.log, arguments.linear) {
+            (true, _) => Some(Scale::Logarithmic),
+            (_, true) => Some(Scale::Linear),
+            (false, false) => None,
+        },
         title: arguments.title.clone(),
     };
     let size = |figure| match arguments.width {
@@ -126,7 +142,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         let (figure, notes) = compose(&arguments.files, &request)?;
         let figure = size(figure);
         let bytes = match ending.as_str() {
-            "png" => to_png(&figure, f32::from(arguments.scale)),
+            "png" => to_png(&figure, f32::from(arguments.scale.unwrap_or(PNG_SCALE))),
             "pdf" => to_pdf(&figure),
             _ => to_svg(&figure).map(String::into_bytes),
         };
@@ -139,6 +155,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     print(arguments.output.display())
 }
+
+/// Pixels of a PNG for each of its own, unless asked for.
+const PNG_SCALE: u8 = 2;
 
 /// How long a frame of an animation is shown in s.
 const FRAME_S: f64 = 0.06;

@@ -10,6 +10,11 @@ use crate::ticks::Room;
 /// Width of the strip of colours in pixels.
 const STRIP: f64 = 14.0;
 
+/// Height of the arrow at an end beyond which values go on.
+fn arrow(is_beyond: bool) -> f64 {
+    if is_beyond { 0.8 * STRIP } else { 0.0 }
+}
+
 /// Colours of the strip from its bottom to its top.
 const STEPS: u32 = 256;
 
@@ -33,7 +38,7 @@ impl Bar {
     /// Fits a bar of a height.
     pub(super) fn new(colours: &Colours, height: f64, faces: &Typeface) -> Self {
         let room = Room {
-            length: height,
+            length: height - colours.beyond.map(arrow).iter().sum::<f64>(),
             distance: 3.4 * faces.tick,
             needs: &|_| LINE * faces.tick,
         };
@@ -83,7 +88,7 @@ impl Bar {
         let Rect { left, right, .. } = strip;
         let beyond = self.colours.beyond;
         // within the height of the plot
-        let [below, above] = beyond.map(|is| if is { 0.8 * STRIP } else { 0.0 });
+        let [below, above] = beyond.map(arrow);
         let body = Rect {
             top: strip.top + above,
             bottom: strip.bottom - below,

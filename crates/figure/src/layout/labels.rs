@@ -229,7 +229,11 @@ fn candidates(point: (&str, bool, Point), area: Rect, size: f64) -> Vec<Vec<Text
         let places = match is_starred {
             true if rise == 0.0 => beside.to_vec(),
             true => vec![beside[0], beside[1], above],
-            false => vec![above, beside[0], beside[1]],
+            // further aside where the curve that it names is steep
+            false => {
+                let aside = [(x + 2.0 * side, START), (x - 2.0 * side, END)];
+                [&[above], beside.as_slice(), &aside].concat()
+            }
         };
         for (across, anchor) in places {
             let first = y + size * (0.35 + rise - 0.5 * LINE * (lines.len() as f64 - 1.0));

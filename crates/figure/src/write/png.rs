@@ -10,7 +10,7 @@ use crate::scene::{Item, Picture, Scene, Segment, Shape, Text};
 use gif::{Encoder, Frame, Repeat};
 use std::fmt::Display;
 use tiny_skia::{
-    ColorU8, FillRule, FilterQuality, LineJoin, Mask, Paint, PathBuilder, Pattern, Pixmap,
+    Color, ColorU8, FillRule, FilterQuality, LineJoin, Mask, Paint, PathBuilder, Pattern, Pixmap,
     SpreadMode, Stroke, StrokeDash, Transform,
 };
 
@@ -33,7 +33,7 @@ fn size(scene: &Scene, scale: f32) -> [u32; 2] {
 fn rendered(scene: &Scene, scale: f32) -> Result<Pixmap, FigureError> {
     let [width, height] = size(scene, scale);
     let mut canvas = Canvas {
-        map: pixmap(width, height)?,
+        map: page(width, height)?,
         place: Transform::from_scale(scale, scale),
         clip: None,
     };
@@ -75,6 +75,14 @@ pub fn to_gif(figures: &[Figure], scale: f32, frame_s: f64) -> Result<Vec<u8>, F
 
 fn no_gif(why: impl Display) -> FigureError {
     FigureError(format!("the GIF cannot be encoded: {why}"))
+}
+
+/// A white page, to its last row: a scene may end within a pixel.
+fn page(width: u32, height: u32) -> Result<Pixmap, FigureError> {
+    let mut map = pixmap(width, height)?;
+    let [red, green, blue] = rgb(WHITE);
+    map.fill(Color::from_rgba8(red, green, blue, 255));
+    Ok(map)
 }
 
 /// Room for pixels.

@@ -7,7 +7,7 @@ use impact::{EnergySeries, ProbeFields, Series};
 /// Value of the attribute `file_type`.
 pub const FILE_TYPE: &str = "hertzlamb results";
 /// Version of the format: the first number changes when a reader of the old one would fail.
-pub const FORMAT_VERSION: &str = "1.8";
+pub const FORMAT_VERSION: &str = "1.9";
 /// Datasets in the root, with unit and description.
 pub const SERIES: [(&str, &str, &str); 5] = labels! {
     "time", "s", "time since the first touch";
@@ -85,6 +85,8 @@ pub const MAP_SCALES: [(&str, &str, &str); 3] = labels! {
 pub const VTK: &str = "VTKHDF";
 /// Group of the fields in it.
 pub const VTK_POINTS: &str = "PointData";
+/// The scale of what has one value for all steps in it.
+pub const WHOLE: (&str, &str, &str) = ("whole", "1", "all samples in time together");
 /// Where in a field of it each step begins.
 pub const VTK_OFFSETS: &str = "PointDataOffsets";
 

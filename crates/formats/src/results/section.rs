@@ -11,6 +11,9 @@ use hdf5::types::FixedAscii;
 use hdf5::{Dataset, File, Group};
 use impact::{Peaks, SectionFields};
 
+/// How the name of a largest value ends.
+const PEAK: &str = schema::PEAK_SUFFIXES[0];
+
 pub(super) fn write_section(file: &File, map: &SectionFields) -> Result<(), hdf5::Error> {
     let group = file.create_group(schema::MAP)?;
     let shape = [map.time_s.len(), map.z_m.len(), map.r_m.len()];
@@ -22,7 +25,11 @@ pub(super) fn write_section(file: &File, map: &SectionFields) -> Result<(), hdf5
     let arrivals: Vec<f64> = map.arrival_s.iter().flatten().copied().collect();
     let dataset = numbers(&group, &schema::ARRIVALS, &[3, nz, nr], &arrivals)?;
     attach_scales(&dataset, &[&wave, &z, &r])?;
-    let points = vtk_image(file, map)?;
+    let (points, offsets) = vtk_image(file, map)?;
+    let whole = match &map.peaks {
+        Some(_) => Some(scale(&file.group(schema::VTK)?, &schema::WHOLE, &[0_i64])?),
+        None => None,
+    };
     // netCDF looks for the scales of a dataset in its group and in those above it
     for (name, ..) in schema::MAP_SCALES {
         link(file, &[schema::MAP, name], &[schema::VTK, name])?;
@@ -44,6 +51,13 @@ pub(super) fn write_section(file: &File, map: &SectionFields) -> Result<(), hdf5
         for (row, found) in beside(row, errors, peaks) {
             let dataset = numbers(&group, &row.labels(), &[nz, nr], found)?;
             attach_scales(&dataset, &[&z, &r])?;
+            if let Some(whole) = whole.as_ref().filter(|_| row.name.ends_with(PEAK)) {
+                // every step begins at the first and only one
+                let single: Vec<f32> = found.iter().map(|&value| value as f32).collect();
+                let dataset = numbers(&points, &row.labels(), &[1, nz, nr], &single)?;
+                attach_scales(&dataset, &[whole, &z, &r])?;
+                vector(&offsets, &row.labels(), &vec![0_i64; map.time_s.len()])?;
+            }
         }
     }
     Ok(())
@@ -77,10 +91,10 @@ fn link(file: &File, from: &[&str], to: &[&str]) -> Result<(), hdf5::Error> {
     file.link_hard(&path(from), &path(to))
 }
 
-/// The group that VTK reads, as temporal image data; returns the group of its point data.
+/// The group that VTK reads, as temporal image data; returns the groups of its point data and of where their steps begin.
 ///
 /// x is the distance from the axis, y is minus the depth.
-fn vtk_image(file: &File, map: &SectionFields) -> Result<Group, hdf5::Error> {
+fn vtk_image(file: &File, map: &SectionFields) -> Result<(Group, Group), hdf5::Error> {
     let vtk = file.create_group(schema::VTK)?;
     let (nr, nz) = (map.r_m.len(), map.z_m.len());
     let spacing = |x: &[f64]| (x[x.len() - 1] - x[0]).abs() / (x.len() - 1) as f64;
@@ -106,5 +120,5 @@ fn vtk_image(file: &File, map: &SectionFields) -> Result<Group, hdf5::Error> {
     for (name, _, meaning) in labels_of(&map.quantities) {
         vector(&offsets, &(name, "1", meaning), &numbered)?;
     }
-    vtk.create_group(schema::VTK_POINTS)
+    Ok((vtk.create_group(schema::VTK_POINTS)?, offsets))
 }

@@ -143,10 +143,11 @@ const KEYS: &[Key] = keys! {
     force.baseline_s: POSITIVE = |s, _| s.record()?.treated?.baseline_s?;
     probe.r_m: NOT_NEGATIVE ("the distance from the axis");
     probe.z_m: NOT_NEGATIVE ("the depth below the surface");
-    map.r_max_m: POSITIVE ("the width of the section") = |s, _| s.section?.r_max_m;
-    map.z_max_m: POSITIVE ("the depth of the section") = |s, _| s.section?.z_max_m;
-    map.points = |s, _| s.section?.points.map(|n| n as i64).to_vec();
-    map.frames = |s, _| s.section?.frames as i64;
+    map.r_max_m: POSITIVE ("the width of the section") = |s, _| s.section.as_ref()?.r_max_m;
+    map.z_max_m: POSITIVE ("the depth of the section") = |s, _| s.section.as_ref()?.z_max_m;
+    map.points = |s, _| s.section.as_ref()?.points.map(|n| n as i64).to_vec();
+    map.frames = |s, _| s.section.as_ref().filter(|section| section.times_s.is_empty())?.frames as i64;
+    map.times_s = |s, _| s.section.as_ref().filter(|section| !section.times_s.is_empty())?.times_s.clone();
     output.duration_s: POSITIVE = |s, _| s.duration_s?;
     output.quantities = |s, _| Some(&s.quantities).filter(|q| !q.is_empty())?.iter().map(|q| q.name()).collect::<Vec<_>>();
     output.peaks = |s, _| Some(s.peaks).filter(|&peaks| peaks)?;

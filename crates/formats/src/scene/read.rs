@@ -3,7 +3,7 @@
 use super::body::{body, read_materials, read_strike};
 use super::keys::{SECTIONS, Set, keys_of};
 use super::record::read_record;
-use super::section::{Section, parse, read_standard, read_text};
+use super::section::{Section, as_number, parse, read_standard, read_text};
 use crate::error::SceneError;
 use contact::{Choice, Conflict, HalfSpace, Library, Settings};
 use impact::{Load, Probe, Reading, Scene, Section as MeridionalSection, Strike};
@@ -283,14 +283,48 @@ fn read_section(root: &Section<'_>) -> Result<Option<MeridionalSection>, SceneEr
         return Ok(None);
     };
     section.allow_keys_of("map")?;
+    let times_s = frame_times(&section)?;
+    let frames = section.count("frames", 1..=MOST_FRAMES, "[1, 100000]")?;
+    let frames = match (frames, times_s.len()) {
+        (Some(_), 1..) => {
+            let reason = "times_s has a frame at each of its times";
+            return Err(SceneError::conflict(
+                "map.frames".to_owned(),
+                "map.times_s",
+                reason,
+            ));
+        }
+        (Some(frames), 0) => frames,
+        (None, 0) => {
+            return Err(section.missing("frames", "the number of frames in time, or times_s"));
+        }
+        (None, times) => times,
+    };
     Ok(Some(MeridionalSection {
         r_max_m: section.needed("r_max_m")?,
         z_max_m: section.needed("z_max_m")?,
         points: section
             .counts("points", 2..=2001, "[2, 2001]")?
             .ok_or_else(|| section.missing("points", "points along r and z, such as [81, 81]"))?,
-        frames: section
-            .count("frames", 1..=100_000, "[1, 100000]")?
-            .ok_or_else(|| section.missing("frames", "the number of frames in time"))?,
+        frames,
+        times_s,
     }))
+}
+
+/// Frames of a section, at most.
+const MOST_FRAMES: usize = 100_000;
+
+/// The times of the frames of a section, where it has some.
+fn frame_times(section: &Section<'_>) -> Result<Vec<f64>, SceneError> {
+    let key = "times_s";
+    let expected = "a list of numbers that rise from 0 or later, such as [2e-6, 5e-6]";
+    let times = section.typed(key, expected, |value| {
+        let items = value.as_array()?;
+        let times_s: Vec<f64> = items.iter().map(as_number).collect::<Option<_>>()?;
+        let rises = times_s.windows(2).all(|pair| pair[0] < pair[1]);
+        let first_s = times_s.first()?;
+        let is_list = rises && *first_s >= 0.0 && times_s.iter().all(|t| t.is_finite());
+        (is_list && times_s.len() <= MOST_FRAMES).then_some(times_s)
+    })?;
+    Ok(times.unwrap_or_default())
 }

@@ -135,12 +135,31 @@ pub(crate) fn at_probes(
     Ok(fields)
 }
 
-/// The samples of a force nearest to the frames of a section.
-pub(crate) fn frames(section: &Section, samples: usize) -> Vec<usize> {
-    let last = samples.saturating_sub(1) as f64;
-    let gaps = (section.frames as f64 - 1.0).max(1.0);
-    let frame = |i: usize| (i as f64 * last / gaps).round() as usize;
-    (0..section.frames).map(frame).collect()
+/// The samples nearest to the frames of a section, evenly over all or at its own times; one for times that have the same.
+///
+/// # Errors
+/// [`ImpactError::LateFrame`] for a time after the last sample.
+pub(crate) fn frames(section: &Section, time_s: &[f64]) -> Result<Vec<usize>, ImpactError> {
+    let last = time_s.len().saturating_sub(1);
+    if section.times_s.is_empty() {
+        let gaps = (section.frames as f64 - 1.0).max(1.0);
+        let frame = |i: usize| (i as f64 * last as f64 / gaps).round() as usize;
+        return Ok((0..section.frames).map(frame).collect());
+    }
+    let frame = |&wanted_s: &f64| {
+        let after = time_s.partition_point(|&t| t < wanted_s);
+        let end_s = time_s.get(last).copied().unwrap_or(0.0);
+        if after > last {
+            return Err(ImpactError::LateFrame { wanted_s, end_s });
+        }
+        let before = after.saturating_sub(1);
+        let is_before = wanted_s - time_s[before] < time_s[after] - wanted_s;
+        Ok(if is_before { before } else { after })
+    };
+    let found: Result<Vec<usize>, _> = section.times_s.iter().map(frame).collect();
+    let mut found = found?;
+    found.dedup();
+    Ok(found)
 }
 
 /// The fields on a section; `frames` are places among the samples that are wanted, all of which count for `peaks`.

@@ -1,82 +1,132 @@
 //! Panels over time: the contact, and what happens at the probes.
 
 use crate::error::{PlotError, chosen};
+use crate::request::Request;
 use crate::series::{curve, end_s, waves_of};
 use crate::words::{axis, component, of_quantity, with_unit};
 use contact::Model;
 use figure::{Axis, Layer, Legend, Panel, Scale, Style};
 use formats::quantities::Described;
 use formats::stored::{StoredImpact, StoredProbes};
-use impact::Impact;
+use impact::{Impact, Series};
 
 /// Probes that are shown beside a contact.
 pub(super) const FEW: usize = 3;
 
-/// An empty panel over time.
-fn over_time(quantity: &str, unit: &str, end_s: f64, legend: Legend) -> Panel {
-    let time = Axis::linear("time").si("s").range(0.0, end_s);
+/// A quantity of a contact over time: its name in a file, its name in a panel of its own, its unit and its samples.
+type OfContact = (
+    &'static str,
+    &'static str,
+    &'static str,
+    fn(&StoredImpact) -> Option<&Vec<f64>>,
+);
+
+/// All of them.
+const CONTACT: [OfContact; 4] = [
+    ("force", "force", "N", |impact| Some(&impact.series.force_n)),
+    (
+        "displacement",
+        "displacement of the striker",
+        "m",
+        |impact| Some(&impact.series.striker.as_ref()?.displacement_m),
+    ),
+    (
+        "deflection",
+        "deflection of the half-space",
+        "m",
+        |impact| Some(&impact.series.deflection_m),
+    ),
+    ("velocity", "velocity of the striker", "m/s", |impact| {
+        Some(&impact.series.striker.as_ref()?.velocity_m_s)
+    }),
+];
+
+/// Their names in a file.
+pub(super) fn contact_names() -> [&'static str; 4] {
+    CONTACT.map(|row| row.0)
+}
+
+/// An empty panel over times from and to.
+fn over_time(quantity: &str, unit: &str, [from_s, to_s]: [f64; 2], legend: Legend) -> Panel {
+    let time = Axis::linear("time").si("s").range(from_s, to_s);
     let value = axis(quantity, unit, Scale::Linear);
     Panel::new(time, value).height(210.0).legend(legend)
 }
 
-/// Panels of the contacts, one curve an impact; a single one has Hertz's force beside its own.
+/// The times that a picture of contacts shows: those that are asked for, or else the contacts.
+fn contact_span_s(impacts: &[StoredImpact], request: &Request) -> Result<[f64; 2], PlotError> {
+    let last_s = |of: fn(&Series) -> f64| {
+        let ends = impacts.iter().map(|impact| of(&impact.series));
+        ends.fold(0.0, f64::max)
+    };
+    match request.span_s {
+        Some(_) => {
+            request.span_within([0.0, last_s(|series| series.time_s[series.time_s.len() - 1])])
+        }
+        None => Ok([0.0, 1.1 * last_s(end_s)]),
+    }
+}
+
+/// Panels of the contacts, one curve an impact, of the quantities that are asked for or else of all; a single impact has
+/// Hertz's force beside its own.
 pub(super) fn contact_panels(
     impacts: &[StoredImpact],
     labels: &[String],
+    request: &Request,
+    asked: &[&str],
 ) -> Result<Vec<Panel>, PlotError> {
-    let ends = impacts.iter().map(|impact| end_s(&impact.series));
-    let end_s = 1.1 * ends.fold(0.0, f64::max);
-    let single = match impacts {
-        [only] => Some(only),
-        _ => None,
-    };
-    type Samples = fn(&StoredImpact) -> Option<&Vec<f64>>;
-    let force: Samples = |impact| Some(&impact.series.force_n);
-    let displacement: Samples = |impact| Some(&impact.series.striker.as_ref()?.displacement_m);
-    let velocity: Samples = |impact| Some(&impact.series.striker.as_ref()?.velocity_m_s);
-    let deflection: Samples = |impact| Some(&impact.series.deflection_m);
-    // the curves, each with quantity and unit of its panel: of several impacts one a panel and impact, which have one
-    // legend and the same colours in all panels
-    let shown = match single {
-        Some(only) => [
-            ("force", "N", "contact force", force),
-            ("displacement", "m", "striker", displacement),
-            ("displacement", "m", deflection_name(only), deflection),
-            ("velocity of the striker", "m/s", "", velocity),
-        ],
-        None => [
-            ("force", "N", "", force),
-            ("displacement of the striker", "m", "", displacement),
-            ("deflection of the half-space", "m", "", deflection),
-            ("velocity of the striker", "m/s", "", velocity),
-        ],
+    let span_s = contact_span_s(impacts, request)?;
+    let (single, part) = match impacts {
+        [only] => (Some(only), deflection_part(impacts)),
+        _ => (None, deflection_part(impacts)),
     };
     let legend = single.map_or(Legend::Off, |_| Legend::Auto);
     let mut panels: Vec<Panel> = Vec::new();
-    for (quantity, unit, name, samples) in shown {
+    for (name, quantity, unit, samples) in CONTACT {
+        if !asked.is_empty() && !asked.contains(&name) {
+            continue;
+        }
+        // a single impact has both displacements in one panel; several have one legend and the same colours in all panels
+        let (quantity, curve_name) = match (single, asked, name) {
+            (Some(_), [], "displacement") => ("displacement".to_owned(), "striker".to_owned()),
+            (Some(_), [], "deflection") => ("displacement".to_owned(), format!("half-space{part}")),
+            (Some(_), _, "force") => (quantity.to_owned(), "contact force".to_owned()),
+            (_, _, "deflection") => (format!("{quantity}{part}"), String::new()),
+            _ => (quantity.to_owned(), String::new()),
+        };
         let mut panel = panels
             .pop_if(|panel| panel.y.quantity == quantity)
-            .unwrap_or_else(|| over_time(quantity, unit, end_s, legend));
+            .unwrap_or_else(|| over_time(&quantity, unit, span_s, legend));
         for (impact, label) in impacts.iter().zip(labels) {
             if let Some(samples) = samples(impact) {
-                let name = single.map_or(label.as_str(), |_| name);
-                let points = curve(&impact.series.time_s, samples, end_s);
+                let name = single.map_or(label, |_| &curve_name);
+                let points = curve(&impact.series.time_s, samples, span_s);
                 panel = panel.line(name, Style::Plain, points);
             }
+        }
+        if panel.layers.is_empty() && !asked.is_empty() {
+            let hint = "a force record has no striker";
+            return Err(PlotError::absent(impacts[0].path(), name, hint));
         }
         panels.push(panel);
     }
     panels.retain(|panel| !panel.layers.is_empty());
-    let force = &mut panels[0];
-    force.legend = Legend::Auto;
-    if let Some(only) = single {
-        let hertz = hertz(only, end_s);
+    if let Some(first) = panels.first_mut() {
+        first.legend = Legend::Auto;
+    }
+    let force = panels.iter_mut().find(|panel| panel.y.quantity == "force");
+    if let (Some(only), Some(force)) = (single, force) {
+        let hertz = hertz(only, span_s);
         let hertz = hertz.map(|points| Layer::line("Hertz, without waves", Style::Plain, points));
         let (speeds, start_s) = waves_of(only)?;
         // of the faces of the block, where they are known
         let echo_s = speeds.first_echo_s(&only.target, [0.0; 2], 0.0);
         let echo = echo_s.map(|echo_s| Layer::mark(start_s + echo_s, "first echo"));
         force.layers.extend(hertz.into_iter().chain(echo));
+        if let [Layer::Line(alone)] = force.layers.as_mut_slice() {
+            // a single curve is what the axis says
+            alone.name.clear();
+        }
     }
     Ok(panels)
 }
@@ -95,24 +145,30 @@ pub(super) fn loop_panel(impacts: &[StoredImpact], labels: &[String]) -> Result<
         let pressed = |pair: &(&f64, &f64)| *pair.1 > 0.0;
         let points = pairs.clone().take(1).chain(pairs.filter(pressed));
         let points = points.map(|(&d, &p)| (d, p)).collect();
-        panel = panel.line(label, Style::Plain, points);
+        let name = if impacts.len() > 1 { label } else { "" };
+        panel = panel.line(name, Style::Plain, points);
     }
     Ok(panel)
 }
 
-/// What the deflection of a file is: Hertz's law may hold the static part of it.
-fn deflection_name(impact: &StoredImpact) -> &'static str {
-    match (impact.model.as_str(), impact.static_share.as_str()) {
-        ("prescribed", _) => "disc",
-        ("hertz" | "radiation" | "area_dashpot" | "growing", _) | (_, "dynamic") => {
-            "half-space, dynamic part"
-        }
-        _ => "half-space",
+/// Which part of the deflection of the half-space the files have, in words: Hertz's law may hold the static one.
+fn deflection_part(impacts: &[StoredImpact]) -> &'static str {
+    let is_dynamic =
+        |impact: &StoredImpact| match (impact.model.as_str(), impact.static_share.as_str()) {
+            ("prescribed", _) => false,
+            ("hertz" | "radiation" | "area_dashpot" | "growing", _) | (_, "dynamic") => true,
+            _ => false,
+        };
+    let dynamic = impacts.iter().filter(|impact| is_dynamic(impact)).count();
+    match dynamic {
+        0 => "",
+        count if count == impacts.len() => ", dynamic part",
+        _ => ", of some the dynamic part",
     }
 }
 
 /// Hertz's force for the same bodies: no waves and no disc. None where the file is it, or has no striker.
-fn hertz(impact: &StoredImpact, end_s: f64) -> Option<Vec<(f64, f64)>> {
+fn hertz(impact: &StoredImpact, [from_s, to_s]: [f64; 2]) -> Option<Vec<(f64, f64)>> {
     const POINTS: u32 = 400;
     let strike = impact.strike.as_ref()?;
     if impact.model == "hertz" {
@@ -122,7 +178,7 @@ fn hertz(impact: &StoredImpact, end_s: f64) -> Option<Vec<(f64, f64)>> {
     let mut alone = Impact::new(target, strike.striker.clone(), strike.velocity_m_s);
     alone.settings.model = Model::Hertz;
     let run = alone.solve().ok()?;
-    let time = |i: u32| end_s * f64::from(i) / f64::from(POINTS);
+    let time = |i: u32| from_s + (to_s - from_s) * f64::from(i) / f64::from(POINTS);
     let points = (0..=POINTS).map(|i| (time(i), run.excitation().force_n(time(i))));
     Some(points.collect())
 }
@@ -134,7 +190,7 @@ fn hertz(impact: &StoredImpact, end_s: f64) -> Option<Vec<(f64, f64)>> {
 pub(super) fn probe_panels(
     impacts: &[StoredImpact],
     labels: &[String],
-    quantities: &[String],
+    (request, quantities): (&Request, &[String]),
     most: usize,
 ) -> Result<(Vec<Panel>, usize), PlotError> {
     let mut files = Vec::new();
@@ -161,6 +217,8 @@ pub(super) fn probe_panels(
         }
     }
     let count = probes.r_m.len().min(most);
+    let time_s = &first.series.time_s;
+    let span_s = request.span_within([0.0, time_s[time_s.len() - 1]])?;
     let mut panels = Vec::new();
     for of_unit in &by_unit {
         for probe in 0..count {
@@ -169,7 +227,7 @@ pub(super) fn probe_panels(
             let is_told =
                 of_unit.len() == 1 && (files.len() == 1 || most == FEW || !panels.is_empty());
             let legend = if is_told { Legend::Off } else { Legend::Auto };
-            let mut panel = probe_panel(first, place, of_unit, legend)?;
+            let mut panel = probe_panel(first, place, (of_unit, span_s), legend)?;
             for (impact, label, other) in &files {
                 let mut all = other.r_m.iter().zip(&other.z_m);
                 if let Some(found) = all.position(|(r_m, z_m)| [*r_m, *z_m] == place) {
@@ -187,7 +245,7 @@ pub(super) fn probe_panels(
 fn probe_panel(
     impact: &StoredImpact,
     [r_m, z_m]: [f64; 2],
-    shown: &[&Described],
+    (shown, span_s): (&[&Described], [f64; 2]),
     legend: Legend,
 ) -> Result<Panel, PlotError> {
     let quantity = match shown {
@@ -195,8 +253,7 @@ fn probe_panel(
         // "displacement" of `displacement_z`
         several => several[0].name.split('_').take(1).collect(),
     };
-    let last_s = impact.series.time_s[impact.series.time_s.len() - 1];
-    let mut panel = over_time(&quantity, &shown[0].unit, last_s, legend).title(&place(r_m, z_m));
+    let mut panel = over_time(&quantity, &shown[0].unit, span_s, legend).title(&place(r_m, z_m));
     let (speeds, start_s) = waves_of(impact)?;
     let radius_m = impact.number("disc_radius_m").unwrap_or(0.0);
     let arrivals_s = speeds.arrivals_s(r_m, z_m, radius_m);
@@ -242,7 +299,8 @@ fn with_traces(
             // on the axis, where nothing is radial
             continue;
         }
-        let points = curve(&impact.series.time_s, &samples, f64::INFINITY);
+        let (from_s, to_s) = panel.x.range.unwrap_or((0.0, f64::INFINITY));
+        let points = curve(&impact.series.time_s, &samples, [from_s, to_s]);
         panel = match probes.error(&quantity.name, probe) {
             Some(error) => {
                 let within = points.iter().map(|&(t, y)| (t, [y - error, y, y + error]));

@@ -7,18 +7,18 @@ mod histories;
 mod labels;
 mod spectrum;
 
-use crate::error::{Drawn, PlotError, kind_of, only};
-use crate::request::{Kind, Request};
+use crate::error::{Drawn, PlotError};
+use crate::request::{Kind, Request, only};
 use crate::section::{axis_profile, frames, peak, space_time};
-use crate::words::with_unit;
+use crate::words::{digits, with_unit};
 use contact::Shape;
 use figure::{Figure, Sharing};
 use formats::stored::{StoredImpact, Value};
-use histories::{FEW, contact_panels, loop_panel, probe_panels};
+use histories::{FEW, contact_names, contact_panels, loop_panel, probe_panels};
 use labels::labels;
 use spectrum::spectrum;
 use std::collections::BTreeMap;
-use std::slice;
+use std::{mem, slice};
 
 /// Frames of an animation, at most.
 const MOST_FRAMES: usize = 120;
@@ -29,14 +29,23 @@ pub(crate) fn of_impacts(impacts: &[StoredImpact], request: &Request) -> Drawn<F
         [only] if only.section()?.is_some() => Kind::Waves,
         _ => Kind::Impact,
     };
-    let kind = kind_of(request, suits)?;
+    let kind = request.kind_or(suits)?;
     let one = || only(impacts, kind);
     let panel = match kind {
         Kind::Loop => loop_panel(impacts, &labels(impacts))?,
         Kind::Spectrum => spectrum(impacts, &labels(impacts))?,
-        Kind::Peak => peak(one()?, request)?,
+        Kind::Peak => {
+            let (mut panel, notes) = peak(one()?, request)?;
+            // beside the other numbers: a star at the surface would cover a title of the panel
+            let mut figure = headed(impacts, request, 1);
+            figure.subtitle = format!("{}; {}", figure.subtitle, mem::take(&mut panel.title));
+            return Ok((figure.panel(panel), notes));
+        }
         Kind::Axis => axis_profile(one()?, request)?,
-        Kind::Surface | Kind::Depth => space_time(one()?, request)?,
+        Kind::Surface | Kind::Depth => {
+            let (panel, notes) = space_time(one()?, request, kind)?;
+            return Ok((headed(impacts, request, 1).panel(panel), notes));
+        }
         Kind::Waves => {
             let (panels, notes) = frames(one()?, request, request.frames.unwrap_or(4))?;
             let columns = if panels.len() > 4 { 3 } else { 2 };
@@ -68,16 +77,31 @@ fn histories(impacts: &[StoredImpact], kind: Kind, request: &Request) -> Drawn<F
     let labels = labels(impacts);
     let is_all = kind == Kind::Probes;
     let most = if is_all { usize::MAX } else { FEW };
-    let (probes, left_out) = probe_panels(impacts, &labels, &request.quantities, most)?;
-    if is_all && probes.is_empty() {
+    let is_of_contact = |name: &String| contact_names().contains(&name.as_str());
+    let (of_contact, at_probes): (Vec<String>, Vec<String>) =
+        request.quantities.iter().cloned().partition(is_of_contact);
+    if let (true, [name, ..]) = (is_all, of_contact.as_slice()) {
+        let sentence = format!(
+            "{name} is a quantity of the contact, not of a probe: the picture impact shows it"
+        );
+        return Err(PlotError::refused(None, sentence));
+    }
+    let (probes, left_out) = match of_contact.is_empty() || !at_probes.is_empty() {
+        true => probe_panels(impacts, &labels, (request, &at_probes), most)?,
+        false => (Vec::new(), 0),
+    };
+    if (is_all || !at_probes.is_empty()) && probes.is_empty() {
         let hint = "give the scene a [[probe]] with r_m and z_m";
         return Err(PlotError::absent(impacts[0].path(), "probes", hint));
     }
-    let note = || format!("{left_out} probes are not shown: --kind probes shows all");
+    let note = || format!("{left_out} probes are not shown: the picture probes shows all");
     let notes = (left_out > 0).then(note).into_iter().collect();
     let mut panels = match is_all {
         true => Vec::new(),
-        false => contact_panels(impacts, &labels)?,
+        false => {
+            let asked: Vec<&str> = of_contact.iter().map(String::as_str).collect();
+            contact_panels(impacts, &labels, request, &asked)?
+        }
     };
     let (columns, sharing) = match probes.len() {
         0 => (1, Sharing::X),
@@ -94,12 +118,19 @@ fn title(impacts: &[StoredImpact]) -> String {
     if impacts.len() > 1 {
         return format!("{} impacts", impacts.len());
     }
-    let Some(strike) = &impacts[0].strike else {
-        return "A given force on the half-space".to_owned();
-    };
     let keys: BTreeMap<String, Value> = impacts[0].keys().into_iter().collect();
     let material = |key: &str| keys.get(key).and_then(Value::as_str);
-    let target = material("target.material").map_or_else(String::new, |name| format!(" {name}"));
+    let target = material("target.material").map_or_else(
+        || {
+            let modulus_pa = impacts[0].target.material().youngs_modulus_pa;
+            format!("a block of E = {}", with_unit(modulus_pa, "Pa"))
+        },
+        str::to_owned,
+    );
+    let Some(strike) = &impacts[0].strike else {
+        let file = material("force.file").unwrap_or("a record");
+        return format!("force of {file} on {target}");
+    };
     let of = material("striker.material").map_or_else(String::new, |name| format!("{name} "));
     let speed = with_unit(strike.velocity_m_s, "m/s");
     let length = |metres| with_unit(metres, "m");
@@ -119,7 +150,7 @@ fn title(impacts: &[StoredImpact]) -> String {
             format!("{of}mass of {mass}, tip radius {tip},")
         }
     };
-    format!("{body} strikes{target} at {speed}")
+    format!("{body} strikes {target} at {speed}")
 }
 
 /// The most important numbers of a single impact.
@@ -136,6 +167,8 @@ fn subtitle(impacts: &[StoredImpact]) -> String {
         let value = impact.number(key)?;
         Some(format!("{name} {}", with_unit(value, unit)))
     });
-    let parts = parts.collect::<Vec<_>>().join(", ");
+    let onset = impact.number("yield_onset").filter(|onset| *onset > 1.0);
+    let yields = onset.map(|onset| format!("pressure {} times the onset of yield", digits(onset)));
+    let parts = parts.chain(yields).collect::<Vec<_>>().join(", ");
     format!("{parts} (model {})", impact.model.replace('_', " "))
 }

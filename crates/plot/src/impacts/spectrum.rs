@@ -22,9 +22,21 @@ pub(super) fn spectrum(impacts: &[StoredImpact], labels: &[String]) -> Result<Pa
     )
     .height(380.0);
     let mut plateau = 0.0_f64;
-    for (impact, label) in impacts.iter().zip(labels) {
+    let pulses = impacts.iter().map(|impact| {
         let pulse = Pulse::new(&impact.series.time_s, &impact.series.force_n);
-        let points = pulse.spectrum();
+        let found = pulse.frequencies();
+        found.map(|frequencies| (pulse, frequencies))
+    });
+    let pulses: Vec<_> = pulses.collect();
+    // several curves begin together
+    let lows = pulses.iter().flatten().map(|(_, [low, _])| *low);
+    let low = lows.fold(f64::INFINITY, f64::min);
+    for ((impact, label), pulse) in impacts.iter().zip(labels).zip(&pulses) {
+        let Some((pulse, [_, high])) = pulse else {
+            let hint = "it is zero throughout";
+            return Err(PlotError::absent(impact.path(), "force", hint));
+        };
+        let points = pulse.spectrum([low, *high]);
         plateau = points.iter().map(|p| p.1).fold(plateau, f64::max);
         let name = if impacts.len() == 1 { "" } else { label };
         panel = panel.line(name, Style::Plain, points.clone());
@@ -48,16 +60,35 @@ pub(super) fn spectrum(impacts: &[StoredImpact], labels: &[String]) -> Result<Pa
 struct Pulse {
     time_s: Vec<f64>,
     force_n: Vec<f64>,
+    /// Integral of the squared force over the square of the largest, in s.
+    squares_s: f64,
+    /// Mean step in s of all samples, weighed with their share of that integral; 0 for no force.
+    step_s: f64,
 }
 
 impl Pulse {
+    /// The samples; of more than [`MOST_SAMPLES`] those that straight lines between the others miss by most.
     fn new(time_s: &[f64], force_n: &[f64]) -> Self {
         let range = loaded(force_n);
-        let step = range.len().div_ceil(MOST_SAMPLES).max(1);
-        let thin = |x: &[f64]| x[range.clone()].iter().step_by(step).copied().collect();
+        let (time_s, force_n) = (&time_s[range.clone()], &force_n[range]);
+        let largest = force_n.iter().fold(0.0_f64, |m, p| m.max(p.abs()));
+        let (mut squares_s, mut weights) = (0.0, 0.0);
+        for (t, p) in time_s.windows(2).zip(force_n.windows(2)) {
+            let square = (p[0] * p[0] + p[0] * p[1] + p[1] * p[1]) / (3.0 * largest * largest);
+            squares_s += (t[1] - t[0]) * square;
+            weights += square;
+        }
+        let mut kept: Vec<usize> = (0..force_n.len()).collect();
+        let mut missed_n = 1e-6 * largest;
+        while kept.len() > MOST_SAMPLES && largest > 0.0 {
+            kept = needed(time_s, force_n, missed_n);
+            missed_n *= 2.0;
+        }
         Self {
-            time_s: thin(time_s),
-            force_n: thin(force_n),
+            time_s: kept.iter().map(|&i| time_s[i]).collect(),
+            force_n: with_their_area(time_s, force_n, &kept),
+            squares_s,
+            step_s: squares_s / weights,
         }
     }
 
@@ -86,14 +117,24 @@ impl Pulse {
         re.hypot(im)
     }
 
-    /// Amplitudes over frequencies, from far below the corner to where samples can tell.
-    fn spectrum(&self) -> Vec<(f64, f64)> {
-        let length_s = self.time_s[self.time_s.len() - 1] - self.time_s[0];
-        if length_s <= 0.0 {
-            return Vec::new();
+    /// From which frequency on it is shown, far below the corner, and up to which, where samples can tell.
+    ///
+    /// The length of the pulse decides the upper end, not that of its record: the length of Hertz's pulse with the same
+    /// largest force and the same integral of the squared force.
+    fn frequencies(&self) -> Option<[f64; 2]> {
+        /// Length of Hertz's pulse over the integral of its squared force in units of the largest: 3 pi/4.
+        const HERTZ: f64 = 0.75 * PI;
+        let whole_s = self.time_s[self.time_s.len() - 1] - self.time_s[0];
+        if !(whole_s > 0.0 && self.squares_s > 0.0) {
+            return None;
         }
-        let samples = self.time_s.len() as f64;
-        let (low, high) = (0.02 / length_s, (0.1 * samples).clamp(4.0, 20.0) / length_s);
+        let length_s = (HERTZ * self.squares_s).min(whole_s);
+        let samples = length_s / self.step_s;
+        Some([0.02 / whole_s, (0.1 * samples).clamp(4.0, 20.0) / length_s])
+    }
+
+    /// Amplitudes over frequencies from and to.
+    fn spectrum(&self, [low, high]: [f64; 2]) -> Vec<(f64, f64)> {
         let last = (FREQUENCIES - 1) as f64;
         (0..FREQUENCIES)
             .map(|i| low * (high / low).powf(i as f64 / last))
@@ -132,8 +173,53 @@ impl Pulse {
     }
 }
 
+/// The samples that are needed for straight lines between them to miss none of the others by more than a force.
+///
+/// From each sample the line goes as far as one slope serves all between: each narrows the slopes that do.
+fn needed(time_s: &[f64], force_n: &[f64], missed_n: f64) -> Vec<usize> {
+    let mut kept = vec![0];
+    let (mut from, mut slopes) = (0, (f64::NEG_INFINITY, f64::INFINITY));
+    for next in 1..force_n.len() {
+        let length_s = time_s[next] - time_s[from];
+        let slope = (force_n[next] - force_n[from]) / length_s;
+        if !(slopes.0..=slopes.1).contains(&slope) {
+            from = next - 1;
+            kept.push(from);
+            slopes = (f64::NEG_INFINITY, f64::INFINITY);
+        }
+        let length_s = time_s[next] - time_s[from];
+        let slope = (force_n[next] - force_n[from]) / length_s;
+        let reach = missed_n / length_s;
+        slopes = (slopes.0.max(slope - reach), slopes.1.min(slope + reach));
+    }
+    kept.push(force_n.len() - 1);
+    kept.dedup();
+    kept
+}
+
+/// The samples that are kept, moved so that the straight lines between them have the integral of all samples: noise that is
+/// left out would add up over a long record.
+fn with_their_area(time_s: &[f64], force_n: &[f64], kept: &[usize]) -> Vec<f64> {
+    let area = |i: usize, k: usize| 0.5 * (force_n[i] + force_n[k]) * (time_s[k] - time_s[i]);
+    let mut missing = vec![0.0; kept.len()];
+    let mut lengths_s = vec![0.0; kept.len()];
+    for (i, ends) in kept.windows(2).enumerate() {
+        let [from, to] = [ends[0], ends[1]];
+        let all: f64 = (from..to).map(|k| area(k, k + 1)).sum();
+        for end in [i, i + 1] {
+            missing[end] += all - area(from, to);
+            lengths_s[end] += time_s[to] - time_s[from];
+        }
+    }
+    let parts = kept.iter().zip(missing.iter().zip(&lengths_s));
+    let moved = parts
+        .map(|(&i, (missing, length_s))| force_n[i] + missing / length_s.max(f64::MIN_POSITIVE));
+    moved.collect()
+}
+
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
     use super::*;
 
     fn pulse(force: impl Fn(f64) -> f64, samples: usize) -> Pulse {
@@ -141,7 +227,7 @@ mod tests {
             .map(|i| 5e-6 * i as f64 / samples as f64)
             .collect();
         let force_n: Vec<f64> = time_s.iter().map(|t| force(t / 5e-6)).collect();
-        Pulse { time_s, force_n }
+        Pulse::new(&time_s, &force_n)
     }
 
     #[test]
@@ -162,7 +248,7 @@ mod tests {
     fn hertz_pulse_has_its_zeros_at_seven_quarters_and_on() {
         // sin^1.5: 1/(Gamma(7/4 + x) Gamma(7/4 - x)) with x = f tc vanishes at 7/4, 11/4, ...
         let pulse = pulse(|x| (PI * x).sin().max(0.0).powf(1.5), 2000);
-        let points = pulse.spectrum();
+        let points = pulse.spectrum(pulse.frequencies().unwrap());
         let zeros = pulse.zeros(&points);
         for (zero, exact) in zeros.iter().zip([1.75, 2.75, 3.75]) {
             assert!((zero * 5e-6 / exact - 1.0).abs() < 1e-3, "{zero}");
@@ -174,6 +260,31 @@ mod tests {
         let x = corner * 5e-6;
         let share = gamma(1.75).powi(2) / (gamma(1.75 + x) * gamma(1.75 - x));
         assert!((share - 0.5).abs() < 1e-3, "{x}: {share}");
+    }
+
+    #[test]
+    fn a_long_record_is_as_its_pulse() {
+        // the pulse at the end of 4000 times its length, with more samples than are looked at
+        let force = |x: f64| (PI * x).sin().max(0.0).powf(1.5);
+        let alone = pulse(force, 400);
+        let step_s = 5e-6 / 400.0;
+        let noise = |i: usize| 1e-4 * (1.7 * i as f64).sin();
+        let time_s: Vec<f64> = (0..=400_000).map(|i| step_s * f64::from(i)).collect();
+        let of = |(i, t): (usize, &f64)| {
+            noise(i)
+                + force((t - 4.9e-3) / 5e-6) * f64::from(u8::from((4.9e-3..4.905e-3).contains(t)))
+        };
+        let force_n: Vec<f64> = time_s.iter().enumerate().map(of).collect();
+        let long = Pulse::new(&time_s, &force_n);
+        assert!(long.time_s.len() <= MOST_SAMPLES);
+        let [high, same] = [&long, &alone].map(|pulse| pulse.frequencies().unwrap()[1]);
+        assert!((high / same - 1.0).abs() < 0.02, "{high} {same}");
+        let corner = |pulse: &Pulse| {
+            let points = pulse.spectrum(pulse.frequencies().unwrap());
+            pulse.corner(&points).unwrap().0
+        };
+        let [found, known] = [&long, &alone].map(corner);
+        assert!((found / known - 1.0).abs() < 0.02, "{found} {known}");
     }
 
     /// Gamma(x) for x > 0.5 to 1e-9, by recurrence and Stirling's series.

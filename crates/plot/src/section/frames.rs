@@ -79,8 +79,11 @@ impl<'a> Section<'a> {
     pub(super) fn asked(&self, times_s: &[f64]) -> Result<Vec<usize>, PlotError> {
         let known = &self.stored.time_s;
         let (first_s, last_s) = (known[0], known[known.len() - 1]);
+        // a frame at a time that the scene gives is the nearest sample of the output
+        let samples_s = &self.impact.series.time_s;
+        let step_s = samples_s[1] - samples_s[0];
         let frame = |&time_s: &f64| {
-            if (first_s..=last_s).contains(&time_s) {
+            if (first_s - step_s..=last_s + step_s).contains(&time_s) {
                 return Ok(self.nearest(time_s));
             }
             let [time, first, last] = [time_s, first_s, last_s].map(fault::number);
@@ -162,11 +165,49 @@ impl<'a> Section<'a> {
         depths.flat_map(row).collect()
     }
 
+    /// The values of a quantity over the section at its nodes and at places between them.
+    ///
+    /// Near a contact stresses fall with the square of the distance and displacements with the distance: between nodes it is
+    /// the value times that power of the distance that changes evenly, so that a contact much smaller than a cell does not
+    /// fill the cell.
+    pub(super) fn finer(&self, quantity: &Quantity, values: &[f64]) -> Grid {
+        let (r_m, z_m) = (&self.stored.r_m, self.depths_m());
+        let (fine_r, fine_z) = (between(r_m), between(&z_m));
+        let weight = |r: f64, z: f64| {
+            let square = r * r + z * z + self.disc_radius_m.powi(2);
+            square.powf(0.5 * quantity.near_power())
+        };
+        let width = r_m.len();
+        let weighed: Vec<f64> = (values.iter().enumerate())
+            .map(|(i, value)| value * weight(r_m[i % width], z_m[i / width]))
+            .collect();
+        let row = |k: usize, &(i, a): &(usize, f64)| {
+            let at = |i: usize| weighed[k * width + i.min(width - 1)];
+            at(i) + a * (at(i + 1) - at(i))
+        };
+        let place = |nodes: &[f64], &(i, a): &(usize, f64)| {
+            let next = nodes[(i + 1).min(nodes.len() - 1)];
+            nodes[i] + a * (next - nodes[i])
+        };
+        let mut grid = Grid {
+            r_m: fine_r.iter().map(|at| place(r_m, at)).collect(),
+            z_m: fine_z.iter().map(|at| place(&z_m, at)).collect(),
+            values: Vec::with_capacity(fine_r.len() * fine_z.len()),
+        };
+        for (&(k, b), &z) in fine_z.iter().zip(&grid.z_m) {
+            let next = (k + 1).min(z_m.len() - 1);
+            for (at, &r) in fine_r.iter().zip(&grid.r_m) {
+                let value = row(k, at) + b * (row(next, at) - row(k, at));
+                grid.values.push(value / weight(r, z));
+            }
+        }
+        grid
+    }
+
     /// Values over the section, mirrored at the axis.
-    pub(super) fn map(&self, values: Vec<f64>, colours: Axis, map: ColourMap) -> Panel {
+    pub(super) fn map(&self, grid: Grid, colours: Axis, map: ColourMap) -> Panel {
         let [r_max_m, z_max_m] = self.extent_m();
-        let (r_m, z_m) = (self.stored.r_m.clone(), self.depths_m());
-        let image = Image::new(r_m, z_m, values, colours, map);
+        let image = Image::new(grid.r_m, grid.z_m, grid.values, colours, map);
         let distance = Axis::linear("distance from the axis").si("m");
         let depth = Axis::linear("depth").si("m").reversed();
         let panel = Panel::new(distance.range(0.0, r_max_m), depth.range(0.0, z_max_m));
@@ -211,6 +252,25 @@ impl<'a> Section<'a> {
     }
 }
 
+/// Values of a section on a grid: distances from the axis and depths, both rising, and values, of which distances run
+/// fastest.
+pub(super) struct Grid {
+    pub(super) r_m: Vec<f64>,
+    pub(super) z_m: Vec<f64>,
+    pub(super) values: Vec<f64>,
+}
+
+/// Places along a side of a picture: more than its pixels on a page.
+const PLACES: usize = 400;
+
+/// Places at nodes and evenly between them, [`PLACES`] or more: the node below each, and the fraction of the way to the next.
+pub(super) fn between(nodes: &[f64]) -> Vec<(usize, f64)> {
+    let cells = nodes.len() - 1;
+    let parts = PLACES.div_ceil(cells);
+    let inner = (0..cells * parts).map(|i| (i / parts, (i % parts) as f64 / parts as f64));
+    inner.chain([(cells, 0.0)]).collect()
+}
+
 /// Points at a distance from a disc: a quarter circle around its edge and the plane part below it.
 fn capsule(disc_radius_m: f64, distance_m: f64) -> Vec<(f64, f64)> {
     const POINTS: u32 = 90;
@@ -238,7 +298,7 @@ pub(super) struct Quantity {
     pub(super) unit: String,
     /// What it is made of: itself where it is stored, the components of a length, or all stresses.
     parts: Vec<String>,
-    /// What it is of the stresses, if it is not stored.
+    /// What it is of the stresses, if it follows from them; it may be stored all the same.
     pub(super) stress: Option<impact::Quantity>,
 }
 
@@ -256,7 +316,6 @@ impl Quantity {
     pub(super) fn named(name: &str, stored: &[Described], path: &Path) -> Result<Self, PlotError> {
         let find = |name: &str| stored.iter().find(|quantity| quantity.name == name);
         let stress = of_stresses().find(|of| of.name() == name);
-        let stress = stress.filter(|_| find(name).is_none());
         let (unit, parts): (&str, &[&str]) = match (find(name), stress, name) {
             (Some(found), _, _) => (&found.unit, &[name]),
             (None, Some(_), _) => ("Pa", &STRESSES),
@@ -267,6 +326,7 @@ impl Quantity {
             (None, None, _) => {
                 let known = stored.iter().map(|quantity| quantity.name.as_str());
                 let derived = of_stresses().map(|of| -> &str { of.name() });
+                let derived = derived.filter(|name| find(name).is_none());
                 let all = known.chain(derived).chain(["displacement"]);
                 return Err(PlotError::unknown(path, name, name, all));
             }
@@ -277,6 +337,15 @@ impl Quantity {
             parts: parts.iter().map(|&part| part.to_owned()).collect(),
             stress,
         })
+    }
+
+    /// The power of one over the distance with which it grows towards a contact: that of the static field.
+    pub(super) fn near_power(&self) -> f64 {
+        match self.unit.as_str() {
+            "m" | "m/s" | "m/s^2" => 1.0,
+            // stresses and strains
+            _ => 2.0,
+        }
     }
 
     /// Whether it has a sign.

@@ -1,8 +1,8 @@
 //! What is seen along the surface and down the axis of a section: distance against time, and the axis beside the static
 //! field.
 
-use super::frames::{Quantity, Section};
-use crate::error::PlotError;
+use super::frames::{Quantity, Section, between};
+use crate::error::{Drawn, PlotError};
 use crate::request::{Kind, Request};
 use crate::series::curve;
 use crate::words::{axis, of_quantity, with_unit};
@@ -15,61 +15,167 @@ use halfspace::{Kernel, Medium, Profile};
 /// Instants that are drawn, at most.
 const MOST_INSTANTS: usize = 600;
 
+/// Frames within a pulse below which a picture of distance against time is not smooth.
+const SMOOTH: f64 = 8.0;
+
 /// Distances along the surface against time, or depths on the axis, with the fronts that pass there.
-pub(crate) fn space_time(impact: &StoredImpact, request: &Request) -> Result<Panel, PlotError> {
-    let is_surface = request.kind == Some(Kind::Surface);
+pub(crate) fn space_time(impact: &StoredImpact, request: &Request, kind: Kind) -> Drawn<Panel> {
+    let is_surface = kind == Kind::Surface;
     let section = Section::of(impact)?;
-    let (frames, width) = (section.stored.time_s.len(), section.stored.r_m.len());
-    let chosen = (0..frames).step_by(frames.div_ceil(MOST_INSTANTS));
+    let width = section.stored.r_m.len();
+    let speeds = section.speeds;
     let distance = Axis::linear("distance from the axis").si("m");
-    let (usual, distances, distance, start_m, fronts) = match is_surface {
+    // between the nodes the largest wave is followed
+    let (usual, nodes, distance, start_m, fronts, speed) = match is_surface {
         true => {
             let (r_m, start_m) = (section.stored.r_m.clone(), section.disc_radius_m);
-            (section.usual(), r_m, distance, start_m, 3)
+            (section.usual(), r_m, distance, start_m, 3, speeds.rayleigh)
         }
         false => {
             let depth = Axis::linear("depth").si("m").reversed();
-            ("stress_zz", section.depths_m(), depth, 0.0, 2)
+            ("stress_zz", section.depths_m(), depth, 0.0, 2, speeds.p)
         }
     };
     let quantity = section.quantity(request, usual)?;
+    let known = &section.stored.time_s;
+    let span_s = request.span_within([known[0], known[known.len() - 1]])?;
     let (mut rows, mut times): (Vec<Vec<f64>>, Vec<f64>) = (Vec::new(), Vec::new());
-    for frame in chosen {
+    for frame in chosen(known, span_s, nodes[nodes.len() - 1] / speed) {
         let image = section.values(&quantity, frame)?;
-        times.push(section.stored.time_s[frame]);
+        times.push(known[frame]);
         rows.push(match is_surface {
             true => image[..width].to_vec(),
             false => image.iter().step_by(width).copied().collect(),
         });
     }
-    let (along, most) = (distances.len(), distances[distances.len() - 1]);
+    let most = nodes[nodes.len() - 1];
     let near_m = section.near_m(most);
-    let is_far: Vec<bool> = distances.iter().map(|d| *d > near_m).collect();
+    let is_far: Vec<bool> = nodes.iter().map(|d| *d > near_m).collect();
     let (colours, map) = section.colours(&quantity, &rows, &is_far);
-    let values = (0..along).flat_map(|i| rows.iter().map(move |row| row[i]));
-    let last_s = times[times.len() - 1];
-    let time = Axis::linear("time").si("s").range(times[0], last_s);
-    let image = Image::new(times, distances, values.collect(), colours, map);
+    let seen = Seen {
+        slowness: 1.0 / speed,
+        near: (section.disc_radius_m, quantity.near_power()),
+        nodes: &nodes,
+        times: &times,
+        rows: &rows,
+    };
+    let (distances, values) = seen.finer();
+    let [from_s, to_s] = span_s;
+    let time = Axis::linear("time").si("s").range(from_s, to_s);
+    let notes = coarse(&section, &times);
+    let image = Image::new(times, distances, values, colours, map);
     let mut panel = Panel::new(time, distance.range(0.0, most))
         .height(380.0)
         .legend(Legend::Off)
         .layer(Layer::Image(image));
     // S and R are close together: their names are not
     let named = [
-        ("P", section.speeds.p, 0.8),
-        ("S", section.speeds.s, 0.9),
-        ("R", section.speeds.rayleigh, 0.68),
+        ("P", speeds.p, 0.8),
+        ("S", speeds.s, 0.9),
+        ("R", speeds.rayleigh, 0.68),
     ];
     for (name, speed, share) in named.into_iter().take(fronts) {
         let at = |time_s: f64| (time_s, start_m + speed * (time_s - section.start_s));
-        let end_s = last_s.min(section.start_s + (most - start_m) / speed);
-        let points = vec![at(section.start_s), at(end_s)];
-        let place = at(section.start_s + share * (end_s - section.start_s));
+        let first_s = section.start_s.max(from_s);
+        let end_s = to_s.min(section.start_s + (most - start_m) / speed);
+        if first_s >= end_s {
+            continue;
+        }
         panel = panel
-            .line("", Style::Rimmed, points)
-            .layer(Layer::text(place, name));
+            .line("", Style::Rimmed, vec![at(first_s), at(end_s)])
+            .layer(Layer::text(at(first_s + share * (end_s - first_s)), name));
     }
-    Ok(panel)
+    Ok((panel, notes))
+}
+
+/// Frames within a span and as far around it as waves need from node to node, [`MOST_INSTANTS`] at most.
+fn chosen(known: &[f64], [from_s, to_s]: [f64; 2], around_s: f64) -> impl Iterator<Item = usize> {
+    let first = known
+        .partition_point(|&t| t <= from_s - around_s)
+        .saturating_sub(1);
+    let end = (known.partition_point(|&t| t < to_s + around_s) + 1).min(known.len());
+    (first..end).step_by((end - first).div_ceil(MOST_INSTANTS))
+}
+
+/// What the user should know of frames that are too far apart.
+fn coarse(section: &Section<'_>, times: &[f64]) -> Vec<String> {
+    let Some(step_s) = times
+        .windows(2)
+        .map(|pair| pair[1] - pair[0])
+        .reduce(f64::max)
+    else {
+        return Vec::new();
+    };
+    let (needed_s, known) = (section.pulse_s / SMOOTH, &section.stored.time_s);
+    let needed = ((known[known.len() - 1] - known[0]) / needed_s).ceil() + 1.0;
+    let [step, pulse] = [step_s, section.pulse_s].map(|time_s| with_unit(time_s, "s"));
+    let note = format!(
+        "the frames are {step} apart and the pulse lasts {pulse}, so waves look like dots: [map] frames = {needed} or more shows them"
+    );
+    Vec::from_iter((step_s > needed_s && known.len() > 2).then_some(note))
+}
+
+/// A field along a line at some instants.
+struct Seen<'a> {
+    /// Of the wave that is followed between nodes, in s/m.
+    slowness: f64,
+    /// Radius of the contact in m, and the power of one over the distance with which the field grows towards it.
+    near: (f64, f64),
+    /// Distances in m.
+    nodes: &'a [f64],
+    times: &'a [f64],
+    /// Values at the nodes, a row an instant.
+    rows: &'a [Vec<f64>],
+}
+
+impl Seen<'_> {
+    /// Distances at and between the nodes, and values there at every instant, instants fastest.
+    ///
+    /// A wave is at a place between two nodes as long after it was at the first as it needs from there, and likewise
+    /// before it is at the second: values are blended along its path. At one instant they would be those of two places,
+    /// which makes a wave that is narrower than a cell a row of dots.
+    fn finer(&self) -> (Vec<f64>, Vec<f64>) {
+        let last = self.nodes.len() - 1;
+        let weight = |d: f64| (d * d + self.near.0.powi(2)).powf(0.5 * self.near.1);
+        let (mut distances, mut values) = (Vec::new(), Vec::new());
+        for (i, part) in between(self.nodes) {
+            let next = (i + 1).min(last);
+            let width = self.nodes[next] - self.nodes[i];
+            let distance = self.nodes[i] + part * width;
+            let shares = [
+                (i, part * width, 1.0 - part),
+                (next, (part - 1.0) * width, part),
+            ];
+            let scaled = shares.map(|(node, further_m, share)| {
+                let scale = weight(self.nodes[node]) / weight(distance);
+                (node, further_m * self.slowness, scale, share)
+            });
+            values.extend(self.times.iter().map(|time_s| {
+                let (mut sum, mut total) = (0.0, 0.0);
+                for (node, later_s, scale, share) in scaled {
+                    if let Some(value) = self.at(node, time_s - later_s).filter(|_| share > 0.0) {
+                        sum += share * scale * value;
+                        total += share;
+                    }
+                }
+                if total > 0.0 { sum / total } else { f64::NAN }
+            }));
+            distances.push(distance);
+        }
+        (distances, values)
+    }
+
+    /// The value at a node at a time, linear between instants; the first before them, and none after them.
+    fn at(&self, node: usize, time_s: f64) -> Option<f64> {
+        let after = self.times.partition_point(|&t| t < time_s);
+        let known = self.times.get(after)?;
+        let Some(before) = after.checked_sub(1) else {
+            return Some(self.rows[0][node]);
+        };
+        let part = (time_s - self.times[before]) / (known - self.times[before]);
+        let [a, b] = [before, after].map(|frame| self.rows[frame][node]);
+        Some(a + part * (b - a))
+    }
 }
 
 /// Instants without times that are asked for: these shares of the pulse.
@@ -113,7 +219,7 @@ pub(crate) fn axis_profile(impact: &StoredImpact, request: &Request) -> Result<P
         largest = sizes[1..].iter().copied().fold(largest, f64::max);
         let positive = sizes[1..].iter().copied().filter(|size| *size > 0.0);
         smallest = positive.fold(smallest, f64::min);
-        let points = curve(&depths_mm, &sizes, f64::INFINITY);
+        let points = curve(&depths_mm, &sizes, [0.0, f64::INFINITY]);
         panel = panel.line(&name, Style::Plain, points);
     }
     if let Some(points) = static_points(&section, &quantity)? {

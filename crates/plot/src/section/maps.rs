@@ -1,10 +1,11 @@
 //! Maps of a section: frames, chosen so that waves are seen, and the largest value over time at every place.
 
-use super::frames::{Quantity, Section, quantile_of_sizes};
+use super::contour::contour;
+use super::frames::{Grid, Quantity, Section, quantile_of_sizes};
 use crate::error::{Drawn, PlotError};
 use crate::request::Request;
 use crate::words::{axis, of_quantity, with_unit};
-use figure::{ColourMap, Legend, Panel, Scale};
+use figure::{ColourMap, Layer, Legend, Panel, Scale, Style};
 use formats::stored::StoredImpact;
 
 /// Frames from which on a picture is a whole history.
@@ -15,9 +16,14 @@ const FEW: usize = 9;
 pub(crate) fn frames(impact: &StoredImpact, request: &Request, count: usize) -> Drawn<Vec<Panel>> {
     let section = Section::of(impact)?;
     let mut notes = Vec::new();
-    let mut chosen = match request.times_s.as_slice() {
-        [] => instants(&section, count),
-        given => section.asked(given)?,
+    let mut chosen = match (request.times_s.as_slice(), request.span_s) {
+        ([], None) => instants(&section, count),
+        ([], Some(_)) => within(&section, request, count)?,
+        (given, None) => section.asked(given)?,
+        (_, Some(_)) => {
+            let sentence = "times choose the frames and so does a span: give one of them";
+            return Err(PlotError::refused(None, sentence.to_owned()));
+        }
     };
     chosen.dedup();
     let quantity = section.quantity(request, section.usual())?;
@@ -38,7 +44,7 @@ pub(crate) fn frames(impact: &StoredImpact, request: &Request, count: usize) -> 
     let panel = |(&frame, values): (&usize, Vec<f64>)| {
         let time_s = section.stored.time_s[frame];
         let mut panel = section
-            .map(values, colours.clone(), map)
+            .map(section.finer(&quantity, &values), colours.clone(), map)
             .title(&with_unit(time_s, "s"))
             .legend(Legend::Off);
         panel.layers.extend(section.fronts(time_s));
@@ -63,40 +69,117 @@ fn instants(section: &Section<'_>, count: usize) -> Vec<usize> {
         .collect()
 }
 
-/// The map of the largest sizes over time, in decades of colour.
-pub(crate) fn peak(impact: &StoredImpact, request: &Request) -> Result<Panel, PlotError> {
+/// Frames evenly within the span that is asked for.
+fn within(section: &Section<'_>, request: &Request, count: usize) -> Result<Vec<usize>, PlotError> {
+    let known = &section.stored.time_s;
+    let [from_s, to_s] = request.span_within([known[0], known[known.len() - 1]])?;
+    let steps = (count - 1).max(1) as f64;
+    let time_s = |i: usize| from_s + (to_s - from_s) * i as f64 / steps;
+    Ok((0..count).map(|i| section.nearest(time_s(i))).collect())
+}
+
+/// The map of the largest sizes over time, in decades of colour, with the place of the largest and, where the target has a
+/// yield strength, how far von Mises' stress reaches it.
+pub(crate) fn peak(impact: &StoredImpact, request: &Request) -> Drawn<Panel> {
     /// Lower end of the colours, over the upper one.
     const DECADES: f64 = 1e-4;
     let section = Section::of(impact)?;
     let quantity = section.quantity(request, "von_mises")?;
-    let mut values: Vec<f64> = match section.stored.peak(&quantity.name) {
-        Some(stored) => section.turned(&stored).into_iter().map(f64::abs).collect(),
+    let (values, over, notes) = match section.stored.peak(&quantity.name) {
+        Some(stored) => (section.turned(&stored), "time".to_owned(), Vec::new()),
         None => over_frames(&section, &quantity)?,
     };
-    let positive = || values.iter().copied().filter(|v| *v > 0.0);
+    let sizes: Vec<f64> = values.into_iter().map(f64::abs).collect();
+    let mut grid = section.finer(&quantity, &sizes);
+    let of_yield = contour_of_yield(&section, &quantity, &grid);
+    let positive = || grid.values.iter().copied().filter(|v| *v > 0.0);
     let [low, high] = [0.05, 0.999].map(|share| quantile_of_sizes(positive(), share));
     // where no wave has come there is rounding, or nothing: the colour of the lower end
     let low = low.max(DECADES * high);
-    for value in &mut values {
+    for value in &mut grid.values {
         *value = value.max(low);
     }
-    let words = format!("{}, largest over time", of_quantity(&quantity.name));
+    let words = format!("{}, largest over {over}", of_quantity(&quantity.name));
     let colours = axis(&words, &quantity.unit, Scale::Logarithmic).range(low, high);
-    Ok(section.map(values, colours, ColourMap::Sequential))
+    let panel = section.map(grid, colours, ColourMap::Sequential);
+    let largest = largest_of(&section, &sizes);
+    let panel = with_landmarks(&section, panel, largest, of_yield, &quantity.unit);
+    Ok((panel, notes))
 }
 
-/// The largest sizes over the frames, for a file that has none over all samples.
-fn over_frames(section: &Section<'_>, quantity: &Quantity) -> Result<Vec<f64>, PlotError> {
+/// The line along which von Mises' stress is the yield strength of the target; none for others, or without a strength.
+fn contour_of_yield(
+    section: &Section<'_>,
+    quantity: &Quantity,
+    grid: &Grid,
+) -> Option<(f64, Vec<(f64, f64)>)> {
+    let strength_pa = section.impact.target.material().yield_strength_pa?;
+    let is_shown = quantity.name == "von_mises";
+    is_shown.then(|| (strength_pa, contour(grid, strength_pa)))
+}
+
+/// A panel with the largest value at its place, the size of the contact, and the contour of yield.
+fn with_landmarks(
+    section: &Section<'_>,
+    mut panel: Panel,
+    (largest, at): (f64, (f64, f64)),
+    of_yield: Option<(f64, Vec<(f64, f64)>)>,
+    unit: &str,
+) -> Panel {
+    let mut words = format!("contact radius {}", with_unit(section.disc_radius_m, "m"));
+    if let Some((strength_pa, points)) = of_yield {
+        let strength = with_unit(strength_pa, "Pa");
+        let reached = match (points.is_empty(), largest < strength_pa) {
+            (true, true) => "not reached",
+            (true, false) => "reached everywhere",
+            (false, _) => "reached within the line",
+        };
+        words += &format!(", yield strength {strength} {reached}");
+        panel = panel.line("", Style::Rimmed, points);
+    }
+    let label = format!("largest {}", with_unit(largest, unit));
+    panel.title(&words).layer(Layer::star(at, &label))
+}
+
+/// The largest of some sizes over the section with its place.
+fn largest_of(section: &Section<'_>, sizes: &[f64]) -> (f64, (f64, f64)) {
+    let width = section.stored.r_m.len();
+    let by_size = |a: &usize, b: &usize| sizes[*a].total_cmp(&sizes[*b]);
+    let largest = (0..sizes.len()).max_by(by_size).unwrap_or(0);
+    let (r_m, z_m) = (&section.stored.r_m, section.depths_m());
+    (sizes[largest], (r_m[largest % width], z_m[largest / width]))
+}
+
+/// The largest sizes over the frames, for a file that has none over all samples, with words for them and for the user.
+fn over_frames(
+    section: &Section<'_>,
+    quantity: &Quantity,
+) -> Result<(Vec<f64>, String, Vec<String>), PlotError> {
     /// Frames that are looked at, at most.
     const MOST_FRAMES: usize = 2000;
     let frames = section.stored.time_s.len();
+    let looked_at = (0..frames).step_by(frames.div_ceil(MOST_FRAMES));
+    let count = looked_at.len();
     let mut peaks: Vec<f64> = Vec::new();
-    for frame in (0..frames).step_by(frames.div_ceil(MOST_FRAMES)) {
+    for frame in looked_at {
         let values = section.values(quantity, frame)?;
         peaks.resize(values.len(), 0.0);
         for (peak, value) in peaks.iter_mut().zip(values) {
             *peak = peak.max(value.abs());
         }
     }
-    Ok(peaks)
+    let name = &quantity.name;
+    let quantities = match section
+        .stored
+        .quantities()
+        .iter()
+        .any(|stored| stored.name == *name)
+    {
+        true => String::new(),
+        false => format!(" and quantities = [\"{name}\"]"),
+    };
+    let note = format!(
+        "the largest values are those of {count} frames, which may miss the true ones: [output] peaks = true{quantities} stores those of all samples"
+    );
+    Ok((peaks, format!("{count} frames"), vec![note]))
 }

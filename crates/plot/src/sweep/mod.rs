@@ -2,13 +2,13 @@
 
 mod view;
 
-use crate::error::{PlotError, chosen, kind_of};
+use crate::error::{Drawn, PlotError, chosen};
 use crate::request::{Kind, Request};
 use crate::words::{axis, of_key, stem};
+use contact::fall_velocity_m_s;
 use figure::{Axis, ColourMap, Figure, Image, Layer, Legend, Line, Panel, Scale, Style};
 use formats::quantities::Described;
 use formats::stored::StoredSweep;
-use formats::sweep::Column;
 use std::path::Path;
 use view::{Slice, View, quantiles};
 
@@ -35,8 +35,12 @@ const BINS: usize = 20;
 /// Values along a second axis from which on it is a heat map.
 const MANY: usize = 7;
 
-/// The key on the x axis of a picture of losses or of restitution.
+/// The keys on the x axis of a picture of losses or of restitution: a velocity, or a height from which it follows.
 const VELOCITY: &str = "striker.velocity_m_s";
+const DROP_HEIGHT: &str = "striker.drop_height_m";
+
+/// The result that is above 1 where a body yields.
+const YIELD_ONSET: &str = "yield_onset";
 
 /// The result that restitution is drawn over, where a sweep has it.
 const AT_YIELD: &str = "yield_velocity_m_s";
@@ -57,8 +61,8 @@ impl Shown<'_> {
     }
 }
 
-/// The figure of a sweep.
-pub(crate) fn of_sweep(path: &Path, request: &Request) -> Result<Figure, PlotError> {
+/// The figure of a sweep, and what its user should know.
+pub(crate) fn of_sweep(path: &Path, request: &Request) -> Drawn<Figure> {
     let sweep = &StoredSweep::open(path)?;
     let view = View::new(sweep, request)?;
     let along = view.along(request.along.as_deref())?;
@@ -66,7 +70,7 @@ pub(crate) fn of_sweep(path: &Path, request: &Request) -> Result<Figure, PlotErr
         (None, Some(_)) => Kind::Histogram,
         (Some(_), _) | (None, None) => Kind::Sweep,
     };
-    let kind = kind_of(request, suits)?;
+    let kind = request.kind_or(suits)?;
     // where only draws vary, over the first of their keys
     let along = match kind {
         Kind::Sweep => along.or(view.drawn),
@@ -78,11 +82,15 @@ pub(crate) fn of_sweep(path: &Path, request: &Request) -> Result<Figure, PlotErr
         Kind::Restitution => &["restitution"],
         _ => &USUAL,
     };
+    let rows = view.shown();
     let mut panels = Vec::new();
     for number in chosen(path, &known, &request.quantities, usual)? {
         let quantity = &known[number];
         let values = sweep.values(&quantity.name)?;
-        let axis = axis(&result_words(quantity), &quantity.unit, scale_of(&values));
+        let shown: Vec<f64> = rows.iter().map(|&row| values[row]).collect();
+        let usual = scale_of(&shown);
+        let scale = request.scale.unwrap_or(usual);
+        let axis = axis(&result_words(quantity), &quantity.unit, scale);
         let view = &view;
         let shown = Shown { view, axis, values };
         let mut panel = match kind {
@@ -93,7 +101,7 @@ pub(crate) fn of_sweep(path: &Path, request: &Request) -> Result<Figure, PlotErr
                 let hint = "a sweep over words alone has no axis to draw along; sweep --csv writes its rows";
                 let what = "key of numbers that varies";
                 let along = along.ok_or_else(|| PlotError::absent(path, what, hint))?;
-                over_keys(&shown, along, request.along.as_deref())?
+                over_keys(&shown, along, request)?
             }
         };
         if !panels.is_empty() {
@@ -102,18 +110,47 @@ pub(crate) fn of_sweep(path: &Path, request: &Request) -> Result<Figure, PlotErr
         }
         panels.push(panel);
     }
-    let (title, subtitle) = (stem(path), subtitle(&view, kind, along));
+    let subtitle = subtitle(&view, (kind, along), &rows)?;
     let columns = if panels.len() == 1 { 1 } else { 2 };
-    let figure = request.figure(&format!("Sweep {title}"), &subtitle, columns);
-    Ok(figure.panels(panels))
+    let title = title(path, sweep);
+    let figure = request.figure(&title, &subtitle, columns);
+    Ok((figure.panels(panels), Vec::new()))
 }
 
-/// How many scenes, and what bands are.
-fn subtitle(view: &View<'_>, kind: Kind, along: Option<usize>) -> String {
+/// The name of a sweep and the keys that vary.
+fn title(path: &Path, sweep: &StoredSweep) -> String {
+    /// Keys that are named, at most.
+    const MOST_KEYS: usize = 4;
+    let columns = sweep.axes.iter().flat_map(|axis| &axis.columns);
+    let keys: Vec<String> = columns.map(|column| of_key(&column.name()).0).collect();
+    let more = if keys.len() > MOST_KEYS { ", ..." } else { "" };
+    let named = keys[..keys.len().min(MOST_KEYS)].join(", ");
+    format!("Sweep {} over {named}{more}", stem(path))
+}
+
+/// How many scenes, how many of them fail or yield, and what bands are.
+fn subtitle(
+    view: &View<'_>,
+    (kind, along): (Kind, Option<usize>),
+    shown: &[usize],
+) -> Result<String, PlotError> {
     let rows: usize = view.sweep.axes.iter().map(|axis| axis.len).product();
-    let mut text = format!("{rows} scenes");
+    let count = shown.len();
+    let mut text = match count == rows {
+        true => format!("{rows} scenes"),
+        false => format!("{count} of {rows} scenes"),
+    };
     if view.sweep.failed > 0 {
-        text.push_str(&format!(", {} of them failed", view.sweep.failed));
+        let of = if count == rows { "of them" } else { "of all" };
+        text.push_str(&format!(", {} {of} failed", view.sweep.failed));
+    }
+    let mut known = view.sweep.quantities().into_iter();
+    if known.any(|quantity| quantity.name == YIELD_ONSET) {
+        let onset = view.sweep.values(YIELD_ONSET)?;
+        let yielding = shown.iter().filter(|&&row| onset[row] > 1.0).count();
+        if yielding > 0 {
+            text.push_str(&format!(", {yielding} of {count} yield"));
+        }
     }
     if let Some(held) = view.held() {
         text.push_str(&format!(", held: {held}"));
@@ -128,7 +165,7 @@ fn subtitle(view: &View<'_>, kind: Kind, along: Option<usize>) -> String {
             true => format!("; {draws} draws in {BINS} bins: median, and where 90 % lie"),
         });
     }
-    text
+    Ok(text)
 }
 
 /// A result in words: `peak_force_n` is "peak force".
@@ -151,11 +188,12 @@ fn scale_of(values: &[f64]) -> Scale {
     }
 }
 
-/// The numbers of a key along an axis of a sweep, the one that is asked for, and their axis in a picture.
+/// The numbers of a key along an axis of a sweep, the one that is asked for, and their axis in a picture, which is linear
+/// where that is asked for.
 fn nodes(
     view: &View<'_>,
     number: usize,
-    asked: Option<&str>,
+    (asked, scale): (Option<&str>, Option<Scale>),
 ) -> Result<(Axis, Vec<f64>), PlotError> {
     let Some((column, values)) = view.numbers(number, asked) else {
         return Err(PlotError::no_numbers(&view.sweep.axes[number].name));
@@ -164,7 +202,9 @@ fn nodes(
     // grams for kilograms, which have a prefix already
     let factor = if unit == "kg" { 1e3 } else { 1.0 };
     let nodes: Vec<f64> = values.iter().map(|x| factor * x).collect();
-    Ok((axis(&name, unit, scale_of(&nodes)), nodes))
+    let linear = scale.filter(|scale| *scale == Scale::Linear);
+    let scale = linear.unwrap_or_else(|| scale_of(&nodes));
+    Ok((axis(&name, unit, scale), nodes))
 }
 
 /// Nodes with their indices, rising: values of a list or of a product need not rise.
@@ -175,7 +215,7 @@ fn rising(nodes: &[f64]) -> Vec<(usize, f64)> {
 }
 
 /// Lines over a key, or a heat map where a second key has many values.
-fn over_keys(shown: &Shown<'_>, along: usize, asked: Option<&str>) -> Result<Panel, PlotError> {
+fn over_keys(shown: &Shown<'_>, along: usize, request: &Request) -> Result<Panel, PlotError> {
     let view = shown.view;
     let others = view.free().into_iter().filter(|&i| i != along);
     let second = others
@@ -184,18 +224,18 @@ fn over_keys(shown: &Shown<'_>, along: usize, asked: Option<&str>) -> Result<Pan
     if let Some(second) = second
         && let [slice] = view.slices(&[along, second]).as_slice()
     {
-        return heat_map(shown, [along, second], slice);
+        return heat_map(shown, [along, second], slice, request.scale);
     }
-    lines(shown, along, asked)
+    lines(shown, along, (request.along.as_deref(), request.scale))
 }
 
-fn lines(shown: &Shown<'_>, along: usize, asked: Option<&str>) -> Result<Panel, PlotError> {
+fn lines(
+    shown: &Shown<'_>,
+    along: usize,
+    asked: (Option<&str>, Option<Scale>),
+) -> Result<Panel, PlotError> {
     let view = shown.view;
-    let mut slices = few(view, view.slices(&[along]), MOST_CURVES)?;
-    if let ([only], Some(_)) = (slices.as_mut_slice(), view.drawn) {
-        // by its name a band knows its curve
-        only.label = "draws".to_owned();
-    }
+    let slices = few(view, &[along], MOST_CURVES)?;
     let (axis, nodes) = nodes(view, along, asked)?;
     let mut panel = Panel::new(axis, shown.axis.clone());
     let style = match nodes.len() {
@@ -242,10 +282,15 @@ fn over_draws(panel: Panel, shown: &Shown<'_>, slice: &Slice, nodes: &[f64]) -> 
     panel.banded(&slice.label, Style::Marked, &bins.collect::<Vec<_>>())
 }
 
-fn heat_map(shown: &Shown<'_>, axes: [usize; 2], slice: &Slice) -> Result<Panel, PlotError> {
+fn heat_map(
+    shown: &Shown<'_>,
+    axes: [usize; 2],
+    slice: &Slice,
+    scale: Option<Scale>,
+) -> Result<Panel, PlotError> {
     let [along, second] = axes;
-    let nodes = |axis| nodes(shown.view, axis, None);
-    let ((x_axis, x), (y_axis, y)) = (nodes(along)?, nodes(second)?);
+    let nodes = |axis| nodes(shown.view, axis, (None, scale));
+    let ((mut x_axis, x), (y_axis, y)) = (nodes(along)?, nodes(second)?);
     let [x, y] = [x, y].map(|nodes| {
         let mut distinct = rising(&nodes);
         distinct.dedup_by(|a, b| a.1 == b.1);
@@ -259,17 +304,41 @@ fn heat_map(shown: &Shown<'_>, axes: [usize; 2], slice: &Slice) -> Result<Panel,
         }
     }
     let mut colours = shown.axis.clone();
-    colours.scale = scale_of(&values);
-    let [columns, rows] = [x, y].map(|nodes| nodes.into_iter().map(|node| node.1).collect());
-    let image = Image::new(columns, rows, values, colours, ColourMap::Sequential);
+    colours.scale = scale.unwrap_or_else(|| scale_of(&values));
+    let [columns, rows] =
+        [x, y].map(|nodes| nodes.into_iter().map(|node| node.1).collect::<Vec<_>>());
+    // between a few values nothing is known: each has its own column, on an axis that has room below the first
+    let has_cells = columns.len() < MANY;
+    if has_cells {
+        x_axis.scale = Scale::Linear;
+    }
+    let image = Image {
+        has_cells,
+        ..Image::new(columns, rows, values, colours, ColourMap::Sequential)
+    };
     let panel = Panel::new(x_axis, y_axis).height(280.0);
     Ok(panel.layer(Layer::Image(image)))
 }
 
 /// Results over the velocity of approach, on logarithmic axes.
 fn over_velocity(shown: &Shown<'_>) -> Result<Panel, PlotError> {
-    let along = shown.view.along(Some(VELOCITY))?.unwrap_or(0);
-    let mut panel = lines(shown, along, Some(VELOCITY))?;
+    let axes = &shown.view.sweep.axes;
+    let mut columns = axes.iter().flat_map(|axis| &axis.columns);
+    let is_height = columns.any(|column| column.name() == DROP_HEIGHT);
+    let key = if is_height { DROP_HEIGHT } else { VELOCITY };
+    let along = shown.view.along(Some(key))?.unwrap_or(0);
+    let mut panel = lines(shown, along, (Some(key), None))?;
+    if is_height {
+        for point in points_of(&mut panel) {
+            point.0 = fall_velocity_m_s(point.0);
+        }
+        for layer in &mut panel.layers {
+            if let Layer::Line(line) = layer {
+                let band = line.band.iter_mut().flatten();
+                band.for_each(|point| point.0 = fall_velocity_m_s(point.0));
+            }
+        }
+    }
     panel.y.scale = Scale::Logarithmic;
     panel.x = axis("velocity of approach", "m/s", Scale::Logarithmic);
     Ok(panel.height(380.0))
@@ -330,28 +399,29 @@ fn restitution(shown: &Shown<'_>) -> Result<Panel, PlotError> {
     Ok(panel.line("slope -1/4", Style::HeavyDashed, ends))
 }
 
-/// How often values occur, with their quantiles.
+/// How often values occur, with their quantiles where they are draws: those of a design say nothing.
 fn histogram(shown: &Shown<'_>) -> Result<Panel, PlotError> {
     let view = shown.view;
     let scale = shown.axis.scale;
     let mut panel = Panel::new(shown.axis.clone(), Axis::linear("scenes")).height(240.0);
-    let of = |slice: Slice| {
-        let rows = view.rows(&slice, &[]).into_iter();
-        (slice.label, rows.map(|row| shown.values[row]).collect())
-    };
+    let values = |rows: Vec<usize>| rows.into_iter().map(|row| shown.values[row]).collect();
     let groups: Vec<(String, Vec<f64>)> = match view.drawn {
         Some(_) => {
-            let slices = few(view, view.slices(&[]), MOST_HISTOGRAMS)?;
-            slices.into_iter().map(of).collect()
+            let slices = few(view, &[], MOST_HISTOGRAMS)?.into_iter();
+            let of = |slice: Slice| {
+                let found = values(view.rows(&slice, &[]));
+                (slice.label, found)
+            };
+            slices.map(of).collect()
         }
-        // all scenes are counted
-        None => vec![(String::new(), shown.values.clone())],
+        None => vec![(String::new(), values(view.shown()))],
     };
     for (label, found) in &groups {
         let bins = (2.0 * (found.len() as f64).cbrt()).ceil().clamp(5.0, 60.0) as usize;
         panel = panel.layer(Layer::Line(Line::histogram(label, found, bins, scale)));
     }
     if let [(_, found)] = groups.as_slice()
+        && view.drawn.is_some()
         && let Some(quantiles) = quantiles(found.iter().copied())
     {
         for (place, name) in quantiles.into_iter().zip(["5 %", "median", "95 %"]) {
@@ -361,19 +431,18 @@ fn histogram(shown: &Shown<'_>) -> Result<Panel, PlotError> {
     Ok(panel)
 }
 
-/// Slices if they are few enough for one panel.
-fn few(view: &View<'_>, slices: Vec<Slice>, most: usize) -> Result<Vec<Slice>, PlotError> {
+/// The slices beside the axes that are shown, if they are few enough for one panel.
+fn few(view: &View<'_>, shown: &[usize], most: usize) -> Result<Vec<Slice>, PlotError> {
+    let slices = view.slices(shown);
     if slices.len() <= most {
         return Ok(slices);
     }
-    let mut free = view.free().into_iter();
-    let key = free.find_map(|i| view.sweep.axes[i].columns.first());
     let path = view.sweep.path();
     let sentence = format!(
-        "{} would give {} curves, and {most} can be told apart: choose among them, such as by --at {}=VALUE",
+        "{} would give {} curves, and {most} can be told apart: choose among them, such as by --at {}",
         path.display(),
         slices.len(),
-        key.map_or_else(String::new, Column::name)
+        view.example(shown).unwrap_or_default()
     );
     Err(PlotError::refused(Some(path), sentence))
 }

@@ -76,6 +76,33 @@ impl<'a> View<'a> {
         Ok(with_numbers.rev().max_by_key(|&i| self.sweep.axes[i].len))
     }
 
+    /// Rows that are shown: those at the values that are held, draws and everything that varies included.
+    pub(super) fn shown(&self) -> Vec<usize> {
+        let axes = &self.sweep.axes;
+        let rows: usize = axes.iter().map(|axis| axis.len).product();
+        let is_shown = |row: &usize| {
+            let mut rest = *row;
+            let mut backwards = axes.iter().zip(&self.fixed).rev();
+            backwards.all(|(axis, fixed)| {
+                let index = rest % axis.len;
+                rest /= axis.len;
+                fixed.is_none_or(|fixed| fixed == index)
+            })
+        };
+        (0..rows).filter(is_shown).collect()
+    }
+
+    /// A value of a key that can be held, along a free axis that is not shown, as `key=value`.
+    pub(super) fn example(&self, shown: &[usize]) -> Option<String> {
+        let mut free = self.free().into_iter().filter(|axis| !shown.contains(axis));
+        let column = self.sweep.axes[free.next()?].columns.first()?;
+        let value = match &column.values {
+            Values::Texts(words) => words.first()?.clone(),
+            values => values.number(0)?.to_string(),
+        };
+        Some(format!("{}={value}", column.name()))
+    }
+
     /// All choices along the free axes that are not shown.
     pub(super) fn slices(&self, shown: &[usize]) -> Vec<Slice> {
         let mut found = vec![Slice {
