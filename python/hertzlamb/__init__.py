@@ -13,6 +13,7 @@ What there is
 -------------
 impact : one impact from a scene (a dictionary, a file or TOML text)
 infer : yield pressure or velocity from a rebound
+resolve : a scene with every default and material spelled out
 collide : many impacts, any key of the scene as an array
 sweep : a sweep file, or any part of its rows
 Table : a kernel table, for fields at many points

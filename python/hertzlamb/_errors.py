@@ -1,12 +1,40 @@
-"""What can go wrong, with the numbers that the sentences have."""
+"""Exceptions, with the values in their messages as attributes."""
 
 from __future__ import annotations
 
+import re
 from typing import Any
+
+_NUMBER = re.compile(r"[-+]?\d[\d.]*(?:e[-+]?\d+)?")
+
+
+class _Sentence(str):
+    """A message that equals another one if they differ in numbers only, so that Python's filters count both as one."""
+
+    __slots__ = ()
+
+    def _kind(self) -> str:
+        return _NUMBER.sub("#", str.__str__(self))
+
+    def __eq__(self, other: object) -> bool:
+        return self._kind() == other._kind() if isinstance(other, _Sentence) else str.__eq__(self, other)
+
+    def __ne__(self, other: object) -> bool:
+        return not self == other
+
+    def __hash__(self) -> int:
+        return hash(self._kind())
 
 
 class HertzlambWarning(UserWarning):
-    """What the user should know of a result: physics beyond its validity, an error above the tolerance."""
+    """A doubt about a result: physics beyond its validity, or an error above the tolerance.
+
+    Python's default filter prints each kind once for each line of your program, whatever numbers it contains: a loop
+    prints it once. ``run.warnings`` has all of them.
+    """
+
+    def __str__(self) -> str:
+        return _Sentence(super().__str__())
 
 
 class HertzlambError(Exception):

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     Floats = NDArray[np.float64]
 
 FIELDS = ("displacement_r", "displacement_z", "stress_rr", "stress_tt", "stress_zz", "stress_rz")
-"""Names of the fields, in the order of the last axis of `Fields.values_array`."""
+"""Names of the fields, in the order of the last axis of `Fields.array`."""
 
 
 class Fields(Mapping[str, "Floats"]):

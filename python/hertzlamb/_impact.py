@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Protocol
 
 from hertzlamb import _core
 from hertzlamb._errors import HertzlambWarning, OutputExists, SceneError
-from hertzlamb._fields import FIELDS
+from hertzlamb._names import OfEnergy, OfFields, OfProbes, OfSection
 from hertzlamb._progress import Progress, told
 from hertzlamb._table import Table
 
@@ -28,7 +28,10 @@ if TYPE_CHECKING:
 Scene = Mapping[str, Any] | str | os.PathLike[str]
 """A scene: a dictionary with the keys of a scene file, the path of a file, or TOML text."""
 
-QUANTITIES: dict[str, list[str]] = _core.describe()["quantities"]
+DESCRIBED: dict[str, Any] = _core.describe()
+"""Units and meanings of all names, by the part of the results that they are in."""
+
+QUANTITIES: dict[str, list[str]] = DESCRIBED["quantities"]
 """Unit, meaning and kind of every scalar result."""
 
 
@@ -110,10 +113,13 @@ class _Group(Mapping[str, "NDArray[Any]"]):
     def __len__(self) -> int:
         return len(self._arrays)
 
-    def __getattr__(self, name: str) -> NDArray[Any]:
-        if not name.startswith("_") and name in self._arrays:
-            return self[name]
-        raise AttributeError(f"{type(self).__name__} has no {name!r}; there are {', '.join(self._arrays)}{self._more}")
+    if not TYPE_CHECKING:  # for type checkers, `_names` has the attributes
+
+        def __getattr__(self, name: str) -> NDArray[Any]:
+            if not name.startswith("_") and name in self._arrays:
+                return self[name]
+            there = ", ".join(self._arrays)
+            raise AttributeError(f"{type(self).__name__} has no {name!r}; there are {there}{self._more}")
 
     def __dir__(self) -> list[str]:
         return [*super().__dir__(), *self._arrays]
@@ -129,14 +135,18 @@ class _Group(Mapping[str, "NDArray[Any]"]):
         self._arrays = state["_arrays"]
 
 
-class Energy(_Group):
+class Energy(_Group, OfEnergy):
     """Where the energy is over time in J: ``kinetic`` or ``work``, ``stored``, ``radiated`` and, where a contact yields, ``plastic``, each (time,)."""
 
 
 _ASK = '; the scene asks for more, such as "output": {"quantities": ["velocity_z"]}'
 
 
-class Probes(_Group):
+class Errors(_Group, OfFields):
+    """Estimated absolute errors of fields by name, each in the unit of its field, (probe,)."""
+
+
+class Probes(_Group, OfProbes):
     """Fields over time at the probes of a scene, by name and as attributes.
 
     ``r`` and ``z`` in m (probe,); ``arrival`` in s (probe, 3) of the first P, S and Rayleigh wave, infinite where there is
@@ -165,14 +175,14 @@ class Probes(_Group):
         return self._time
 
     @property
-    def error(self) -> _Group:
+    def error(self) -> Errors:
         """Estimated absolute error of each field, in its unit, (probe,)."""
         ending = "_error"
         names = [name.removesuffix(ending) for name in self._arrays if name.endswith(ending)]
-        return _Group({name: self._arrays[name + ending] for name in names})
+        return Errors({name: self._arrays[name + ending] for name in names})
 
 
-class Section(_Group):
+class Section(_Group, OfSection):
     """Fields on a meridional section, by name and as attributes.
 
     ``time`` (frame,), ``z`` (z,) descending and ``r`` (r,) in s and m; the six fields (frame, z, r) in single precision,
@@ -266,14 +276,16 @@ class Impact:
     def __init__(self, core: _Results) -> None:
         self._core = core
 
-    def __getattr__(self, name: str) -> Any:
-        # scalars, looked up once and kept
-        if name in QUANTITIES:
-            missing = {"real": float("nan"), "count": 0}
-            for each, value in self._core.numbers().items():
-                self.__dict__[each] = missing[QUANTITIES[each][2]] if value is None else value
-            return self.__dict__[name]
-        raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
+    if not TYPE_CHECKING:  # for type checkers, the annotations above are the attributes
+
+        def __getattr__(self, name: str) -> float:
+            # scalars, looked up once and kept
+            if name in QUANTITIES:
+                missing = {"real": float("nan"), "count": 0}
+                for each, value in self._core.numbers().items():
+                    self.__dict__[each] = missing[QUANTITIES[each][2]] if value is None else value
+                return self.__dict__[name]
+            raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
 
     def __dir__(self) -> list[str]:
         return [*super().__dir__(), *QUANTITIES]
@@ -374,11 +386,14 @@ class Impact:
         return of_impact(self)
 
     def save(self, path: str | os.PathLike[str], *, overwrite: bool = False) -> None:
-        """Writes the results file of the command, HDF5, byte for byte."""
+        """Writes the results file of ``hertzlamb impact -o``, HDF5: the same datasets and attributes, bit for bit.
+
+        The bytes around them are those of the HDF5 library that is compiled into this package; the command may use another.
+        """
         self._core.save(path, overwrite, csv=False)
 
     def save_csv(self, path: str | os.PathLike[str], *, overwrite: bool = False) -> None:
-        """Writes the time series and the traces of the probes as text, as ``hertzlamb impact --csv`` does."""
+        """Writes the time series and the traces of the probes as text: byte for byte the file of ``hertzlamb impact --csv``."""
         self._core.save(path, overwrite, csv=True)
 
     def plot(self, *, axes: Axes | None = None) -> Axes:
@@ -444,8 +459,9 @@ def impact(
     Parameters
     ----------
     scene : dict, path or str
-        The keys of a scene file as nested dictionaries, the path of a file, or TOML text. What a dictionary or a text
-        names, such as a force record, is looked for in the working directory.
+        The keys of a scene file as nested dictionaries, the path of a file, or TOML text. Files that a dictionary or a text
+        names, such as a force record, are looked for in the working directory. A measured force needs no file:
+        ``"force": {"time_s": times, "force_n": forces}`` with lists or arrays.
     table : Table or path, optional
         A kernel table for the fields at probes and on a section.
     kernel : {"auto", "direct", "table"}
@@ -482,26 +498,34 @@ def impact(
     with told(progress) as tell:
         core = _core.impact(scene, None if opened is None else opened._core, kernel, memory, threads, tell)
     for warning in core.warnings():
-        warnings.warn(warning, HertzlambWarning, stacklevel=2)
+        warnings.warn(HertzlambWarning(warning), stacklevel=2)
     return Impact(core)
 
 
 class Inferred(NamedTuple):
-    """What was inferred from a rebound, in SI units, with the contact that has it."""
+    """A yield pressure or a velocity inferred from a rebound, in SI units, with the results of the contact that has it.
+
+    An impact that stays elastic determines no yield pressure: every pressure from its own stress up has the same rebound.
+    """
 
     unknown: str
-    """What was sought."""
+    """The name of the value, ``"yield_pressure_pa"`` or ``"velocity_m_s"``."""
     value: float
-    """Its value."""
+    """The value for which the contact has the measure."""
     low: float | None
-    """The least that the error of the measure allows; None where no contact that yields has that."""
+    """Lower bound from the error of the measure; None if no yielding contact gives such a value."""
     high: float | None
-    """The most."""
+    """Upper bound from the error of the measure; None if there is none, as for an impact that stays elastic."""
     velocity_over_yield: float
+    """Velocity of approach over that at which yield begins."""
     yield_velocity_m_s: float
+    """Velocity of approach in m/s at which yield begins."""
     restitution: float
+    """Velocity of departure over velocity of approach."""
     contact_time_s: float
+    """Duration of the contact in s."""
     peak_force_n: float
+    """Largest contact force in N."""
 
 
 def infer(
@@ -526,14 +550,15 @@ def infer(
         Times in s between three bounces: the second over the first is the restitution of the bounce between, whose
         velocity follows from the first.
     error : float
-        Absolute error of what was measured, of both times for bounces.
+        Absolute error of the measure; of ``bounces``, of each of the two times.
     unknown : {"yield_pressure_pa", "velocity_m_s"}
         What is sought.
 
     Returns
     -------
     Inferred
-        The value with the band that the error makes of it, equal to those of ``hertzlamb infer`` to the last bit.
+        The value and its bounds, equal to those of ``hertzlamb infer`` to the last bit. They reflect the error of the
+        measure, not that of the law.
 
     Raises
     ------
@@ -549,7 +574,13 @@ def infer(
     >>> found.unknown, round(found.value / 1e9, 3)
     ('yield_pressure_pa', 0.749)
     """
-    pair = None if bounces is None else list(bounces)
+    pair = None
+    if bounces is not None:
+        try:
+            first, second = bounces
+        except (TypeError, ValueError):
+            raise SceneError("bounces are two times in s between three bounces, such as (0.32, 0.18)", key="infer") from None
+        pair = [first, second]
     one = {"restitution": restitution, "contact_time_s": contact_time_s, "peak_force_n": peak_force_n}
     given = {name: [value] for name, value in one.items() if value is not None} | ({"bounces": pair} if pair else {})
     if len(given) != 1:

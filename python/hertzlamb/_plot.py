@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import numpy as np
 
 from hertzlamb import _core
-from hertzlamb._impact import QUANTITIES
+from hertzlamb._impact import DESCRIBED, QUANTITIES
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from hertzlamb._impact import Impact
     from hertzlamb._sweep import Sweep
 
-_FIELDS: dict[str, list[str]] = {**_core.describe()["fields"], **_core.describe()["more"]}
+_FIELDS: dict[str, list[str]] = {**DESCRIBED["fields"], **DESCRIBED["more"]}
 """Unit and meaning of what can be asked of a point."""
 
 _PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n"), (1e-12, "p"))
@@ -50,7 +50,7 @@ def _styled(draw: Callable[..., _Drawn]) -> Callable[..., _Drawn]:
 
 
 def _scale(values: NDArray[Any], unit: str) -> tuple[float, str]:
-    """What to multiply values with, and the unit with its prefix; tenths of what is no length are read as they are."""
+    """What to multiply values with, and the unit with its prefix; values from 0.1 to 1 keep their unit, lengths excepted."""
     size = float(np.max(np.abs(values[np.isfinite(values)]), initial=0.0))
     if 0.1 <= size < 1.0 and unit != "m":
         return 1.0, unit

@@ -1,4 +1,4 @@
-"""How far work is: a function of the caller's, or a bar."""
+"""Progress reporting: a callback or a progress bar."""
 
 from __future__ import annotations
 

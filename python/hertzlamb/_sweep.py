@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+import math
 import os
 import warnings
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from hertzlamb import _core
-from hertzlamb._errors import HertzlambWarning, SceneError
-from hertzlamb._impact import QUANTITIES, Scene
+from hertzlamb._arrays import of_key
+from hertzlamb._errors import HertzlambWarning
+from hertzlamb._impact import DESCRIBED, QUANTITIES, Scene
+from hertzlamb._names import OfRows
 from hertzlamb._progress import Progress, told
 
 if TYPE_CHECKING:
@@ -25,17 +28,22 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
 
-MODELS: tuple[str, ...] = tuple(_core.describe()["models"])
+MODELS: tuple[str, ...] = tuple(DESCRIBED["models"])
 """Names of the contact models, by the number that stands for them."""
 
-_NAMES = tuple(QUANTITIES)
+_COUNTS = [name for name, (_, _, kind) in QUANTITIES.items() if kind == "count"]
 _FAILED = 255
 
 
-class _Rows(Mapping[str, "NDArray[Any]"]):
+class _Rows(Mapping[str, "NDArray[Any]"], OfRows):
     """Scalar results of many impacts, by name and as attributes."""
 
     _numbers: Floats
+    """The results that are held, (result, row)."""
+    _held: list[str]
+    """Their names."""
+    _chosen: list[str] | None
+    """The names that ``columns`` asked for; None for all."""
     _models: NDArray[np.uint8]
     _failures: dict[int, str]
     _shape: tuple[int, ...]
@@ -45,30 +53,43 @@ class _Rows(Mapping[str, "NDArray[Any]"]):
         """The keys that vary, of the shape of the results."""
         raise NotImplementedError
 
+    @property
+    def _names(self) -> list[str]:
+        """Names of the results, in order."""
+        return [name for name in self._held if self._chosen is None or name in self._chosen]
+
     def __getitem__(self, name: str) -> NDArray[Any]:
-        if name in QUANTITIES:
-            return self._numbers[:, _NAMES.index(name)].reshape(self._shape)
+        if name in self._names:
+            result: Floats = self._numbers[self._held.index(name)]
+            return result.reshape(self._shape)
         if name == "model":
-            return np.array([*MODELS, ""])[np.where(self._models == _FAILED, len(MODELS), self._models)].reshape(
-                self._shape
-            )
+            return self._model_names(np.array([*MODELS, ""])).reshape(self._shape)
         if name in self._keys:
             return self._keys[name]
         raise KeyError(f"{name!r} is not one of {', '.join(self)}")
 
+    def _model_names(self, names: NDArray[Any]) -> NDArray[Any]:
+        """The name of the model of each row, of all models and that of none."""
+        of_all: NDArray[Any] = names[np.where(self._models == _FAILED, len(MODELS), self._models)]
+        return of_all
+
     def __iter__(self) -> Any:
-        return iter([*self._keys, *_NAMES, "model"])
+        return iter([*self._keys, *self._names, "model"])
 
     def __len__(self) -> int:
-        return len(self._keys) + len(_NAMES) + 1
+        return len(self._keys) + len(self._names) + 1
 
-    def __getattr__(self, name: str) -> Floats:
-        if name in QUANTITIES:
-            return self[name]
-        raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
+    if not TYPE_CHECKING:  # for type checkers, `_names` has the attributes
+
+        def __getattr__(self, name: str) -> Floats:
+            if name in QUANTITIES:
+                if name in self._names:
+                    return self[name]
+                raise AttributeError(f"{name} is not among the columns asked for, {', '.join(self._names)}")
+            raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
 
     def __dir__(self) -> list[str]:
-        return [*super().__dir__(), *_NAMES]
+        return [*super().__dir__(), *self._names]
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -86,37 +107,61 @@ class _Rows(Mapping[str, "NDArray[Any]"]):
         return dict(self._failures)
 
     def _columns(self) -> dict[str, NDArray[Any]]:
-        """All columns, flat."""
-        columns = {name: np.ascontiguousarray(self[name]).reshape(-1) for name in self}
+        """All columns, flat; words as objects."""
+        keys = {name: np.ascontiguousarray(values).reshape(-1) for name, values in self._keys.items()}
+        columns = {name: values.astype(object) if values.dtype.kind == "U" else values for name, values in keys.items()}
+        columns |= {name: self[name].reshape(-1) for name in self._names}
+        columns["model"] = self._model_names(np.array([*MODELS, ""], dtype=object))
         failure = np.full(len(self._models), "", dtype=object)
         for row, reason in self._failures.items():
             failure[row] = reason
         return {**columns, "failure": failure}
 
     def to_pandas(self) -> pd.DataFrame:
-        """A row for each impact: the keys that vary, the results, the model, and why it failed."""
+        """A row for each impact: the keys that vary, the results, the model, and why it failed.
+
+        Counts such as ``contacts`` are integers (``Int64``), missing where an impact failed.
+        """
         import pandas as pd
 
-        return pd.DataFrame(self._columns())
+        columns: dict[str, Any] = self._columns()
+        for name, values in columns.items():
+            if name in _COUNTS:
+                columns[name] = pd.arrays.IntegerArray(*_counted(values))
+        return pd.DataFrame(columns)
 
     def to_arrow(self) -> pa.Table:
         """The same as a table of Arrow, with units and meanings as metadata of its fields."""
         import pyarrow as pa
 
-        columns = self._columns()
-        fields = []
-        for name, values in columns.items():
-            unit, meaning = QUANTITIES.get(name, ["", ""])[:2]
-            kind = pa.string() if values.dtype.kind in "UO" else pa.from_numpy_dtype(values.dtype)
-            fields.append(pa.field(name, kind, metadata={"units": unit, "long_name": meaning} if unit else None))
-        arrays = [pa.array(values, type=field.type) for values, field in zip(columns.values(), fields, strict=True)]
+        fields, arrays = [], []
+        for name, values in self._columns().items():
+            unit, meaning = [*QUANTITIES.get(name, ()), *DESCRIBED["keys"].get(name, ()), "", ""][:2]
+            if name in _COUNTS:
+                whole, missing = _counted(values)
+                array = pa.array(whole, mask=missing)
+            else:
+                array = pa.array(values, type=pa.string() if values.dtype.kind == "O" else None)
+            metadata = {"units": unit, "long_name": meaning} if unit else None
+            fields.append(pa.field(name, array.type, metadata=metadata))
+            arrays.append(array)
         return pa.Table.from_arrays(arrays, schema=pa.schema(fields))
 
     def to_polars(self) -> pl.DataFrame:
         """The same as a data frame of polars."""
         import polars as pl
 
-        return pl.DataFrame({name: values.tolist() if values.dtype == object else values for name, values in self._columns().items()})
+        columns = {}
+        for name, values in self._columns().items():
+            column = pl.Series(name, values.tolist() if values.dtype.kind == "O" else values)
+            columns[name] = column.fill_nan(None).cast(pl.Int64) if name in _COUNTS else column
+        return pl.DataFrame(columns)
+
+
+def _counted(values: Floats) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
+    """Counts as whole numbers, and where there is none."""
+    missing = np.isnan(values)
+    return np.where(missing, 0.0, values).astype(np.int64), missing
 
 
 class Collisions(_Rows):
@@ -132,9 +177,11 @@ class Collisions(_Rows):
         failures: dict[int, str],
         keys: dict[str, NDArray[Any]],
         shape: tuple[int, ...],
+        names: tuple[list[str], list[str] | None],
     ) -> None:
         self._numbers, self._models, self._failures = numbers, models, failures
         self._given, self._shape = keys, shape
+        self._held, self._chosen = names
 
     @cached_property
     def _keys(self) -> dict[str, NDArray[Any]]:
@@ -151,8 +198,8 @@ class Collisions(_Rows):
         return f"{shape} impacts, {len(self._failures)} failed; {', '.join(self._given)} vary"
 
     def __reduce__(self) -> tuple[Any, ...]:
-        parts = (self._numbers, self._models, self._failures, self._given, self._shape)
-        return Collisions, parts
+        names = (self._held, self._chosen)
+        return Collisions, (self._numbers, self._models, self._failures, self._given, self._shape, names)
 
 
 class Sweep(_Rows):
@@ -169,9 +216,11 @@ class Sweep(_Rows):
         spec: dict[str, Any],
         axes: list[tuple[str, int, dict[str, NDArray[Any]]]],
         rows: range,
+        names: tuple[list[str], list[str] | None],
         plan: _core.Plan | None = None,
     ) -> None:
         self._numbers, self._models, self._failures = numbers, models, failures
+        self._held, self._chosen = names
         self._spec, self._axes, self._range, self._plan = spec, axes, rows, plan
         self._shape = (len(rows),)
 
@@ -213,11 +262,14 @@ class Sweep(_Rows):
         return of_sweep(self)
 
     def save(self, path: str | os.PathLike[str], *, overwrite: bool = False) -> None:
-        """Writes the command's file of a whole sweep: HDF5; Parquet or text where the name ends with ``.parquet`` or ``.csv``."""
+        """Writes the file of ``hertzlamb sweep`` for a whole sweep: HDF5, or Parquet or text for the file extensions ``.parquet`` and ``.csv``.
+
+        It has the results that ``columns`` of `hertzlamb.sweep` named, as that of ``hertzlamb sweep --columns`` has.
+        """
         if not self.is_whole:
             total = int(np.prod([length for _, length, _ in self._axes]))
             raise ValueError(f"these are {len(self._range)} of {total} rows: a sweep file holds all of them")
-        plan = _core.plan(self._spec) if self._plan is None else self._plan
+        plan = _core.plan(self._spec, self._chosen) if self._plan is None else self._plan
         plan.save(path, self._numbers, self._models, list(self._failures.items()), overwrite)
 
     def plot(self, quantity: str = "restitution", *, axes: Axes | None = None) -> Axes:
@@ -231,21 +283,22 @@ class Sweep(_Rows):
         return f"{len(self._range)} rows of the sweep over {axes}, {len(self._failures)} failed"
 
     def __reduce__(self) -> tuple[Any, ...]:
-        parts = (self._numbers, self._models, self._failures, self._spec, self._axes, self._range)
-        return Sweep, parts
+        names = (self._held, self._chosen)
+        return Sweep, (self._numbers, self._models, self._failures, self._spec, self._axes, self._range, names)
 
 
 def _warn(failures: list[tuple[int, str]], rows: int) -> None:
     if failures:
         row, reason = failures[0]
         message = f"{len(failures)} of {rows} impacts failed, the first in row {row} (rows count from 0): {reason}"
-        warnings.warn(message, HertzlambWarning, stacklevel=3)
+        warnings.warn(HertzlambWarning(message), stacklevel=3)
 
 
 def sweep(
     sweep: Scene,
     *,
     rows: slice | range | None = None,
+    columns: Sequence[str] | None = None,
     threads: int | None = None,
     progress: Progress = None,
 ) -> Sweep:
@@ -257,6 +310,9 @@ def sweep(
         The keys of a sweep file as nested dictionaries, the path of a file, or TOML text.
     rows : slice or range, optional
         Which rows, as those of a list; each has the same bits as in the whole.
+    columns : sequence of str, optional
+        Names of the results to keep, such as ``["restitution", "loss"]``, as ``--columns`` of the command; default: all.
+        A row takes 8 bytes for each.
     threads : int, optional
         Threads, all processors otherwise.
     progress : bool or callable, optional
@@ -272,12 +328,14 @@ def sweep(
     HertzlambWarning
         Rows have failed.
     """
-    plan = _core.plan(sweep)
+    plan = _core.plan(sweep, columns)
     wanted = range(plan.rows)
     if isinstance(rows, range):
         wanted = rows
-    elif rows is not None:
+    elif isinstance(rows, slice):
         wanted = wanted[rows]
+    elif rows is not None:
+        raise TypeError(f"rows = {rows!r} is neither a slice nor a range: give one such as rows=slice(0, 1000)")
     if wanted.step < 1:
         raise ValueError(f"rows = {rows}: the step is at least 1")
     if len(wanted) > 0 and not 0 <= wanted[0] <= wanted[-1] < plan.rows:
@@ -291,23 +349,27 @@ def sweep(
         (name, length, {key: np.asarray(values) for key, values in columns.items()})
         for name, length, columns in plan.axes()
     ]
-    return Sweep(numbers, models, dict(failures), plan.resolved(), axes, wanted, plan)
+    return Sweep(numbers, models, dict(failures), plan.resolved(), axes, wanted, _named(plan, columns), plan)
+
+
+def _named(plan: _core.Plan, columns: Sequence[str] | None) -> tuple[list[str], list[str] | None]:
+    """Names of the results that are held, and those that were asked for."""
+    return plan.results(), None if columns is None else list(columns)
 
 
 def _section_of(key: str) -> str:
     """The section of a scene that has a key."""
-    found = _core.sections_of(key)
+    found = _core.sections_of(key, ["columns", "threads", "progress"])
     if len(found) == 1:
         return found[0]
-    if found:
-        names = " or ".join(f"{section}__{key}" for section in found)
-        raise TypeError(f"{key} is a key of {' and of '.join(found)}: give {names}")
-    raise SceneError(f"unknown key {key}: it is in none of [target], [striker] and [contact]", key=key)
+    names = " or ".join(f"{section}__{key}" for section in found)
+    raise TypeError(f"{key} is a key of {' and of '.join(found)}: give {names}")
 
 
 def collide(
     scene: Scene,
     *,
+    columns: Sequence[str] | None = None,
     threads: int | None = None,
     progress: Progress = None,
     **keys: ArrayLike,
@@ -320,18 +382,30 @@ def collide(
     ----------
     scene : dict, path or str
         The scene as for `impact`; keys that vary may be left out of it.
+    columns : sequence of str, optional
+        Names of the results to keep, such as ``["restitution", "loss"]``; default: all. An impact takes 8 bytes for each.
     threads : int, optional
         Threads, all processors otherwise.
     progress : bool or callable, optional
         True for a bar; a function is called with the impacts that are done and how many there are.
     **keys : array_like
         Values of keys, numbers or words, broadcast: ``velocity_m_s=v``; where two sections have the key,
-        ``target__poisson_ratio=nu``.
+        ``target__poisson_ratio=nu``. NaN, infinity and masked entries are impacts that fail.
 
     Returns
     -------
     Collisions
         Results of the broadcast shape; an impact that failed is NaN, with its reason in ``failures``.
+
+    Raises
+    ------
+    SceneError
+        A key or a word that no scene has, or values that are not plain numbers or words.
+
+    Warns
+    -----
+    HertzlambWarning
+        Impacts have failed.
 
     Examples
     --------
@@ -343,29 +417,25 @@ def collide(
     """
     if not keys:
         raise TypeError("give at least one key as an array, such as velocity_m_s=...")
-    arrays = {name: _values(values) for name, values in keys.items()}
+    # the section first: a misspelt argument is not an array
+    places = {name: name.rpartition("__")[::2] for name in keys}
+    sections = {name: section or _section_of(key) for name, (section, key) in places.items()}
+    arrays = {name: of_key(name, values) for name, values in keys.items()}
     shape = np.broadcast_shapes(*(array.shape for array in arrays.values()))
-    names, columns = {}, []
+    count = math.prod(shape)
+    _core.check_at_once(count)
+    names, varying = {}, []
     for name, array in arrays.items():
-        section, _, key = name.rpartition("__")
+        section, key = sections[name], places[name][1]
         flat = np.broadcast_to(array, shape).reshape(-1)
         values = flat.tolist() if flat.dtype.kind == "U" else np.ascontiguousarray(flat)
-        section = section or _section_of(key)
         names[f"{section}.{key}"] = array
-        columns.append((section, key, values))
-    count = int(np.prod(shape))
+        varying.append((section, key, values))
+    plan = _core.plan_of_columns(scene, varying, columns)
     if count == 0:
-        empty = np.empty((0, len(_NAMES))), np.empty(0, dtype=np.uint8)
-        return Collisions(*empty, {}, names, shape)
-    plan = _core.plan_of_columns(scene, columns)
+        empty = np.empty((len(plan.results()), 0)), np.empty(0, dtype=np.uint8)
+        return Collisions(*empty, {}, names, shape, _named(plan, columns))
     with told(progress) as tell:
         numbers, models, failures = plan.compute(0, 1, count, threads, tell)
     _warn(failures, count)
-    return Collisions(numbers, models, dict(failures), names, shape)
-
-
-def _values(values: ArrayLike) -> NDArray[Any]:
-    array = np.asarray(values)
-    if array.dtype.kind == "U":
-        return array
-    return array.astype(np.float64)
+    return Collisions(numbers, models, dict(failures), names, shape, _named(plan, columns))

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from hertzlamb import _core
+from hertzlamb._arrays import numbers
 from hertzlamb._fields import FIELDS, Fields
 from hertzlamb._progress import Progress, told
 
@@ -185,9 +186,7 @@ class Table:
         OutsideTable
             With axis, value and range.
         """
-        points = np.broadcast_arrays(np.asarray(r, dtype=np.float64), np.asarray(z, dtype=np.float64))
-        shape = points[0].shape
-        flat_r, flat_z = (np.ascontiguousarray(each).reshape(-1) for each in points)
+        shape, (flat_r, flat_z) = numbers(r=r, z=z)
         with told(progress) as tell:
             array, still, error, width = self._core.trace(nu, flat_r, flat_z, coarsening, cells, smooth, threads, tell)
         time = (np.arange(array.shape[1]) + 0.5) * width
@@ -195,8 +194,8 @@ class Table:
         return Trace(
             array.reshape((*shape, *array.shape[1:])),
             nu=nu,
-            r=points[0],
-            z=points[1],
+            r=flat_r.reshape(shape),
+            z=flat_z.reshape(shape),
             time=time,
             cell_width=width,
             static=Fields(still.reshape((*shape, 6))),

@@ -7,9 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from hertzlamb import _core
 from hertzlamb._fields import FIELDS
-from hertzlamb._impact import QUANTITIES
+from hertzlamb._impact import DESCRIBED
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -18,16 +17,13 @@ if TYPE_CHECKING:
     from hertzlamb._sweep import Collisions, Sweep
     from hertzlamb._table import Trace
 
-_DESCRIBED: dict[str, Any] = _core.describe()
-_UNITS = {"_kg_m3": "kg/m^3", "_m_s": "m/s", "_kg": "kg", "_pa": "Pa", "_m": "m", "_s": "s"}
-
 
 def _attributes(part: str, name: str) -> dict[str, str]:
-    unit, meaning = _DESCRIBED[part][name][:2]
+    unit, meaning = DESCRIBED[part][name][:2]
     return {"units": unit, "long_name": meaning}
 
 
-_FIELDS: dict[str, list[str]] = {**_DESCRIBED["fields"], **_DESCRIBED["more"]}
+_FIELDS: dict[str, list[str]] = {**DESCRIBED["fields"], **DESCRIBED["more"]}
 _SUFFIXES = {
     "_error": "estimated absolute error: ",
     "_peak": "largest in magnitude over time: ",
@@ -62,7 +58,7 @@ def of_impact(run: Impact) -> xr.Dataset:
     if run._probes is not None:
         probes = run._probes
         coordinates["probe"] = ("probe", np.arange(1, len(probes.r) + 1), {"long_name": "number of the probe, from 1"})
-        coordinates["wave"] = ("wave", _DESCRIBED["waves"])
+        coordinates["wave"] = ("wave", DESCRIBED["waves"])
         for name in ("r", "z"):
             coordinates[name] = ("probe", probes[name], _attributes("places", name))
         variables["arrival"] = (("probe", "wave"), probes.arrival, _attributes("arrival", "arrival"))
@@ -78,7 +74,7 @@ def of_section(section: Section) -> xr.Dataset:
     coordinates = {name: (name, section[name], _attributes("map", name)) for name in ("time", "z", "r")}
     variables = _fields(section, ("time", "z", "r"), ("z", "r"))
     arrival = (("wave", "z", "r"), section.arrival, _attributes("arrival", "arrival"))
-    return xr.Dataset({**variables, "arrival": arrival}, {**coordinates, "wave": ("wave", _DESCRIBED["waves"])})
+    return xr.Dataset({**variables, "arrival": arrival}, {**coordinates, "wave": ("wave", DESCRIBED["waves"])})
 
 
 def of_trace(trace: Trace) -> xr.Dataset:
@@ -101,18 +97,13 @@ def of_trace(trace: Trace) -> xr.Dataset:
     return xr.Dataset(variables, coordinates, {"poisson_ratio": trace.nu, "cell_width": trace.cell_width})
 
 
-def _key_attributes(name: str) -> dict[str, str]:
-    unit = next((unit for ending, unit in _UNITS.items() if name.endswith(ending)), "1")
-    return {"units": unit, "long_name": f"scene key {name}"}
-
-
 def of_collisions(out: Collisions) -> xr.Dataset:
     import xarray as xr
 
     dims = tuple(f"dim_{i}" for i in range(len(out.shape)))
-    variables: dict[str, Any] = {name: (dims, out[name], _attributes("quantities", name)) for name in QUANTITIES}
+    variables: dict[str, Any] = {name: (dims, out[name], _attributes("quantities", name)) for name in out._names}
     variables["model"] = (dims, out.model)
-    keys = {name: (dims, values, _key_attributes(name)) for name, values in out._keys.items()}
+    keys = {name: (dims, values, _attributes("keys", name)) for name, values in out._keys.items()}
     return xr.Dataset(variables, keys)
 
 
@@ -124,14 +115,14 @@ def of_sweep(out: Sweep) -> xr.Dataset:
         dims, shape = tuple(out.axes), tuple(out.axes.values())
         for axis, _, columns in out._axes:
             for name, values in columns.items():
-                coordinates[name] = (axis, values, _key_attributes(name))
+                coordinates[name] = (axis, values, _attributes("keys", name))
     else:
         dims, shape = ("row",), (len(out.rows),)
         coordinates["row"] = ("row", np.asarray(out.rows), {"long_name": "row of the sweep, from 0"})
         for name, values in out._keys.items():
-            coordinates[name] = ("row", values, _key_attributes(name))
+            coordinates[name] = ("row", values, _attributes("keys", name))
     variables: dict[str, Any] = {
-        name: (dims, out[name].reshape(shape), _attributes("quantities", name)) for name in QUANTITIES
+        name: (dims, out[name].reshape(shape), _attributes("quantities", name)) for name in out._names
     }
     variables["model"] = (dims, out.model.reshape(shape))
     return xr.Dataset(variables, coordinates)

@@ -15,13 +15,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
-import numpy as np
-
 from hertzlamb import _core
+from hertzlamb._arrays import numbers
 from hertzlamb._fields import Fields
 from hertzlamb._progress import Progress, told
 
 if TYPE_CHECKING:
+    import numpy as np
     from numpy.typing import ArrayLike, NDArray
 
     Floats = NDArray[np.float64]
@@ -72,22 +72,16 @@ class Kernel(Fields):
         self.__init__(**state)  # type: ignore[misc]
 
 
-def _together(*values: ArrayLike) -> tuple[tuple[int, ...], list[Floats]]:
-    """The shape of all values together, and each of them in that shape, flat."""
-    arrays = np.broadcast_arrays(*(np.asarray(value, dtype=np.float64) for value in values))
-    return arrays[0].shape, [np.ascontiguousarray(array).reshape(-1) for array in arrays]
-
-
 def _of(
     order: str,
     nu: float,
-    places: tuple[ArrayLike, ArrayLike, ArrayLike],
+    places: dict[str, ArrayLike],
     profile: str,
     tolerance: float,
     threads: int | None,
     progress: Progress,
 ) -> Kernel:
-    shape, (r, z, t) = _together(*places)
+    shape, (r, z, t) = numbers(**places)
     with told(progress) as tell:
         value, error = _core.kernel(order, nu, r, z, t, profile, tolerance, threads, tell)
     return Kernel(value.reshape((*shape, 6)), error.reshape((*shape, 6)))
@@ -126,7 +120,7 @@ def step(
     Kernel
         Displacements in P/(mu r0) and stresses in P/r0^2 of the broadcast shape, with ``error``.
     """
-    return _of("step", nu, (r, z, t), profile, tolerance, threads, progress)
+    return _of("step", nu, {"r": r, "z": z, "t": t}, profile, tolerance, threads, progress)
 
 
 def remainder(
@@ -141,7 +135,7 @@ def remainder(
     progress: Progress = None,
 ) -> Kernel:
     """`step` less the `static` field, which dies away: what a table holds. Parameters as for `step`."""
-    return _of("remainder", nu, (r, z, t), profile, tolerance, threads, progress)
+    return _of("remainder", nu, {"r": r, "z": z, "t": t}, profile, tolerance, threads, progress)
 
 
 def impulse(
@@ -159,7 +153,7 @@ def impulse(
     Displacements are in c1/(mu r0^2), stresses in c1/r0^3; parameters as for `step`.
     At fronts stresses have roots in the denominator.
     """
-    return _of("impulse", nu, (r, z, t), "hertz", tolerance, threads, progress)
+    return _of("impulse", nu, {"r": r, "z": z, "t": t}, "hertz", tolerance, threads, progress)
 
 
 def step_integral(
@@ -177,7 +171,7 @@ def step_integral(
 
     The constant of integration is the same for all t at one (r, z).
     """
-    return _of("step_integral", nu, (r, z, t), profile, tolerance, threads, progress)
+    return _of("step_integral", nu, {"r": r, "z": z, "t": t}, profile, tolerance, threads, progress)
 
 
 def static(nu: float, r: ArrayLike, z: ArrayLike, *, profile: Profile = "hertz") -> Fields:
@@ -197,13 +191,13 @@ def static(nu: float, r: ArrayLike, z: ArrayLike, *, profile: Profile = "hertz")
     Fields
         Displacements in P/(mu r0) and stresses in P/r0^2 of the broadcast shape.
     """
-    shape, (r, z) = _together(r, z)
-    return Fields(_core.static_field(nu, r, z, profile).reshape((*shape, 6)))
+    shape, (flat_r, flat_z) = numbers(r=r, z=z)
+    return Fields(_core.static_field(nu, flat_r, flat_z, profile).reshape((*shape, 6)))
 
 
 def _surface(order: str, nu: float, t: ArrayLike, deflection: str) -> Floats:
-    shape, (t,) = _together(t)
-    return _core.surface(order, nu, t, deflection).reshape(shape)
+    shape, (flat,) = numbers(t=t)
+    return _core.surface(order, nu, flat, deflection).reshape(shape)
 
 
 def surface_step(nu: float, t: ArrayLike, *, deflection: Deflection = "centre") -> Floats:
@@ -239,8 +233,8 @@ def surface_step_integral(nu: float, t: ArrayLike, *, deflection: Deflection = "
 
 def surface_centre(nu: float, t: ArrayLike) -> Floats:
     """`surface_step` of the centre by the closed form of Kausel (2012), over time in r0/c2: an independent route."""
-    shape, (t,) = _together(t)
-    return _core.surface_centre(nu, t).reshape(shape)
+    shape, (flat,) = numbers(t=t)
+    return _core.surface_centre(nu, flat).reshape(shape)
 
 
 @dataclass(frozen=True)

@@ -32,7 +32,8 @@ impl SceneError {
         }))
     }
 
-    fn of(sentence: String, key: impl Into<String>) -> Self {
+    /// One of a key.
+    pub(crate) fn of(sentence: String, key: impl Into<String>) -> Self {
         let mut error = Self::told(sentence);
         error.0.culprit.key = Some(Cow::Owned(key.into()));
         error

@@ -90,6 +90,31 @@ fn results_say_until_when_they_hold() {
     );
 }
 
+/// On a face the echo is the first arrival: the motion of a half-space is none of the block's there.
+#[test]
+fn places_on_a_face_are_told() {
+    let of = |block: &str, rest: &str| {
+        let warnings = run(block, rest).unwrap().warnings;
+        let told = warnings.into_iter().filter(|w| w.contains("free face"));
+        told.collect::<Vec<_>>()
+    };
+    let below = of("thickness_m = 0.02", PROBES);
+    assert!(
+        below.len() == 1 && below[0].starts_with("probe 1 is on a free face"),
+        "{below:?}"
+    );
+    let beside = of("thickness_m = 0.03\nradius_m = 0.03", PROBES);
+    assert!(
+        beside.len() == 1 && beside[0].contains("r_m = radius_m = 0.03 m"),
+        "{beside:?}"
+    );
+    assert!(of("thickness_m = 0.0201\nradius_m = 0.0301", PROBES).is_empty());
+    let section = "[map]\nr_max_m = 0.004\nz_max_m = 0.007\npoints = [2, 2]\nframes = 2\n";
+    let section = |thickness: &str| of(thickness, section);
+    assert_eq!(section("thickness_m = 0.007").len(), 1);
+    assert!(section("thickness_m = 0.0071").is_empty());
+}
+
 /// A delayed pulse arrives later, and there is no Rayleigh wave below the contact.
 #[test]
 fn arrivals_count_from_the_force_and_rayleigh_waves_run_along_the_surface() {

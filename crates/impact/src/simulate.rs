@@ -7,6 +7,7 @@ use crate::evaluator::Evaluator;
 use crate::evaluator::convolve::{Method, rises};
 use crate::evaluator::projection::Projection;
 use crate::excitation::Excitation;
+use crate::fields::faces;
 use crate::fields::probes::{at_probes, frames, on_section};
 use crate::grid::{Grid, Wanted};
 use crate::impact::Impact;
@@ -202,11 +203,11 @@ fn add_fields(
     let evaluator = |wanted| Evaluator::new(&source, grid, wanted, quantities, watch);
     let mut convolution = Method::Direct;
     let all: Vec<usize> = (0..outcome.series.time_s.len()).collect();
+    let end_s = outcome.series.time_s.last().copied().unwrap_or(0.0);
     if !scene.probes.is_empty() {
         let evaluator = evaluator(&all)?;
         let found = at_probes(&evaluator, &scene.target, &scene.probes)?;
-        let end_s = outcome.series.time_s.last().copied().unwrap_or(0.0);
-        outcome.warnings.extend(found.echoes(end_s));
+        (outcome.warnings).extend(faces::of_probes(scene, &found, end_s));
         outcome.probes = Some(found);
         convolution = evaluator.method();
     }
@@ -217,6 +218,8 @@ fn add_fields(
             false => (&at, (0..at.len()).collect()),
         };
         let evaluator = evaluator(wanted)?;
+        let warnings = faces::of_section(&evaluator, &scene.target, section, end_s);
+        outcome.warnings.extend(warnings);
         outcome.section = Some(on_section(&evaluator, (section, &shown), scene.peaks)?);
         convolution = evaluator.method();
     }

@@ -2,9 +2,11 @@
 
 use crate::values::from_json;
 use fault::{Class, Fault};
+use pyo3::exceptions::PyOverflowError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use serde_json::{Map, Value};
+use std::ops::RangeInclusive;
 use std::path::Path;
 
 /// An exception of a class of `hertzlamb._errors`.
@@ -81,9 +83,46 @@ pub(crate) fn unknown(what: &str, found: &str, allowed: &[&str]) -> PyErr {
     exception("DomainError", &message, fields.into_iter().collect())
 }
 
-/// Refuses arrays that the memory does not hold: so many places of so many bytes each.
-pub(crate) fn check_memory(places: usize, bytes: usize) -> PyResult<()> {
-    let short = shortage(places, "places", bytes);
+/// A number of an argument that is outside its range, as it is to be shown.
+pub(crate) fn outside(argument: &str, value: &str, range: &str) -> PyErr {
+    let message = format!("{argument} = {value} is outside {range}");
+    let mut fields = Map::new();
+    fields.insert("argument".to_owned(), argument.into());
+    let number = value.parse().map_or(Value::from(value), |x: f64| x.into());
+    fields.insert("value".to_owned(), number);
+    fields.insert("range".to_owned(), range.into());
+    exception("DomainError", &message, fields)
+}
+
+/// A whole number of an argument in a range with a name.
+pub(crate) fn whole_in(
+    argument: &str,
+    value: &Bound<'_, PyAny>,
+    range: RangeInclusive<usize>,
+    name: &str,
+) -> PyResult<usize> {
+    let found = value.extract::<usize>();
+    let is_large = |error: &PyErr| error.is_instance_of::<PyOverflowError>(value.py());
+    let found = match found {
+        Err(error) if !is_large(&error) => return Err(error),
+        found => found.ok().filter(|whole| range.contains(whole)),
+    };
+    found.ok_or_else(|| outside(argument, &shown(value), name))
+}
+
+/// A value as Python writes it, the beginning of a long one.
+pub(crate) fn shown(value: &Bound<'_, PyAny>) -> String {
+    let shown = value.repr().map(|text| text.to_string());
+    let shown = shown.unwrap_or_else(|_| "?".to_owned());
+    match shown.char_indices().nth(60) {
+        Some((end, _)) => format!("{}...", &shown[..end]),
+        None => shown,
+    }
+}
+
+/// Refuses arrays that the memory does not hold: so many things of so many bytes each.
+pub(crate) fn check_memory(count: usize, things: &str, bytes: usize) -> PyResult<()> {
+    let short = shortage(count, things, bytes);
     short.map_or(Ok(()), |short| Err(plain("TooMuchMemory", &short)))
 }
 

@@ -4,7 +4,7 @@ use crate::errors::{one_of, plain, raise, raised_in, unknown};
 use crate::scene::{scene, spelled_out};
 use crate::table::{Opened, Table};
 use crate::values::{from_json, frozen, vector};
-use crate::work::run;
+use crate::work::{Threads, run};
 use contact::{Choice, Unknown};
 use formats::quantities::{Described, Kind, Labels, QUANTITIES, labels_of};
 use formats::results::{beside, peaks_of, schema};
@@ -34,7 +34,7 @@ pub(crate) fn run_impact(
     table: Option<&Bound<'_, Table>>,
     kernel: &str,
     max_memory_bytes: Option<f64>,
-    threads: Option<usize>,
+    threads: Option<Threads>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Outcome> {
     let (py, start) = (given.py(), Instant::now());

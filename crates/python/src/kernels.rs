@@ -2,7 +2,7 @@
 
 use crate::errors::{check_memory, one_of, plain, raise};
 use crate::values::{Array, fields, numbers, vector};
-use crate::work::{Ticker, run, run_short};
+use crate::work::{Threads, Ticker, run, run_short};
 use halfspace::{
     Arrivals, Deflection, DomainError, Estimate, Kernel, Medium, Profile, Six, SurfaceResponse,
     kausel,
@@ -78,7 +78,7 @@ pub(crate) fn kernel<'py>(
     t: PyReadonlyArray1<'py, f64>,
     profile: &str,
     tolerance: f64,
-    threads: Option<usize>,
+    threads: Option<Threads>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<(Array<'py>, Array<'py>)> {
     let (at, _) = one_of("order", order, &ORDERS)?;
@@ -89,7 +89,7 @@ pub(crate) fn kernel<'py>(
         return Err(plain("SceneError", "r, z and t differ in their lengths"));
     }
     // the places, the estimates, and the two arrays that are made of them
-    check_memory(rows, 3 * 8 + size_of::<Estimate>() + 2 * 6 * 8)?;
+    check_memory(rows, "places", 3 * 8 + size_of::<Estimate>() + 2 * 6 * 8)?;
     let (r, z, t) = (numbers(&r), numbers(&z), numbers(&t));
     let one = move |ticker: &Ticker, i: usize| {
         ticker.advance(1);
@@ -124,7 +124,7 @@ pub(crate) fn static_field<'py>(
     let profile = one_of("profile", profile, &PROFILES)?;
     let kernel = Kernel::new(&medium_of(nu)?, profile, 1e-6).map_err(raise)?;
     let rows = r.len()?;
-    check_memory(rows, 2 * 8 + 2 * 6 * 8)?;
+    check_memory(rows, "places", 2 * 8 + 2 * 6 * 8)?;
     let (r, z) = (numbers(&r), numbers(&z));
     let at = |(&r, &z): (&f64, &f64)| kernel.static_field(r, z);
     let found: Result<Vec<Six>, DomainError> =
@@ -144,7 +144,7 @@ pub(crate) fn surface<'py>(
     let (_, at) = one_of("order", order, &ORDERS)?;
     let deflection = one_of("deflection", deflection, &DEFLECTIONS)?;
     let response = SurfaceResponse::new(&medium_of(nu)?, deflection);
-    check_memory(t.len()?, 2 * 8)?;
+    check_memory(t.len()?, "times", 2 * 8)?;
     let t = numbers(&t);
     let found = run_short(py, || t.iter().map(|&t| at(&response, t)).collect())?;
     vector(py, found)
@@ -157,7 +157,7 @@ pub(crate) fn surface_centre<'py>(
     nu: f64,
     t: PyReadonlyArray1<'py, f64>,
 ) -> PyResult<Array<'py>> {
-    check_memory(t.len()?, 2 * 8)?;
+    check_memory(t.len()?, "times", 2 * 8)?;
     let (medium, t) = (medium_of(nu)?, numbers(&t));
     let at = |&t: &f64| kausel::centre_step(&medium, t);
     let found = run_short(py, || t.iter().map(at).collect())?;

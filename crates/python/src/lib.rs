@@ -39,7 +39,7 @@ mod _core {
         kernels::{arrivals, kernel, medium, static_field, surface, surface_centre},
         library::{describe, materials},
         scene::{resolved, sections_of},
-        sweep::{Plan, plan, plan_of_columns},
+        sweep::{Plan, check_at_once, plan, plan_of_columns},
         table::Table,
         tabulate::{extend, tabulate},
     };

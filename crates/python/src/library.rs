@@ -5,6 +5,7 @@ use crate::values::from_json;
 use contact::{Choice, Library, Model};
 use formats::quantities::{Kind, Labels, QUANTITIES, labels_of};
 use formats::results::schema;
+use formats::sweep::described_keys;
 use formats::{material_report, read_materials};
 use impact::Quantity as FieldQuantity;
 use pyo3::prelude::*;
@@ -45,10 +46,12 @@ pub(crate) fn describe(py: Python<'_>) -> PyResult<Bound<'_, PyAny>> {
         let row = json!([quantity.unit, quantity.meaning, kind]);
         (quantity.name.to_owned(), row)
     });
+    let keys = described_keys().map(|key| (key.name, json!([key.unit, key.meaning])));
     let more: Vec<_> = labels_of(FieldQuantity::ALL)
         .skip(schema::FIELDS.len())
         .collect();
     let found = json!({
+        "keys": Value::Object(keys.collect()),
         "more": part(&more),
         "quantities": Value::Object(quantities.collect()),
         "series": part(&schema::SERIES),

@@ -3,13 +3,14 @@
 use crate::errors::{self, raise};
 use crate::scene::{Given, from_toml};
 use crate::values::{Array, frozen, numbers, vector};
-use crate::work::{Ticker, run};
+use crate::work::{Threads, Ticker, run};
 use formats::quantities::QUANTITIES;
 use formats::sweep::{
-    BLOCK, Block, Column, Spec, Values, check_rows, compute_rows, stage_csv, stage_rows,
+    BLOCK, Column, Held, Spec, Values, check_rows, compute_columns, kept_places, stage_csv,
+    stage_rows,
 };
 use formats::{Existing, Output, SceneError};
-use numpy::{PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
+use numpy::{PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
 use output::CSV;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -21,26 +22,39 @@ use tabulator::Progress;
 #[pyclass(module = "hertzlamb._core", frozen)]
 pub(crate) struct Plan {
     spec: Arc<Spec>,
+    /// Places of the results that are kept of a row: without a choice all of them, else those that are chosen and those
+    /// that a file of the sweep needs beside them.
+    places: Vec<usize>,
 }
 
-/// The sweep of a dictionary, a path or a text.
+/// Checks that so many rows can be held in memory together.
 #[pyfunction]
-pub(crate) fn plan(given: &Bound<'_, PyAny>) -> PyResult<Plan> {
+pub(crate) fn check_at_once(rows: usize) -> PyResult<()> {
+    formats::sweep::check_at_once(rows).map_err(raise)
+}
+
+/// The sweep of a dictionary, a path or a text, with all results or those of some names.
+#[pyfunction]
+#[pyo3(signature = (given, columns=None))]
+pub(crate) fn plan(given: &Bound<'_, PyAny>, columns: Option<Vec<String>>) -> PyResult<Plan> {
     let py = given.py();
     let given = Given::new(given)?;
     let spec = move |_: &Ticker| given.read(Spec::from_table);
-    wrapped(run(py, None, None, spec)?)
+    wrapped(run(py, None, None, spec)?, columns)
 }
 
-/// The sweep of a scene whose keys (section, key) take values together, an array of numbers or a list of words each.
+/// The sweep of a scene whose keys (section, key) take values together, an array of numbers or a list of words each, with
+/// all results or those of some names.
 #[pyfunction]
+#[pyo3(signature = (given, keys, columns=None))]
 pub(crate) fn plan_of_columns(
     given: &Bound<'_, PyAny>,
-    columns: Vec<(String, String, Bound<'_, PyAny>)>,
+    keys: Vec<(String, String, Bound<'_, PyAny>)>,
+    columns: Option<Vec<String>>,
 ) -> PyResult<Plan> {
     let py = given.py();
     let scene = Given::new(given)?;
-    let columns = columns.into_iter().map(|(section, key, values)| {
+    let keys = keys.into_iter().map(|(section, key, values)| {
         let values = match values.extract::<PyReadonlyArray1<'_, f64>>() {
             Ok(array) => Values::Numbers(numbers(&array)),
             Err(_) => Values::Texts(values.extract()?),
@@ -51,17 +65,22 @@ pub(crate) fn plan_of_columns(
             values,
         })
     });
-    let columns: Vec<Column> = columns.collect::<PyResult<_>>()?;
-    let of = |table: &_, folder: &_| Spec::of_columns(table, folder, columns);
+    let keys: Vec<Column> = keys.collect::<PyResult<_>>()?;
+    let of = |table: &_, folder: &_| Spec::of_columns(table, folder, keys);
     let spec = move |_: &Ticker| scene.read(of);
-    wrapped(run(py, None, None, spec)?)
+    wrapped(run(py, None, None, spec)?, columns)
 }
 
 /// Values of an axis at most.
 const MOST_VALUES: usize = 10_000_000;
 
-fn wrapped(spec: Result<Spec, SceneError>) -> PyResult<Plan> {
-    let spec = spec.map_err(raise)?;
+fn wrapped(spec: Result<Spec, SceneError>, columns: Option<Vec<String>>) -> PyResult<Plan> {
+    let mut spec = spec.map_err(raise)?;
+    let mut places = (0..QUANTITIES.len()).collect();
+    if let Some(columns) = columns {
+        spec.fields = spec.fields.only(&columns).map_err(raise)?;
+        places = kept_places(&spec);
+    }
     // the axes are handed over as arrays
     if let Some(axis) = spec.axes.iter().find(|axis| axis.len > MOST_VALUES) {
         return Err(raise(SceneError::out_of_range(
@@ -71,10 +90,10 @@ fn wrapped(spec: Result<Spec, SceneError>) -> PyResult<Plan> {
         )));
     }
     let spec = Arc::new(spec);
-    Ok(Plan { spec })
+    Ok(Plan { spec, places })
 }
 
-/// Results by row and quantity, models, and failed rows with their reasons.
+/// Results by quantity and row, models, and failed rows with their reasons.
 type Computed<'py> = (Array<'py>, Array<'py, u8>, Vec<(usize, String)>);
 
 /// Bytes that the reason of a failed row takes, in Python and beside it.
@@ -111,6 +130,12 @@ impl Plan {
         from_toml(py, &self.spec.resolved)
     }
 
+    /// Names of the results that are kept of a row, in order.
+    fn results(&self) -> Vec<&'static str> {
+        let names = self.places.iter().map(|&place| QUANTITIES[place].name);
+        names.collect()
+    }
+
     /// Computes the rows from `start` on, every `step`-th.
     #[pyo3(signature = (start, step, count, threads=None, progress=None))]
     fn compute<'py>(
@@ -119,16 +144,16 @@ impl Plan {
         start: usize,
         step: usize,
         count: usize,
-        threads: Option<usize>,
+        threads: Option<Threads>,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<Computed<'py>> {
         // a row, and room for the reason of one that fails
-        errors::check_memory(count, 2 * 8 * (QUANTITIES.len() + 1))?;
-        let spec = Arc::clone(&self.spec);
+        errors::check_memory(count, "rows", 2 * 8 * (self.places.len() + 1))?;
+        let (spec, places) = (Arc::clone(&self.spec), self.places.clone());
         let (found, short) = run(py, threads, progress, move |ticker| {
             ticker.total("rows", count as u64);
             let mut short = None;
-            let found = compute_rows(&spec, start, step, count, |done, failed| {
+            let found = compute_columns(&spec, start, step, count, places, |done, failed| {
                 ticker.at(done as u64);
                 short = errors::shortage(failed + BLOCK, "reasons of rows that fail", REASON);
                 !ticker.is_stopped() && short.is_none()
@@ -138,14 +163,11 @@ impl Plan {
         if let Some(short) = short {
             return Err(errors::plain("TooMuchMemory", &short));
         }
-        let block = found.map_err(raise)?;
-        let block = block.ok_or_else(|| raise("the sweep was stopped"))?;
-        let shape = [block.len(), QUANTITIES.len()];
-        let (numbers, models) = (
-            frozen(py, block.numbers, &shape)?,
-            vector(py, block.models)?,
-        );
-        Ok((numbers, models, block.failures))
+        let held = found.map_err(raise)?;
+        let held = held.ok_or_else(|| raise("the sweep was stopped"))?;
+        let shape = [held.places.len(), held.models.len()];
+        let numbers = frozen(py, held.numbers, &shape)?;
+        Ok((numbers, vector(py, held.models)?, held.failures))
     }
 
     /// Writes the command's file of all rows, or its text.
@@ -158,11 +180,17 @@ impl Plan {
         failures: Vec<(usize, String)>,
         overwrite: bool,
     ) -> PyResult<()> {
-        let block = Block {
-            start: 0,
+        if numbers.shape() != [self.places.len(), self.spec.rows()] {
+            let (shape, rows) = (numbers.shape(), self.spec.rows());
+            let message = format!("results of the shape {shape:?} are not those of {rows} rows");
+            return Err(raise(message));
+        }
+        let held = Held {
             width: QUANTITIES.len(),
-            numbers: numbers.to_vec()?,
-            models: models.to_vec()?,
+            places: self.places.clone(),
+            // in the order of the indices, however they lie in memory
+            numbers: numbers.as_array().iter().copied().collect(),
+            models: models.as_array().iter().copied().collect(),
             failures,
         };
         let spec = Arc::clone(&self.spec);
@@ -173,9 +201,9 @@ impl Plan {
             }
             let output = Output::claim(&path, Existing::replaced(overwrite))?;
             if csv {
-                stage_csv(&output, &spec, &[block])?.commit()
+                stage_csv(&output, &spec, &held)?.commit()
             } else {
-                stage_rows(&output, &spec, &[block])?.commit()
+                stage_rows(&output, &spec, &held)?.commit()
             }
         })?
         .map_err(raise)

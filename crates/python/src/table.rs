@@ -1,8 +1,8 @@
 //! A kernel table: opened once, asked often; the parts that impacts have needed are kept for the next ones.
 
-use crate::errors::{self, raise};
+use crate::errors::{self, raise, whole_in};
 use crate::values::{Array, fields, from_json, frozen, numbers};
-use crate::work::{Ticker, run};
+use crate::work::{Threads, Ticker, run};
 use fault::AnyError;
 use formats::table_report;
 use impact::Tables;
@@ -66,12 +66,16 @@ impl Table {
         nu: f64,
         r: PyReadonlyArray1<'py, f64>,
         z: PyReadonlyArray1<'py, f64>,
-        coarsening: u32,
-        cells: Option<usize>,
+        coarsening: &Bound<'py, PyAny>,
+        cells: Option<&Bound<'py, PyAny>>,
         smooth: bool,
-        threads: Option<usize>,
+        threads: Option<Threads>,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<(Array<'py>, Array<'py>, Array<'py>, f64)> {
+        let coarsening =
+            whole_in("coarsening", coarsening, 0..=u32::MAX as usize, "[0, 20]")? as u32;
+        let cells = cells.map(|cells| whole_in("cells", cells, 1..=usize::MAX, "[1, inf)"));
+        let cells = cells.transpose()?;
         let places = numbers(&r).into_iter().zip(numbers(&z));
         let points: Vec<[f64; 2]> = places.map(|(r, z)| [r, z]).collect();
         let smoothness = match smooth {

@@ -2,7 +2,7 @@
 
 use crate::errors::{self, raise};
 use crate::scene::table;
-use crate::work::run;
+use crate::work::{Threads, run};
 use formats::Existing;
 use pyo3::prelude::*;
 use pyo3::types::PyString;
@@ -41,7 +41,7 @@ pub(crate) fn tabulate(
     time_factor: Option<f64>,
     accuracy: Option<(f64, f64)>,
     overwrite: bool,
-    threads: Option<usize>,
+    threads: Option<Threads>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<()> {
     let mut grid = grid_of(grid)?.with(nu, [r_max, z_max, time_factor]);
@@ -65,7 +65,7 @@ pub(crate) fn extend(
     r_max: Option<f64>,
     z_max: Option<f64>,
     time_factor: Option<f64>,
-    threads: Option<usize>,
+    threads: Option<Threads>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<()> {
     let extension = Extension {

@@ -3,7 +3,7 @@
 //! The work runs on a thread of its own while the caller's waits, attaches to the interpreter now and then, looks for
 //! signals, and calls the function that wants to know how far the work is.
 
-use crate::errors::{plain, raise};
+use crate::errors::{outside, plain, raise, whole_in};
 use pyo3::prelude::*;
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
@@ -22,6 +22,20 @@ const GRACE: Duration = Duration::from_millis(150);
 
 /// Threads at most: more than any machine has processors, fewer than a system has room for.
 const MOST_THREADS: usize = 1024;
+/// Their range.
+const THREADS: &str = "[1, 1024]";
+
+/// A number of threads that was asked for.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Threads(usize);
+
+impl<'py> FromPyObject<'_, 'py> for Threads {
+    type Error = PyErr;
+
+    fn extract(value: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        whole_in("threads", &value, 1..=MOST_THREADS, THREADS).map(Self)
+    }
+}
 
 /// The process that started the threads of the library; 0 while there are none.
 static OWNER: AtomicU32 = AtomicU32::new(0);
@@ -80,15 +94,11 @@ pub(crate) fn run_short<T: Send>(py: Python<'_>, work: impl FnOnce() -> T + Send
 /// much there is.
 pub(crate) fn run<T: Send + 'static>(
     py: Python<'_>,
-    threads: Option<usize>,
+    threads: Option<Threads>,
     progress: Option<Py<PyAny>>,
     work: impl FnOnce(&Ticker) -> T + Send + 'static,
 ) -> PyResult<T> {
     own()?;
-    if let Some(threads) = threads.filter(|threads| !(1..=MOST_THREADS).contains(threads)) {
-        let message = format!("threads = {threads} is outside [1, {MOST_THREADS}]");
-        return Err(plain("SceneError", &message));
-    }
     let ticker = Arc::new(Ticker::default());
     let (sender, mut receiver) = channel();
     let watched = Arc::clone(&ticker);
@@ -129,8 +139,8 @@ pub(crate) fn run<T: Send + 'static>(
 }
 
 /// The work among so many threads.
-fn within<T: Send>(threads: Option<usize>, work: impl FnOnce() -> T + Send) -> Result<T, String> {
-    let Some(count) = threads else {
+fn within<T: Send>(threads: Option<Threads>, work: impl FnOnce() -> T + Send) -> Result<T, String> {
+    let Some(Threads(count)) = threads else {
         return Ok(work());
     };
     let pool = rayon::ThreadPoolBuilder::new().num_threads(count).build();
@@ -152,8 +162,7 @@ fn own() -> PyResult<()> {
     let asked = std::env::var("RAYON_NUM_THREADS").unwrap_or_default();
     let too_many = |threads: usize| threads > MOST_THREADS;
     if asked.parse().is_ok_and(too_many) {
-        let message = format!("RAYON_NUM_THREADS = {asked} is outside [1, {MOST_THREADS}]");
-        return Err(plain("SceneError", &message));
+        return Err(outside("RAYON_NUM_THREADS", &asked, THREADS));
     }
     let process = std::process::id();
     match OWNER.compare_exchange(0, process, Ordering::Relaxed, Ordering::Relaxed) {

@@ -115,6 +115,36 @@ def test_package_and_examples_are_typed(tmp_path):
     mypy("mypy", "--strict", "--config-file", ROOT / "pyproject.toml", *examples, cwd=tmp_path)
 
 
+MISSPELT = """
+import hertzlamb as hl
+
+run = hl.impact("scene.toml")
+print(run.peak_forc_n)
+print(run.probes.displacment_z)
+print(run.probes.error.velocity_q)
+print(run.section.von_mise_peak)
+print(run.energy.kinetik)
+out = hl.collide("scene.toml", velocity_m_s=[1.0])
+print(out.restitutoin)
+print(hl.sweep("sweep.toml").los)
+"""
+RIGHT = """
+run.peak_force_n + run.contacts
+run.probes.von_mises + run.probes.stress_zz_peak_time + run.probes.time + run.probes.error.max_shear
+run.section.strain_rz_error + run.section.time + run.energy.plastic
+out.restitution + hl.sweep("sweep.toml", columns=["loss"]).loss
+"""
+
+
+def test_misspelt_attributes_are_errors_of_type_checkers(tmp_path):
+    (tmp_path / "misspelt.py").write_text(MISSPELT + RIGHT)
+    command = [sys.executable, "-m", "mypy", "--strict", "--config-file", ROOT / "pyproject.toml", "misspelt.py"]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True)
+    wrong = [n for n, line in enumerate(MISSPELT.splitlines(), 1) if line.startswith("print")]
+    found = [int(number) for number in re.findall(r"^misspelt.py:(\d+): error: .*has no attribute", done.stdout, re.M)]
+    assert found == wrong and done.stdout.count("error:") == len(wrong), done.stdout
+
+
 def test_the_stubs_are_those_of_the_module(tmp_path):
     mypy("mypy.stubtest", "hertzlamb._core", "--mypy-config-file", ROOT / "pyproject.toml", cwd=tmp_path)
 

@@ -1,5 +1,6 @@
 """How the package behaves: errors, threads, signals, pickles, forks, progress."""
 
+import itertools
 import multiprocessing
 import os
 import pickle
@@ -8,6 +9,7 @@ import subprocess
 import sys
 import threading
 import time
+import warnings
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
@@ -91,6 +93,193 @@ def test_a_failed_row_is_nan_with_its_reason():
         out = hl.collide(FORCE, velocity_m_s=[1.0, -1.0, 2.0])
     assert np.isnan(out.restitution[1]) and out.model[1] == "" and "velocity_m_s = -1" in out.failures[1]
     assert np.all(np.isfinite(out.restitution[[0, 2]]))
+
+
+def test_what_is_not_a_number_is_a_failed_row_with_its_place():
+    odd = [2.0, np.nan, 0.5, np.inf, -np.inf, 1e9]
+    with pytest.warns(hl.HertzlambWarning, match="4 of 6 impacts failed, the first in row 1"):
+        out = hl.collide(FORCE, velocity_m_s=odd)
+    assert sorted(out.failures) == [1, 3, 4, 5] and "velocity_m_s = NaN is outside (0, inf)" in out.failures[1]
+    whole = hl.collide(FORCE, velocity_m_s=[2.0, 0.5])
+    assert list(out.peak_force_n[[0, 2]]) == list(whole.peak_force_n)
+    # of any key, those that need a scene of their own too, and in the first row
+    for key in ("target__youngs_modulus_pa", "target__longitudinal_speed_m_s", "target__thickness_m", "tolerance"):
+        good = {"target__longitudinal_speed_m_s": 4500.0, "target__thickness_m": 1.0, "tolerance": 1e-3}.get(key, 5e10)
+        base = {**FORCE, "target": {"youngs_modulus_pa": 4.5e10, "poisson_ratio": 0.25, "density_kg_m3": 2650.0}}
+        if key == "target__longitudinal_speed_m_s":
+            base["target"] = {"density_kg_m3": 2650.0, "shear_speed_m_s": 2600.0}
+        out = hl.collide(base, **{key: [np.nan, good]})
+        assert list(out.failures) == [0] and np.isfinite(out.restitution[1]), key
+    # a number that is written down in a file of a sweep is still refused
+    with pytest.raises(hl.SceneError, match="velocity_m_s = NaN"):
+        hl.sweep({"scene": FORCE, "list": {"striker": {"velocity_m_s": [1.0, np.nan]}}})
+
+
+def test_what_an_array_means_beside_its_numbers_is_not_dropped():
+    masked = np.ma.array([[0.4, 0.6], [0.8, 1.0]], mask=[[0, 0], [1, 0]])
+    for given in (masked, list(masked)):
+        out = hl.collide(FORCE, velocity_m_s=given)
+        assert list(out.failures) == [2] and np.isnan(out.restitution[1, 0]) and np.isfinite(out.restitution[0, 0])
+    assert hl.kernels.static(0.3, np.ma.array([1.0, 2.0], mask=False), 0.5).stress_zz.shape == (2,)
+    with pytest.raises(hl.DomainError, match="r"):
+        hl.kernels.step(0.3, np.ma.array([1.0, 2.0], mask=[0, 1]), 0.5, 2.0)
+    day = np.array(["2026-03-01", "2026-03-02"], dtype="datetime64[ns]")
+    wrong = [day, day - day[0], np.array([1.0 + 2.0j]), np.array([True]), np.array([b"1"]), ["a", 2.0], object(), [[1.0], [1.0, 2.0]]]
+    for values in wrong:
+        with pytest.raises(hl.SceneError, match="velocity_m_s"):
+            hl.collide(FORCE, velocity_m_s=values)
+        for call in (hl.kernels.step, hl.kernels.remainder):
+            with pytest.raises(hl.DomainError, match="^t "):
+                call(0.3, 0.5, 0.6, values)
+    for value in (day[0], day[1] - day[0], np.complex64(1.0), np.ma.masked, np.ma.array(1.0, mask=True)):
+        with pytest.raises(hl.SceneError, match="striker.velocity_m_s"):
+            hl.impact({**FORCE, "striker": {**FORCE["striker"], "velocity_m_s": value}})
+
+
+class Quantity(np.ndarray):
+    """An array with a unit, as astropy has it."""
+
+    unit = "km / s"
+
+    def to(self, unit):
+        raise NotImplementedError
+
+
+def test_units_of_others_are_refused():
+    speed = np.array([0.1, 0.2]).view(Quantity)
+    with pytest.raises(hl.SceneError, match="velocity_m_s has the unit km / s"):
+        hl.collide(FORCE, velocity_m_s=speed)
+    with pytest.raises(hl.SceneError, match="striker.velocity_m_s has the unit"):
+        hl.impact({**FORCE, "striker": {**FORCE["striker"], "velocity_m_s": speed[:1]}})
+
+
+def test_words_of_any_kind_of_array_are_words():
+    pd = pytest.importorskip("pandas")
+    names = ["copper", "steel"]
+    for given in (names, np.array(names), np.array(names, dtype=object), pd.Series(names), pd.Categorical(names)):
+        out = hl.collide(FORCE, striker__material=given)
+        assert out.shape == (2,) and out.restitution[0] != out.restitution[1]
+    assert hl.collide(FORCE, velocity_m_s=pd.Series([0.5, None])).failures.keys() == {1}
+
+
+def test_numbers_beyond_all_floats_are_infinite():
+    for value, shown in ((10**400, "inf"), (-(10**5000), "-inf")):
+        with pytest.raises(hl.SceneError, match=f"striker.velocity_m_s = {shown} is outside"):
+            hl.impact({**FORCE, "striker": {**FORCE["striker"], "velocity_m_s": value}})
+        assert f"= {shown} is outside" in hl.collide(FORCE, velocity_m_s=[1.0, value]).failures[1]
+
+
+def test_endless_and_huge_lists_are_refused_at_once():
+    class Endless:
+        """A list that goes on beyond its length, and a mapping without an end."""
+
+        def __init__(self, length):
+            self.length = length
+
+        def __len__(self):
+            return self.length
+
+        def __iter__(self):
+            return itertools.repeat({"r_m": 0.01, "z_m": 0.0})
+
+    class EndlessMapping:
+        def items(self):
+            return ((f"k{i}", 1) for i in itertools.count())
+
+    start = time.perf_counter()
+    for probes in (itertools.count(), ({} for _ in itertools.count()), range(10**9), Endless(10**9), np.broadcast_to(0.0, 10**10)):
+        with pytest.raises((hl.SceneError, hl.TooMuchMemory), match="probe"):
+            hl.impact({**FORCE, "probe": probes})
+    with pytest.raises(hl.SceneError, match="at most 1000 keys"):
+        hl.impact({**FORCE, "output": EndlessMapping()})
+    with pytest.raises(hl.SceneError, match="two times"):
+        hl.infer(FORCE, bounces=itertools.count())
+    for values in (itertools.count(), range(10**9)):
+        with pytest.raises(hl.SceneError, match="velocity_m_s"):
+            hl.collide(FORCE, velocity_m_s=values)
+    with pytest.raises(hl.SceneError, match="number of rows in memory = 1000000000000 is outside"):
+        hl.collide(FORCE, velocity_m_s=np.broadcast_to(1.0, (10**6, 10**6)))
+    with pytest.raises(hl.SceneError, match="more than the 8 MB"):
+        hl.impact("x = " + "[" * 50_000_000)
+    assert time.perf_counter() - start < 5.0
+    assert hl.impact({**FORCE, "probe": Endless(2)}).probes.r.shape == (2,)
+
+
+def test_arguments_outside_their_range_are_one_kind_of_error(table):
+    opened = hl.Table.open(table)
+    for threads in (0, -1, 1025, 10**30):
+        calls = [
+            lambda: hl.impact(FORCE, threads=threads),
+            lambda: hl.collide(FORCE, velocity_m_s=[1.0], threads=threads),
+            lambda: hl.sweep(LONG, rows=slice(0, 1), threads=threads),
+            lambda: opened.trace(0.3, 0.5, 0.6, threads=threads),
+            lambda: hl.kernels.step(0.3, 0.5, 0.6, np.arange(20.0), threads=threads),
+        ]
+        for call in calls:
+            with pytest.raises(hl.DomainError, match=r"threads = -?\d+ is outside \[1, 1024\]") as caught:
+                call()
+            assert caught.value.argument == "threads" and float(caught.value.value) == float(threads)
+    with pytest.raises(TypeError, match="threads"):
+        hl.impact(FORCE, threads=2.5)
+    assert hl.impact(FORCE, threads=np.int64(1)).numbers == hl.impact(FORCE).numbers
+    for name in ("cells", "coarsening"):
+        with pytest.raises(hl.DomainError, match=f"{name} = -1 is outside"):
+            opened.trace(0.3, 0.5, 0.6, **{name: -1})
+    for rows in (5, [1, 2], np.arange(3), "0:3"):
+        with pytest.raises(TypeError, match="neither a slice nor a range"):
+            hl.sweep(LONG, rows=rows)
+
+
+def test_a_misspelt_argument_of_collide_is_named():
+    for wrong, right in (("velocty_m_s", "velocity_m_s"), ("thread", "threads"), ("colums", "columns"), ("poison_ratio", "poisson_ratio")):
+        with pytest.raises(hl.SceneError, match=f"unknown key {wrong}; did you mean {right}") as caught:
+            hl.collide(FORCE, **{wrong: [0.2]})
+        assert caught.value.suggestion == right
+    with pytest.raises(hl.SceneError, match="did you mean yield_strength_pa"):
+        hl.collide(FORCE, target__yield_strenght_pa=[1e9])
+
+
+LOOP = """
+import sys, warnings
+import hertzlamb as hl
+scene = {scene!r}
+for i in range(4):
+    scene["striker"]["velocity_m_s"] = 1.0 + i
+    {call}
+"""
+
+
+@pytest.mark.parametrize(
+    ("call", "times"),
+    [("hl.impact(scene)", 1), ("hl.collide(scene, diameter_m=[-i, 2e-3])", 1), ("warnings.simplefilter('always'); hl.impact(scene)", 4)],
+)
+def test_a_loop_prints_each_kind_of_warning_once(call, times):
+    scene = {
+        "target": {"material": "steel", "yield_strength_pa": 1e6},
+        "striker": {"material": "steel", "shape": "ball", "diameter_m": 2e-3},
+        "contact": {"disc_radius_m": 1e-3, "model": "wave"},
+    }
+    kinds = len(hl.impact({**scene, "striker": {**scene["striker"], "velocity_m_s": 1.0}}).warnings)
+    assert kinds > 2
+    if "collide" in call:
+        del scene["striker"]["diameter_m"]
+        kinds = 1
+    code = LOOP.format(scene=scene, call=call)
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    assert done.stderr.count("HertzlambWarning: ") == kinds * times, done.stderr
+
+
+def test_a_warning_is_an_error_where_a_filter_says_so():
+    scene = {**FORCE, "target": {"material": "steel", "yield_strength_pa": 1e6}}
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        for _ in range(2):
+            with pytest.raises(hl.HertzlambWarning, match="yield"):
+                hl.impact(scene)
+    with pytest.warns(hl.HertzlambWarning) as caught:
+        run = hl.impact(scene)
+    assert [each.message.args[0] for each in caught] == run.warnings
 
 
 def test_warnings_are_warnings():

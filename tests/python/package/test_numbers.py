@@ -10,6 +10,8 @@ import pytest
 
 import hertzlamb as hl
 from conftest import ROOT, run, run_well
+from hertzlamb import _names
+from hertzlamb._impact import DESCRIBED
 
 SCENES = ROOT / "scenes"
 BALL = {
@@ -159,7 +161,14 @@ def test_dictionary_path_and_text_are_one_scene(tmp_path):
 
 def test_every_result_has_an_attribute():
     described = hl.impact(BALL).numbers
-    assert list(hl.Impact.__annotations__) == list(described)
+    assert list(hl.Impact.__annotations__) == list(_names.OfRows.__annotations__) == list(described)
+    fields = [*DESCRIBED["fields"], *DESCRIBED["more"]]
+    assert list(_names.OfFields.__annotations__) == fields and list(_names.OfEnergy.__annotations__) == list(DESCRIBED["energy"])
+    beside = [f"{field}_{what}" for field in fields for what in ("error", "peak", "peak_time")]
+    assert list(_names.OfPlaces.__annotations__) == beside
+    run = hl.impact({**SECTION, "probe": BALL["probe"], "output": {"quantities": [*DESCRIBED["more"]], "peaks": True}})
+    for arrays, own in ((run.probes, _names.OfProbes), (run.section, _names.OfSection)):
+        assert set(arrays) == {*fields, *beside, *own.__annotations__}
 
 
 def test_what_was_not_asked_for_says_so():
@@ -210,7 +219,7 @@ def test_a_sweep_and_any_part_of_it_give_what_the_command_gives(tmp_path):
         assert same(whole.to_xarray()["striker.velocity_m_s"].values, file["axes/striker.velocity_m_s"][()])
     part = hl.sweep(FEW, rows=slice(7, 200, 5), threads=1)
     assert len(part.rows) == 39
-    assert same(part._numbers, whole._numbers[7:200:5])
+    assert same(part._numbers, whole._numbers[:, 7:200:5])
     assert same(part["contact.tolerance"], whole["contact.tolerance"][7:200:5])
     assert list(part["striker.material"]) == list(whole["striker.material"][7:200:5])
     whole.save(tmp_path / "here.csv")
@@ -248,6 +257,179 @@ def test_collide_gives_what_impact_gives_for_any_key():
     one = hl.impact({**ball, "striker": {**ball["striker"], "diameter_m": 2e-3, "drop_height_m": 0.1}})
     assert drop.restitution[1] == one.restitution
     assert hl.collide(scene, velocity_m_s=[], mass_kg=1.0).restitution.shape == (0,)
+
+
+COLUMNS = ["loss", "contacts", "peak_force_n"]
+
+
+def test_chosen_columns_are_those_of_the_command(tmp_path):
+    spec = tmp_path / "sweep.toml"
+    spec.write_text(FEW.replace("samples = 3", "samples = 2"))
+    run_well("sweep", spec, "-o", tmp_path / "few.h5", "--csv", tmp_path / "few.csv", "--columns", ",".join(COLUMNS))
+    whole, few = hl.sweep(spec), hl.sweep(spec, columns=COLUMNS)
+    assert [name for name in few if "." not in name] == ["peak_force_n", "loss", "contacts", "model"]
+    assert few._numbers.size < whole._numbers.size / 5
+    for name in COLUMNS:
+        assert same(few[name], whole[name]) and few[name].flags.c_contiguous, name
+    for each in (few, pickle.loads(pickle.dumps(few))):
+        each.save(tmp_path / "here.csv", overwrite=True)
+        assert (tmp_path / "here.csv").read_bytes() == (tmp_path / "few.csv").read_bytes()
+        each.save(tmp_path / "here.h5", overwrite=True)
+        with h5py.File(tmp_path / "few.h5") as one, h5py.File(tmp_path / "here.h5") as two:
+            assert set(one["results"]) == set(two["results"]) >= set(COLUMNS)
+            counted = [name for name in one.attrs if name not in ("created", "software_version")]
+            assert counted and all(np.array_equal(one.attrs[name], two.attrs[name]) for name in counted)
+    scene = {"target": {"material": "granite"}, "striker": {"material": "steel", "shape": "ball", "diameter_m": 3e-3}}
+    velocity = np.geomspace(0.1, 2.0, 5)
+    out, all_of_them = hl.collide(scene, columns=["restitution"], velocity_m_s=velocity), hl.collide(scene, velocity_m_s=velocity)
+    assert same(out.restitution, all_of_them.restitution) and list(out) == ["striker.velocity_m_s", "restitution", "model"]
+    assert list(out.to_xarray().data_vars) == ["restitution", "model"] and list(out.to_pandas())[1:] == ["restitution", "model", "failure"]
+    assert hl.collide(scene, columns=["loss"], velocity_m_s=[]).loss.shape == (0,)
+    with pytest.raises(AttributeError, match="loss is not among the columns asked for, restitution"):
+        _ = out.loss
+    with pytest.raises(hl.SceneError, match="column losss"):
+        hl.collide(scene, columns=["losss"], velocity_m_s=velocity)
+    with pytest.raises(TypeError):
+        hl.collide(scene, columns="loss", velocity_m_s=velocity)
+
+
+def test_numbers_are_saved_by_their_indices(tmp_path):
+    whole = hl.sweep(FEW)
+    whole.save(tmp_path / "one.csv")
+    for order in (np.asfortranarray, lambda numbers: np.repeat(numbers, 2, axis=1)[:, ::2], lambda numbers: numbers[::-1].copy()[::-1]):
+        other = hl.sweep(FEW)
+        other._numbers = order(other._numbers)
+        other.save(tmp_path / "two.csv", overwrite=True)
+        assert (tmp_path / "one.csv").read_bytes() == (tmp_path / "two.csv").read_bytes()
+    other._numbers = other._numbers[:, 1:]
+    with pytest.raises(hl.HertzlambError, match="not those of 240 rows"):
+        other.save(tmp_path / "two.csv", overwrite=True)
+
+
+EACH_KEY = """
+[scene.target]
+poisson_ratio = 0.27
+[scene.striker]
+shape = "rod"
+length_m = 0.1
+diameter_m = 0.02
+[list.target]
+youngs_modulus_pa = [6e10, 7e10]
+density_kg_m3 = [2600, 2700]
+yield_strength_pa = [1e9, 2e9]
+tensile_strength_pa = [1e8, 2e8]
+fracture_toughness_pa_sqrt_m = [1e6, 2e6]
+thickness_m = [1.0, 2.0]
+[list.striker]
+material = ["steel", "copper"]
+tip_radius_m = [0.1, 0.2]
+drop_height_m = [0.1, 0.2]
+[list.contact]
+tolerance = [1e-3, 1e-4]
+step_s = [1e-6, 2e-6]
+"""
+
+
+def test_units_of_keys_are_those_of_the_command(tmp_path):
+    pytest.importorskip("xarray")
+    (tmp_path / "keys.toml").write_text(EACH_KEY)
+    run_well("sweep", tmp_path / "keys.toml", "-o", tmp_path / "keys.h5")
+    scene = {"target": {"poisson_ratio": 0.27}, "striker": {"shape": "rod", "length_m": 0.1, "diameter_m": 0.02}}
+    keys = {
+        "target__youngs_modulus_pa": [6e10, 7e10],
+        "target__density_kg_m3": [2600, 2700],
+        "target__fracture_toughness_pa_sqrt_m": [1e6, 2e6],
+        "striker__material": ["steel", "copper"],
+        "tip_radius_m": [0.1, 0.2],
+        "drop_height_m": [0.1, 0.2],
+        "step_s": [1e-6, 2e-6],
+    }
+    sweep, collisions = hl.sweep(EACH_KEY), hl.collide(scene, **keys)
+    compared = set()
+    with h5py.File(tmp_path / "keys.h5") as file:
+        for data in (sweep.to_xarray(), hl.sweep(EACH_KEY, rows=slice(0, 1)).to_xarray(), collisions.to_xarray()):
+            for name in file["axes"]:
+                if "." in name and name in data.coords:
+                    described = file["axes"][name].attrs
+                    assert data[name].attrs == {key: described[key] for key in ("units", "long_name")}, name
+                    compared.add(name)
+        arrow = pytest.importorskip("pyarrow") and sweep.to_arrow()
+        for name in compared:
+            assert arrow.schema.field(name).metadata[b"units"].decode() == file["axes"][name].attrs["units"]
+    assert len(compared) == 11 and sweep.to_xarray()["target.fracture_toughness_pa_sqrt_m"].attrs["units"] == "Pa m^(1/2)"
+
+
+def test_a_force_is_given_as_arrays(tmp_path):
+    time = np.linspace(0.0, 3.1e-5, 400)
+    force = 37.0 * np.sin(np.pi * time / time[-1]) ** 2
+    rest = {"target": {"material": "steel"}, "contact": {"disc_radius_m": 0.003}, "probe": [{"r_m": 0.004, "z_m": 0.001}]}
+    csv = tmp_path / "pulse.csv"
+    csv.write_text("time_s,force_n\n" + "".join(f"{t!r},{p!r}\n" for t, p in zip(time.tolist(), force.tolist())))
+    for more in ({}, {"start_s": 2e-6, "end_s": 2.5e-5, "sign": -1}, {"low_pass_hz": 4e5, "baseline_s": 1e-6}):
+        read = hl.impact({**rest, "force": {"file": str(csv), **more}})
+        for samples in ({"time_s": time, "force_n": force}, {"time_s": time.tolist(), "force_n": tuple(force)}):
+            given = hl.impact({**rest, "force": {**samples, **more}})
+            assert given.numbers == read.numbers and same(given.force, read.force) and given.warnings == read.warnings
+            assert same(given.probes.stress_rr, read.probes.stress_rr)
+        # the scene is whole: in Python, in a file of it, and in the results
+        assert "file" not in given.scene["force"] and hl.impact(given.scene).numbers == read.numbers
+        (tmp_path / "scene.toml").write_text(toml(given.scene))
+        path = tmp_path / "out.h5"
+        assert run_well("impact", tmp_path / "scene.toml", "-o", path, "--force")["peak_force_n"] == read.peak_force_n
+        given.save(path, overwrite=True)
+        with h5py.File(path) as file:
+            assert hl.impact(file.attrs["scene"]).numbers == read.numbers
+        assert run("plot", path, "-o", tmp_path / "out.svg", "--force").returncode == 0
+
+
+def test_arrays_that_are_no_force_are_named():
+    rest = {"target": {"material": "steel"}, "contact": {"disc_radius_m": 0.003}}
+    time, force = np.linspace(0.0, 1e-5, 5), np.array([0.0, 2.0, 5.0, 1.0, 0.0])
+    for wrong, words in (
+        ({"time_s": time}, "force.force_n is missing"),
+        ({"time_s": time, "force_n": force[1:]}, "5 samples and force.force_n 4"),
+        ({"time_s": time[::-1], "force_n": force}, "times must ascend"),
+        ({"time_s": time - 1e-6, "force_n": force}, "force.start_s"),
+        ({"time_s": time, "force_n": force * np.nan}, r"force.force_n\[1\] = NaN"),
+        ({"time_s": [0.0, 1.0, "2"], "force_n": force[:3]}, "force.time_s = .* is not a list of numbers"),
+        ({"time_s": time, "force_n": np.ma.array(force, mask=force > 4)}, "force.force_n has masked entries"),
+        ({"time_s": time.astype("timedelta64[ns]"), "force_n": force}, "force.time_s .* time differences"),
+        ({"time_s": time, "force_n": force, "file": "x.csv"}, "force.file cannot be given beside"),
+        ({"time_s": time, "force_n": force, "columns": [1, 2]}, "force.columns cannot be given beside"),
+        ({"time_s": np.arange(131_073.0), "force_n": np.ones(131_073)}, "131073 samples, more than the 131072"),
+        ({}, "force.file is missing: .* time_s and force_n"),
+    ):
+        with pytest.raises(hl.SceneError, match=words):
+            hl.impact({**rest, "force": wrong})
+
+
+def test_the_longest_force_of_a_scene_is_read_back(tmp_path):
+    count = 131_072
+    time = np.cumsum(np.random.default_rng(3).uniform(0.9e-9, 1.1e-9, count))
+    force = 1e3 * np.sin(np.pi * np.arange(count) / (count - 1)) * 0.9999999999
+    run_here = hl.impact({"target": {"material": "steel"}, "contact": {"disc_radius_m": 0.003}, "force": {"time_s": time, "force_n": force}})
+    run_here.save(tmp_path / "long.h5")
+    with h5py.File(tmp_path / "long.h5") as file:
+        text = file.attrs["scene"]
+    assert 4e6 < len(text) < 8 << 20
+    (tmp_path / "long.toml").write_text(text)
+    assert run_well("impact", tmp_path / "long.toml")["impulse_n_s"] == run_here.impulse_n_s
+    assert run("plot", tmp_path / "long.h5", "-o", tmp_path / "long.svg").returncode == 0
+
+
+def test_counts_are_whole_numbers_in_tables_of_others():
+    pd = pytest.importorskip("pandas")
+    out = hl.collide(BALL | {"probe": None}, velocity_m_s=[1.0, -1.0, 2.0])
+    frame = out.to_pandas()
+    for name in ("contacts", "march_steps"):
+        assert frame[name].dtype == pd.Int64Dtype() and list(frame[name].isna()) == [False, True, False]
+        assert frame[name][0] == out[name][0]
+    arrow = pytest.importorskip("pyarrow") and out.to_arrow()
+    assert arrow.schema.field("contacts").type == "int64" and arrow["contacts"].to_pylist() == [1, None, 1]
+    frame.loc[0, "loss"] = 0.5
+    assert out.loss[0] != 0.5, "the frame is its own"
+    polars = pytest.importorskip("polars")
+    assert out.to_polars()["contacts"].to_list() == [1, None, 1] and out.to_polars()["contacts"].dtype == polars.Int64
 
 
 def test_results_are_tables_of_others(table):

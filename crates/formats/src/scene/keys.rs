@@ -1,10 +1,12 @@
 //! The keys of a scene, each listed once: where it stands, what a number may be, what is told where it is missing, how it is
 //! written in a scene that is spelled out, and how it is set, by the reader or by a sweep in a scene that is parsed already.
 
+use crate::error::SceneError;
 use contact::{
     Choice, Library, Material, Plasticity, Settings, Shape, Striker, choice, fall_velocity_m_s,
+    nearest,
 };
-use impact::{Load, Scene, Strike};
+use impact::{ForceRecord, Load, Scene, Strike};
 use toml::{Table, Value};
 
 /// A range of numbers.
@@ -133,7 +135,9 @@ const KEYS: &[Key] = keys! {
         Choose(|s, word| named(word).map(|plasticity| s.plasticity = plasticity));
     contact.yield_pressure_pa: POSITIVE = |s, _| s.settings.yield_pressure_pa?,
         Setting(|s, x| s.yield_pressure_pa = Some(x)), stands in: 1e9;
-    force.file = |s, _| s.record()?.file.as_ref().map(|path| path.display().to_string()).unwrap_or_default();
+    force.file = |s, _| file_of(s.record()?)?;
+    force.time_s = |s, _| s.record()?.reading.samples.as_ref()?[0].clone();
+    force.force_n = |s, _| s.record()?.reading.samples.as_ref()?[1].clone();
     force.columns = |s, _| s.record()?.reading.columns.clone()?.to_vec();
     force.units = |s, _| s.record()?.reading.units.clone()?.to_vec();
     force.start_s: FINITE = |s, _| s.record()?.reading.start_s?;
@@ -173,6 +177,13 @@ pub(super) fn named<T: Choice>(word: &str) -> Result<T, String> {
 
 fn striker(scene: &Scene) -> Option<&Striker> {
     scene.strike().map(|strike| &strike.striker)
+}
+
+/// The file of a record, empty for one that a program made; none where its samples stand in the scene.
+fn file_of(record: &ForceRecord) -> Option<String> {
+    let file = record.file.as_ref();
+    let named = file.map_or_else(String::new, |path| path.display().to_string());
+    record.reading.samples.is_none().then_some(named)
 }
 
 /// The material of the library whose name a spelled-out body keeps; its numbers replace all of it.
@@ -221,16 +232,36 @@ pub(super) fn number(name: &str) -> Option<&'static Key> {
 ///
 /// ```
 /// use formats::scene::sections_of;
-/// assert_eq!(sections_of("velocity_m_s"), ["striker"]);
-/// assert_eq!(sections_of("poisson_ratio"), ["target", "striker"]);
+/// assert_eq!(sections_of("velocity_m_s", &[])?, ["striker"]);
+/// assert_eq!(sections_of("poisson_ratio", &[])?, ["target", "striker"]);
+/// let unknown = sections_of("poison_ratio", &[]).unwrap_err();
+/// assert!(unknown.to_string().contains("did you mean poisson_ratio?"));
+/// # Ok::<(), formats::SceneError>(())
 /// ```
-pub fn sections_of(key: &str) -> Vec<&'static str> {
+///
+/// # Errors
+/// [`SceneError`] where none of them has it, with the nearest name of a key or of `others`, which may stand in its place.
+pub fn sections_of(key: &str, others: &[&str]) -> Result<Vec<&'static str>, SceneError> {
+    let contact = &SECTIONS[..3];
     let has = |section: &&str| keys_of(section).any(|known| known.name == key);
-    SECTIONS[..3].iter().copied().filter(has).collect()
+    let found: Vec<&str> = contact.iter().copied().filter(has).collect();
+    if found.is_empty() {
+        let keys = contact.iter().flat_map(|section| keys_of(section));
+        let names = keys.map(|key| key.name).chain(others.iter().copied());
+        let near = nearest(key, names);
+        let otherwise = "it is in none of [target], [striker] and [contact]";
+        return Err(SceneError::unknown_key(key.to_owned(), near, otherwise));
+    }
+    Ok(found)
 }
 
 /// The scene with every default and material spelled out, as TOML.
 pub fn resolved(scene: &Scene) -> String {
+    resolved_table(scene).to_string()
+}
+
+/// The same as a table.
+pub fn resolved_table(scene: &Scene) -> Table {
     let mut root = Table::new();
     for section in SECTIONS {
         let body = match section {
@@ -253,7 +284,7 @@ pub fn resolved(scene: &Scene) -> String {
     if !scene.probes.is_empty() {
         root.insert("probe".into(), probes.collect::<Vec<_>>().into());
     }
-    root.to_string()
+    root
 }
 
 impl Set {

@@ -11,8 +11,8 @@ pub(crate) mod section;
 
 pub use body::{parse_materials, read_materials};
 pub(crate) use keys::Form;
-pub use keys::{resolved, sections_of};
+pub use keys::{resolved, resolved_table, sections_of};
 pub(crate) use read::{bodies_of, scene_with};
 pub use read::{parse_scene, read_scene, read_with_inputs, scene_of};
 pub use record::read_record;
-pub use section::{parse as parse_table, read_text};
+pub use section::{MOST_OF_TOML, parse as parse_table, parse_text, read_text};

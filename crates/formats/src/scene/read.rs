@@ -2,7 +2,7 @@
 
 use super::body::{body, read_materials, read_strike};
 use super::keys::{SECTIONS, Set, keys_of};
-use super::record::read_record;
+use super::record::{read_record, record_of_samples};
 use super::section::{Section, as_number, parse, read_standard, read_text};
 use crate::error::SceneError;
 use contact::{Choice, Conflict, HalfSpace, Library, Settings};
@@ -206,9 +206,7 @@ fn read_load(
         (Some(striker), None) => read_strike(&striker, library).map(Load::Strike),
         (None, Some(force)) => {
             force.allow_keys_of("force")?;
-            let hint =
-                "name a CSV file with columns time_s,force_n or an HDF5 file with /time and /force";
-            let file = force.needed_text("file", hint)?;
+            let source = read_source(&force)?;
             if settings.disc_radius_m.is_none() {
                 let hint = "a prescribed force needs the radius of the disc that it loads";
                 return Err(SceneError::missing("contact.disc_radius_m", hint));
@@ -221,8 +219,12 @@ fn read_load(
                 start_s: force.number("start_s")?,
                 end_s: force.number("end_s")?,
                 sign: force.number("sign")?,
+                samples: None,
             };
-            let record = read_record(&directory.join(file), reading)?;
+            let record = match source {
+                Source::File(file) => read_record(&directory.join(file), reading)?,
+                Source::Samples(samples) => record_of_samples(samples, reading)?,
+            };
             Ok(Load::Record(record.treat(baseline_s, low_pass_hz)?))
         }
         (Some(_), Some(_)) => Err(SceneError::conflict(
@@ -235,6 +237,35 @@ fn read_load(
             "give a section [striker], or [force] with a prescribed history",
         )),
     }
+}
+
+/// Where the samples of a record are.
+enum Source<'a> {
+    File(&'a str),
+    /// In the scene itself: times in s and forces in N.
+    Samples([Vec<f64>; 2]),
+}
+
+fn read_source<'a>(force: &Section<'a>) -> Result<Source<'a>, SceneError> {
+    let (time_s, force_n) = (force.numbers("time_s")?, force.numbers("force_n")?);
+    if time_s.is_none() && force_n.is_none() {
+        let hint = "name a CSV file with columns time_s,force_n or an HDF5 file with /time and /force, or give the lists time_s and force_n in its place";
+        return force.needed_text("file", hint).map(Source::File);
+    }
+    let of_files = ["file", "columns", "units"];
+    let superfluous = |key: &&str| force.value(key).is_some();
+    if let Some(key) = of_files.into_iter().find(superfluous) {
+        let reason = "the samples, in s and N, are in the scene";
+        return Err(SceneError::superfluous(
+            force.key(key),
+            "time_s and force_n",
+            reason,
+        ));
+    }
+    let hint = "time_s and force_n are given together";
+    let time_s = time_s.ok_or_else(|| force.missing("time_s", hint))?;
+    let force_n = force_n.ok_or_else(|| force.missing("force_n", hint))?;
+    Ok(Source::Samples([time_s, force_n]))
 }
 
 /// Refuses what lies outside the block.

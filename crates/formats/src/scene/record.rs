@@ -1,5 +1,6 @@
 //! Force records: text with columns of time and force, or HDF5 with `/time` and `/force`, which a results file has.
 
+use super::keys::FINITE;
 use super::section::{MOST_OF_RECORD, read_text_up_to};
 use crate::error::SceneError;
 use impact::{ForceRecord, Reading, RecordError, TreatmentError};
@@ -10,6 +11,10 @@ use std::path::Path;
 
 /// Samples at most: they are held in memory several times.
 const MOST_SAMPLES: usize = 1 << 24;
+
+/// Samples that stand in a scene at most: results files hold their scene, so that all readers of a result parse them.
+/// So many take 5.7 MB of the 8 MB that a text has at most; tests/python/package/test_numbers.py has them read back.
+const MOST_IN_SCENE: usize = 1 << 17;
 
 /// Times in s and forces in N.
 type Rows = (Vec<f64>, Vec<f64>);
@@ -35,12 +40,57 @@ pub fn read_record(path: &Path, reading: Reading) -> Result<ForceRecord, SceneEr
         })?;
         (rows, "time_s")
     };
+    let mut record = record_of(rows, reading, name, unreadable)?;
+    record.file = Some(path.to_owned());
+    Ok(record)
+}
+
+/// The record whose samples stand in the scene.
+pub(super) fn record_of_samples(
+    [time_s, force_n]: [Vec<f64>; 2],
+    mut reading: Reading,
+) -> Result<ForceRecord, SceneError> {
+    let name = "force.time_s";
+    let wrong = |sentence: String| SceneError::of(sentence, name);
+    let (times, forces) = (time_s.len(), force_n.len());
+    if times != forces || times < 2 {
+        return Err(wrong(format!(
+            "force.time_s has {times} samples and force.force_n {forces}: as many of each are needed, at least 2"
+        )));
+    }
+    if times > MOST_IN_SCENE {
+        return Err(wrong(format!(
+            "force.time_s has {times} samples, more than the {MOST_IN_SCENE} that a scene holds: write them to a file with the columns time_s,force_n and give its name as force.file"
+        )));
+    }
+    let pairs = [(name, &time_s), ("force.force_n", &force_n)];
+    for (key, numbers) in pairs {
+        let odd = (1..).zip(numbers).find(|(_, number)| !number.is_finite());
+        if let Some((place, &number)) = odd {
+            let key = format!("{key}[{place}]");
+            return Err(SceneError::out_of_range(key, number, FINITE.name));
+        }
+    }
+    if let Some(pair) = time_s.windows(2).find(|pair| pair[1] <= pair[0]) {
+        return Err(wrong(not_ascending(name, pair[1], pair[0])));
+    }
+    reading.samples = Some([time_s.clone(), force_n.clone()]);
+    record_of((time_s, force_n), reading, name, wrong)
+}
+
+/// Cuts what was read, turns its sign, and keeps how it was read; `wrong` is the error of a sentence.
+fn record_of(
+    rows: Rows,
+    reading: Reading,
+    name: &str,
+    wrong: impl Fn(String) -> SceneError,
+) -> Result<ForceRecord, SceneError> {
     let (time_s, mut force_n) = cut(rows, &reading)?;
     if reading.sign == Some(-1.0) {
         force_n.iter_mut().for_each(|force_n| *force_n = -*force_n);
     }
     let mut record = ForceRecord::new(time_s, force_n).map_err(|error| {
-        unreadable(match error {
+        wrong(match error {
             RecordError::Count { times, .. } => too_few(times),
             RecordError::Negative { time_s } => before_zero(name, time_s),
             RecordError::NotAscending {
@@ -49,7 +99,6 @@ pub fn read_record(path: &Path, reading: Reading) -> Result<ForceRecord, SceneEr
             RecordError::NotFinite { .. } => error.to_string(),
         })
     })?;
-    record.file = Some(path.to_owned());
     record.reading = Box::new(reading);
     Ok(record)
 }

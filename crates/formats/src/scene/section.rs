@@ -181,6 +181,13 @@ impl<'a> Section<'a> {
             .transpose()
     }
 
+    /// A list of numbers.
+    pub(super) fn numbers(&self, key: &str) -> Result<Option<Vec<f64>>, SceneError> {
+        self.typed(key, "a list of numbers", |value| {
+            value.as_array()?.iter().map(as_number).collect()
+        })
+    }
+
     /// A pair of words; a whole number is one, too.
     pub(crate) fn words(
         &self,
@@ -299,12 +306,25 @@ fn decimal_comma(before: &str, after: &str) -> &'static str {
 }
 
 /// Bytes of a TOML file at most: a parsed one takes some fifty times its size.
-const MOST_OF_TOML: u64 = 8 << 20;
+pub const MOST_OF_TOML: u64 = 8 << 20;
 /// Bytes of a force record at most.
 pub(crate) const MOST_OF_RECORD: u64 = 256 << 20;
 
 /// How HDF5 files start.
 const HDF5: &[u8] = b"\x89HDF\r\n";
+
+/// Parses TOML that is no longer than a file of it may be.
+///
+/// # Errors
+/// [`SceneError`].
+pub fn parse_text(text: &str) -> Result<Table, SceneError> {
+    if text.len() as u64 > MOST_OF_TOML {
+        let (found, most) = (text.len() >> 20, MOST_OF_TOML >> 20);
+        let sentence = format!("the text has {found} MB, more than the {most} MB of a scene");
+        return Err(SceneError::told(sentence));
+    }
+    parse(text)
+}
 
 /// The text of a TOML file.
 pub fn read_text(path: &Path) -> Result<String, SceneError> {

@@ -160,6 +160,11 @@ pub(super) fn results(fields: &Fields) -> u64 {
     places.fold(0, |kept, place| kept | 1 << place)
 }
 
+/// The places of the numbers of a row without which its file cannot be written: what a journal keeps.
+pub fn kept_places(spec: &Spec) -> Vec<usize> {
+    places(results(&spec.fields), spec.fields.width())
+}
+
 /// The places of the numbers of a row that are kept: some results of a contact, and all that probes bring.
 fn places(results: u64, width: usize) -> Vec<usize> {
     let is_kept = |place: &usize| *place >= QUANTITIES.len() || results >> place & 1 == 1;

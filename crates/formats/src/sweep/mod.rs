@@ -27,13 +27,13 @@ pub use draws::Drawn;
 pub use error::SweepError;
 pub(crate) use fields::stored_columns;
 pub use fields::{Fields, Precision};
-pub use journal::{Kept, Unfinished, is_computed};
+pub use journal::{Kept, Unfinished, is_computed, kept_places};
 pub use ledger::Shard;
 pub use rows::{
-    Block, Blocks, NO_MODEL, PARQUET_VERSION, check_rows, column_names, key_unit, print_csv,
-    row_bytes, stage_csv, stage_rows,
+    Block, Blocks, Held, NO_MODEL, PARQUET_VERSION, check_rows, column_names, described_keys,
+    key_unit, print_csv, row_bytes, stage_csv, stage_rows,
 };
 pub(crate) use rows::{Cells, Footer, MAGIC, What, columns, stage_hdf5};
-pub use run::{compute_rows, run_rows};
+pub use run::{check_at_once, compute_columns, compute_rows, run_rows};
 pub use shard::{BLOCK, Part, Selection, grain};
 pub use spec::Spec;

@@ -4,7 +4,7 @@ use super::error::SweepError;
 use super::fields::probed_numbers;
 use super::journal::Kept;
 use super::kernels::Kernels;
-use super::rows::{Block, NO_MODEL};
+use super::rows::{Block, Held, NO_MODEL};
 use super::shard::BLOCK;
 use super::spec::Spec;
 use super::template::{Memory, Templates};
@@ -190,6 +190,18 @@ const MOST_AT_ONCE: usize = 10_000_000;
 /// Time in s between two calls of the watch of [`compute_rows`], about.
 const WATCH_S: f64 = 0.1;
 
+/// Checks that so many rows can be held in memory together.
+///
+/// # Errors
+/// [`SceneError`].
+pub fn check_at_once(count: usize) -> Result<(), SceneError> {
+    if count > MOST_AT_ONCE {
+        let (key, range) = ("the number of rows in memory", "[0, 10000000]");
+        return Err(SceneError::out_of_range(key, count as f64, range));
+    }
+    Ok(())
+}
+
 /// Computes `count` rows from `start` on, every `step`-th, without a journal: to the last bit what the whole sweep has there.
 ///
 /// Rows of the block, and of its failures, count from the first that was asked for.
@@ -204,10 +216,44 @@ pub fn compute_rows(
     count: usize,
     mut watch: impl FnMut(usize, usize) -> bool,
 ) -> Result<Option<Block>, SceneError> {
-    if count > MOST_AT_ONCE {
-        let (key, range) = ("the number of rows in memory", "[0, 10000000]");
-        return Err(SceneError::out_of_range(key, count as f64, range));
-    }
+    let mut all = Block::blank(0, 0, spec.fields.width());
+    let done = each_block(spec, [start, step, count], |block| {
+        all.numbers.extend_from_slice(&block.numbers);
+        all.models.extend_from_slice(&block.models);
+        all.failures.extend_from_slice(&block.failures);
+        watch(all.len(), all.failures.len())
+    })?;
+    Ok(done.then_some(all))
+}
+
+/// The same of some results alone, a result at a time.
+///
+/// # Errors
+/// As [`compute_rows`].
+pub fn compute_columns(
+    spec: &Spec,
+    start: usize,
+    step: usize,
+    count: usize,
+    places: Vec<usize>,
+    mut watch: impl FnMut(usize, usize) -> bool,
+) -> Result<Option<Held>, SceneError> {
+    check_at_once(count)?;
+    let mut held = Held::blank(count, spec.fields.width(), places);
+    let done = each_block(spec, [start, step, count], |block| {
+        held.put(block);
+        watch(block.start + block.len(), held.failures.len())
+    })?;
+    Ok(done.then_some(held))
+}
+
+/// Shows rows that are computed, some at a time; whether `visit` let them all be.
+fn each_block(
+    spec: &Spec,
+    [start, step, count]: [usize; 3],
+    mut visit: impl FnMut(&Block) -> bool,
+) -> Result<bool, SceneError> {
+    check_at_once(count)?;
     let last = step.checked_mul(count.saturating_sub(1));
     let last = last.and_then(|way| way.checked_add(start));
     if count > 0 && last.is_none_or(|last| last >= spec.rows()) {
@@ -219,17 +265,17 @@ pub fn compute_rows(
     }
     let computer = Computer::new(spec)?;
     let row_of = |index: usize| start + index * step;
-    let mut block = Block::blank(0, count, spec.fields.width());
-    let (mut done, mut size) = (0, computer.first_block());
+    let (mut block, mut done, mut size) = (Block::default(), 0, computer.first_block());
     while done < count {
         let end = (done + size).min(count);
+        block.make_room(done, end - done, spec.fields.width());
         size = computer.fill(&mut block, done..end, WATCH_S, row_of)?;
         done = end;
-        if !watch(done, block.failures.len()) && done < count {
-            return Ok(None);
+        if !visit(&block) && done < count {
+            return Ok(false);
         }
     }
-    Ok(Some(block))
+    Ok(true)
 }
 
 /// Rows of the next block, after one of `count` that took this long: no more than eight times as many.

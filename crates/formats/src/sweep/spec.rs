@@ -148,6 +148,7 @@ impl Spec {
     /// The sweep of a scene some keys of which take values together, as those of a list do.
     ///
     /// The values are not spelled out in [`Self::resolved`](Self#structfield.resolved): they may be millions.
+    /// One that is not finite is a row that fails.
     ///
     /// # Errors
     /// [`SceneError`].
@@ -343,6 +344,7 @@ fn axes(root: &Section<'_>) -> Result<Vec<Axis>, SceneError> {
     if let Some(random) = root.section("random")? {
         axes.push(drawn(&random)?);
     }
+    finite(&axes)?;
     check(&axes)?;
     Ok(axes)
 }
@@ -442,8 +444,8 @@ fn in_range(axes: &[Axis]) -> Result<(), SceneError> {
     Ok(())
 }
 
-/// No key twice, at least one axis, not too many rows, numbers alone.
-fn check(axes: &[Axis]) -> Result<(), SceneError> {
+/// What is written down is numbers; in arrays of a program others stand for what is not known, and their rows fail.
+fn finite(axes: &[Axis]) -> Result<(), SceneError> {
     for column in axes.iter().flat_map(|axis| &axis.columns) {
         let infinite = match &column.values {
             Values::Numbers(numbers) => numbers.iter().copied().find(|x| !x.is_finite()),
@@ -454,6 +456,11 @@ fn check(axes: &[Axis]) -> Result<(), SceneError> {
             return Err(SceneError::out_of_range(column.name(), value, FINITE.name));
         }
     }
+    Ok(())
+}
+
+/// No key twice, at least one axis, not too many rows.
+fn check(axes: &[Axis]) -> Result<(), SceneError> {
     if axes.is_empty() {
         return Err(SceneError::missing(
             "[product], [list] or [random]",

@@ -1,7 +1,9 @@
 //! Fields of an excitation at points of the half-space.
 //!
-//! At the probes of a scene and on its section (`probes`), and what follows from them (`quantity`).
+//! At the probes of a scene and on its section (`probes`), and what follows from them (`quantity`); `faces` warns of those
+//! faces of a block that a half-space does not have.
 
+pub(crate) mod faces;
 pub(crate) mod probes;
 pub(crate) mod quantity;
 

@@ -85,21 +85,6 @@ fn peak(time_s: &[f64], samples: &[f64]) -> [f64; 2] {
     all.reduce(larger).unwrap_or_default()
 }
 
-impl ProbeFields {
-    /// What the user should know of echoes in an output that ends at a time in s.
-    pub(crate) fn echoes(&self, end_s: f64) -> Option<String> {
-        let probes = self.valid_until_s.iter().enumerate();
-        let echoing = probes.filter(|(_, valid_s)| **valid_s < end_s);
-        let (first, first_s) = echoing.clone().min_by(|a, b| a.1.total_cmp(b.1))?;
-        Some(format!(
-            "echoes from the faces of the block reach {} of {} probes before the output ends at {end_s:.4e} s, probe {} first, at {first_s:.4e} s: what follows there is that of a half-space, not of the block",
-            echoing.count(),
-            self.r_m.len(),
-            first + 1
-        ))
-    }
-}
-
 /// The fields at probes, at the samples that are wanted.
 pub(crate) fn at_probes(
     evaluator: &Evaluator<'_>,

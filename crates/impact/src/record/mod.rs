@@ -24,6 +24,8 @@ pub struct Reading {
     pub end_s: Option<f64>,
     /// -1 where the file counts pressing as negative.
     pub sign: Option<f64>,
+    /// Times in s and forces in N that stand in the scene itself, in place of a file.
+    pub samples: Option<[Vec<f64>; 2]>,
 }
 
 /// Samples of a force; zero before the first and after the last.

@@ -2,6 +2,7 @@
 
 use super::block::{Block, Blocks};
 use crate::quantities::Described;
+use crate::scene::keys::{SECTIONS, keys_of};
 use crate::sweep::axes::{Column as Key, Values};
 use crate::sweep::fields::Precision;
 use crate::sweep::schema::{FAILURE, MODEL, part};
@@ -66,11 +67,23 @@ pub(crate) fn columns(spec: &Spec) -> Vec<Column<'_>> {
 
 /// What a key that varies is.
 pub(super) fn described(key: &Key) -> Described {
+    of_key(key.name())
+}
+
+/// What a key is, by its name with its section.
+fn of_key(name: String) -> Described {
     Described {
-        meaning: format!("scene key {}", key.name()),
-        unit: key_unit(&key.key).0.to_owned(),
-        name: key.name(),
+        meaning: format!("scene key {name}"),
+        unit: key_unit(&name).0.to_owned(),
+        name,
     }
+}
+
+/// What each key of a scene is.
+pub fn described_keys() -> impl Iterator<Item = Described> {
+    SECTIONS.into_iter().flat_map(|section| {
+        keys_of(section).map(move |key| of_key(format!("{section}.{}", key.name)))
+    })
 }
 
 /// Names of the columns of a part.
@@ -169,14 +182,16 @@ pub(super) fn each_of(
 /// The unit that a scene key carries in its name, and the ending that says so; `1` and nothing without one.
 pub fn key_unit(key: &str) -> (&'static str, &'static str) {
     // the longest first
-    const UNITS: [(&str, &str); 7] = [
+    const UNITS: [(&str, &str); 9] = [
         ("Pa m^(1/2)", "_pa_sqrt_m"),
         ("kg/m^3", "_kg_m3"),
         ("m/s", "_m_s"),
         ("kg", "_kg"),
         ("Pa", "_pa"),
+        ("Hz", "_hz"),
         ("m", "_m"),
         ("s", "_s"),
+        ("N", "_n"),
     ];
     let found = UNITS.iter().find(|(_, ending)| key.ends_with(ending));
     found.copied().unwrap_or(("1", ""))
@@ -193,6 +208,8 @@ mod tests {
             ("target.density_kg_m3", "kg/m^3"),
             ("striker.tip_radius_m", "m"),
             ("target.poisson_ratio", "1"),
+            ("force.low_pass_hz", "Hz"),
+            ("force.force_n", "N"),
         ] {
             let (unit, ending) = key_unit(key);
             assert!(unit == expected && key.ends_with(ending), "{key}: {unit}");

@@ -1,6 +1,6 @@
 //! Rows of a sweep and their files, in the format that a name ends with.
 //!
-//! `block` is a run of rows in memory and `columns` is what a file has of each; `csv`, [`hdf5`] and `parquet` write
+//! `block` is a run of rows in memory, `held` is all rows a result at a time, and `columns` is what a file has of each; `csv`, [`hdf5`] and `parquet` write
 //! them, a few blocks at a time, and `footer` is what a Parquet file says of itself.
 
 mod block;
@@ -8,6 +8,7 @@ mod columns;
 mod csv;
 mod footer;
 mod hdf5;
+mod held;
 #[cfg(feature = "parquet")]
 mod parquet;
 
@@ -17,10 +18,11 @@ pub(crate) use self::hdf5::stage_hdf5;
 use self::parquet::stage_parquet;
 pub use block::{Block, Blocks, NO_MODEL};
 pub(crate) use columns::{Cells, What, columns};
-pub use columns::{column_names, key_unit};
+pub use columns::{column_names, described_keys, key_unit};
 pub use csv::{print_csv, stage_csv};
 pub use footer::FORMAT_VERSION as PARQUET_VERSION;
 pub(crate) use footer::{Footer, MAGIC};
+pub use held::Held;
 
 use super::spec::Spec;
 use output::{Output, OutputError, PARQUET, ROWS, Staged};

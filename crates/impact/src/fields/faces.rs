@@ -1,0 +1,78 @@
+//! Sentences on the faces of a block: fields are those of a half-space, which has none but the loaded one.
+
+use crate::evaluator::Evaluator;
+use crate::fields::probes::ProbeFields;
+use crate::scene::{Scene, Section};
+use contact::HalfSpace;
+
+/// The other face of the block that a place is on, by the keys that say so.
+fn face(block: &HalfSpace, [r, z]: [(&str, f64); 2]) -> Option<String> {
+    let limits = [
+        (z, "thickness_m", block.thickness_m),
+        (r, "radius_m", block.radius_m),
+    ];
+    let on = limits
+        .into_iter()
+        .find(|((_, place_m), _, limit)| limit.is_some_and(|limit_m| *place_m >= limit_m));
+    on.map(|((key, place_m), limit, _)| format!("{key} = {limit} = {place_m} m"))
+}
+
+/// Why nothing is valid on a face.
+fn doubled(who: &str, face: &str) -> String {
+    format!(
+        "{who} on a free face of the block ({face}): the echo begins there with the first arrival, and a free face about doubles the motion (exactly doubles that of a P wave at normal incidence), so nothing of a half-space's fields is valid there"
+    )
+}
+
+/// Of probes in an output that ends at a time in s.
+pub(crate) fn of_probes(scene: &Scene, fields: &ProbeFields, end_s: f64) -> Vec<String> {
+    let (mut found, count) = (Vec::new(), scene.probes.len());
+    let faces: Vec<Option<String>> = (scene.probes.iter())
+        .map(|probe| face(&scene.target, [("r_m", probe.r_m), ("z_m", probe.z_m)]))
+        .collect();
+    let on: Vec<(usize, &String)> = (1..)
+        .zip(&faces)
+        .filter_map(|(i, face)| Some((i, face.as_ref()?)))
+        .collect();
+    if let Some((first, face)) = on.first() {
+        let who = match on.len() {
+            1 => format!("probe {first} is"),
+            several => format!("{several} of {count} probes, the first probe {first}, are"),
+        };
+        found.push(doubled(&who, face));
+    }
+    let inside = (1..).zip(fields.valid_until_s.iter().zip(&faces));
+    let inside = inside.filter(|(_, (valid_s, face))| face.is_none() && **valid_s < end_s);
+    let echoing: Vec<(usize, f64)> = inside.map(|(i, (&valid_s, _))| (i, valid_s)).collect();
+    if let Some((first, first_s)) = echoing.iter().min_by(|a, b| a.1.total_cmp(&b.1)) {
+        found.push(format!(
+            "echoes from the faces of the block reach {} of {count} probes before the output ends at {end_s:.4e} s, probe {first} first, at {first_s:.4e} s: what follows there is that of a half-space, not of the block",
+            echoing.len(),
+        ));
+    }
+    found
+}
+
+/// Of a section in an output that ends at a time in s.
+pub(crate) fn of_section(
+    evaluator: &Evaluator<'_>,
+    block: &HalfSpace,
+    section: &Section,
+    end_s: f64,
+) -> Vec<String> {
+    let corner = [("r_max_m", section.r_max_m), ("z_max_m", section.z_max_m)];
+    let on = face(block, corner).map(|face| doubled("the section ends", &face));
+    let excitation = evaluator.grid.excitation;
+    let radius_m = excitation.units().disc_radius_m;
+    // the nearest of its places to the lower face and to the side
+    let nearest = [[0.0, section.z_max_m], [section.r_max_m, 0.0]];
+    let echoes = nearest.map(|place| excitation.speeds().first_echo_s(block, place, radius_m));
+    let first_s = echoes.into_iter().flatten().reduce(f64::min);
+    let first_s = first_s.map(|first_s| excitation.start_s() + first_s);
+    let echoing = first_s.filter(|&first_s| first_s < end_s).map(|first_s| {
+        format!(
+            "echoes from the faces of the block reach the section from {first_s:.4e} s on, before the output ends at {end_s:.4e} s: what follows there is that of a half-space, not of the block"
+        )
+    });
+    on.into_iter().chain(echoing).collect()
+}
