@@ -34,6 +34,6 @@ pub use rows::{
     row_bytes, stage_csv, stage_rows,
 };
 pub(crate) use rows::{Cells, Footer, MAGIC, What, columns, stage_hdf5};
-pub use run::{compute_rows, run_rows};
+pub use run::{Computed, compute_rows, fields_bytes, run_rows};
 pub use shard::{BLOCK, Part, Selection, grain};
 pub use spec::Spec;
