@@ -3,6 +3,8 @@
 import importlib.machinery
 import importlib.util
 import json
+import os
+import subprocess
 
 import pytest
 from conftest import PROGRAM, ROOT, run
@@ -43,3 +45,95 @@ def test_the_plan_of_a_sweep_is_within_a_factor_of_three(tmp_path):
     took, why = times.processor_time([PROGRAM, "sweep", sweep, "-o", tmp_path / "out.h5"])
     assert not why, why
     assert told / 3 < took < 3 * told
+
+
+BALL = """
+[target]
+{target}
+[striker]
+shape = "ball"
+material = "steel"
+diameter_m = 0.005
+velocity_m_s = 0.6
+[contact]
+tolerance = {tolerance}
+{contact}
+[output]
+quantities = {quantities}
+"""
+RATES = '["velocity_z", "acceleration_z"]'
+YIELDS = 'plasticity = "recovery"\nyield_pressure_pa = 6e8'
+NEARLY_INCOMPRESSIBLE = "youngs_modulus_pa = 2e7\npoisson_ratio = 0.4995\ndensity_kg_m3 = 1100"
+SOME = [
+    ('material = "soda-lime-glass"', "", "1e-4", RATES, 0.0, 2e-5),
+    ('material = "soda-lime-glass"', "", "1e-4", RATES, 3e-5, 0.0),
+    ('material = "soda-lime-glass"', "", "1e-5", '["velocity_z"]', 3e-5, 0.0),
+    ('material = "soda-lime-glass"', YIELDS, "1e-4", RATES, 2e-5, 0.0),
+    (NEARLY_INCOMPRESSIBLE, "", "1e-4", "[]", 0.0, 0.0),
+    (NEARLY_INCOMPRESSIBLE, "", "1e-4", '["velocity_z"]', 0.0, 1e-4),
+]
+
+
+def dry_run(path):
+    done = run("impact", path, "--dry-run", "--json")
+    assert done.returncode == 0, done.stderr
+    return json.loads(done.stdout)
+
+
+@pytest.mark.parametrize("case", range(len(SOME)))
+def test_a_point_inside_a_contact_takes_at_most_three_times_its_forecast(case, tmp_path):
+    target, contact, tolerance, quantities, r_m, z_m = SOME[case]
+    path = tmp_path / "scene.toml"
+    scene = BALL.format(target=target, contact=contact, tolerance=tolerance, quantities=quantities)
+    path.write_text(f"{scene}[[probe]]\nr_m = {r_m}\nz_m = {z_m}\n")
+    took, why = times.processor_time([PROGRAM, "impact", path, "-o", tmp_path / "out.h5"])
+    assert not why, why
+    told = dry_run(path)["seconds"]
+    assert told / 12 - PROCESS_S < took < 3 * told + PROCESS_S
+
+
+def peak_bytes(*arguments):
+    """Largest memory of a run that succeeds."""
+    with open(os.devnull, "w") as nothing:
+        process = subprocess.Popen([PROGRAM, *map(str, arguments)], stdout=nothing, stderr=nothing)
+        _, status, usage = os.wait4(process.pid, 0)
+        process.returncode = os.waitstatus_to_exitcode(status)
+    assert process.returncode == 0
+    return 1024 * usage.ru_maxrss
+
+
+ROD = """
+[{0}target]
+material = "copper"
+[{0}striker]
+shape = "rod"
+material = "steel"
+diameter_m = 0.012
+length_m = 0.04
+tip_radius_m = 4000
+velocity_m_s = 1.1
+[{0}contact]
+tolerance = 1e-4
+[{0}output]
+duration_s = 1.5e-4
+[[{0}probe]]
+r_m = 0.0
+z_m = 0.003
+[[{0}probe]]
+r_m = 0.005
+z_m = 0.0
+"""
+
+
+def test_memory_under_a_wide_contact_is_forecast_and_bounded(tmp_path):
+    path = tmp_path / "scene.toml"
+    path.write_text(ROD.format(""))
+    told = dry_run(path)["memory_bytes"]
+    found = peak_bytes("impact", path, "-o", tmp_path / "out.h5")
+    assert found < 1.3 * told + 3e7 and told < 4 * found
+    refused = run("impact", path, "--max-memory", 0.8e-9 * told)
+    assert refused.returncode == 2 and "--max-memory" in refused.stderr
+    sweep = tmp_path / "sweep.toml"
+    sweep.write_text(ROD.format("scene.") + "[product.striker]\nvelocity_m_s = [0.9, 1.0, 1.1]\n")
+    refused = run("sweep", sweep, "-o", tmp_path / "s.h5", "--max-memory", 1e-9 * (1.3e8 + told / 2))
+    assert refused.returncode == 2 and "the sweep with its fields needs" in refused.stderr

@@ -1,5 +1,7 @@
 """Sweeps with probes: rows beside `impact`, independence of threads, shards and interruptions, what makes two the same."""
 
+import importlib.machinery
+import importlib.util
 import os
 import signal
 import subprocess
@@ -8,7 +10,7 @@ import time
 import h5py
 import numpy as np
 import pytest
-from conftest import PROGRAM, run, run_well
+from conftest import PROGRAM, ROOT, run, run_well
 
 FIELDS = ["displacement_r", "displacement_z", "stress_rr", "stress_tt", "stress_zz", "stress_rz", "von_mises"]
 SCENE = """
@@ -92,7 +94,7 @@ def test_columns_have_names_units_and_meanings(tmp_path):
     assert "at probe 2" in found["probe_2_displacement_z_error"][1]
     assert len([name for name in found if name.startswith("probe_")]) == 1 + 2 * 7 * 3
     with h5py.File(tmp_path / "s.h5") as file:
-        assert file.attrs["format_version"] == "1.6"
+        assert file.attrs["format_version"] == "1.7"
         assert 'kernel = "direct"' in file.attrs["sweep"]
     head, *lines = (tmp_path / "s.csv").read_text().splitlines()
     place = head.split(",").index("probe_1_stress_zz_peak")
@@ -185,11 +187,33 @@ def test_kernels_are_part_of_what_makes_two_sweeps_the_same(tmp_path, table):
     assert refused.returncode == 2 and "no [[probe]]" in refused.stderr
 
 
-def test_auto_takes_the_table_within_the_tolerance(tmp_path, table):
-    write(tmp_path, "[list.contact]\ntolerance = [1e-2, 1e-6]\n[list.striker]\nvelocity_m_s = [1.0, 1.0]\n")
+def test_auto_takes_the_table_where_the_stored_errors_are_within_the_tolerance(tmp_path, table):
+    velocities = "[list.striker]\nvelocity_m_s = [1.0, 1.0, 1.0]\n"
+    write(tmp_path, "[list.contact]\ntolerance = [4e-2, 2e-3, 1e-6]\n" + velocities)
     said = run_well("sweep", "s.toml", "--table", table, "-o", "s.h5", cwd=tmp_path)
     rows = results(tmp_path / "s.h5")
-    assert list(rows["probe_table"]) == [1.0, 0.0] and said["looked_up"] == 1
+    assert list(rows["probe_table"]) == [1.0, 0.0, 0.0] and said["looked_up"] == 1
     # both are the same field within what they claim
-    difference = abs(np.diff(rows["probe_1_stress_zz_peak"]))[0]
+    difference = abs(np.diff(rows["probe_1_stress_zz_peak"]))[1]
     assert difference < rows["probe_1_stress_zz_error"].sum() + 1e-2 * abs(rows["probe_1_stress_zz_peak"][0])
+    # the row that is computed at 2e-3 is one whose stored errors would be above it
+    run_well("sweep", "s.toml", "--table", table, "--kernel", "table", "-o", "t.h5", cwd=tmp_path)
+    for row, tolerance in enumerate([4e-2, 2e-3, 1e-6]):
+        found = results(tmp_path / "t.h5")
+        worst = 0.0
+        for kind in (FIELDS[:2], FIELDS[2:6]):
+            of = lambda what: max(abs(found[f"probe_{k}_{f}_{what}"][row]) for k in (1, 2) for f in kind)
+            worst = max(worst, of("error") / of("peak"))
+        assert (worst <= tolerance) == bool(rows["probe_table"][row]), (tolerance, worst)
+
+
+def test_estimates_of_looked_up_fields_are_those_of_their_errors(table):
+    """Whole traces at random places beside computed ones: the median of estimate over error, and none below."""
+    loader = importlib.machinery.SourceFileLoader("measure_lookups", str(ROOT / "scripts" / "measure-lookups"))
+    lookups = importlib.util.module_from_spec(importlib.util.spec_from_loader("measure_lookups", loader))
+    loader.exec_module(lookups)
+    found, refused = lookups.measure(PROGRAM, table, range(5), seed=7)
+    rows = np.array(sum(found.values(), []))
+    assert not refused and len(rows) > 40
+    assert np.median(rows[:, 1] / rows[:, 0]) < 30.0
+    assert not any(map(lookups.is_below, rows))

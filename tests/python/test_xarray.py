@@ -147,3 +147,16 @@ def test_steps_of_a_section_say_where_they_begin(results):
         for name, data in offsets.items():
             assert data.dtype == np.int64, name
             np.testing.assert_array_equal(data[()], np.arange(9))
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.parametrize("rows", [[], ["--rows", "7:31"]])
+def test_the_root_of_a_sweep_opens_as_its_results(tmp_path, sweep, engine, rows):
+    path = sweep
+    if rows:
+        path = tmp_path / "part.h5"
+        run_well("sweep", sweep.parent / "sweep.toml", *rows, "-o", path)
+    with xarray.open_dataset(path, engine=engine) as root, xarray.open_dataset(path, group="results", engine=engine) as group:
+        assert root.attrs["format_version"] == ("1.3" if rows else "1.7")
+        assert root.drop_vars("failures", errors="ignore").equals(group)
+        assert root.restitution.dims == group.restitution.dims and root.restitution.attrs["units"] == "1"

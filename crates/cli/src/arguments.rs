@@ -115,8 +115,18 @@ pub(crate) fn check_rows(path: &Path) -> Result<(), Failure> {
         ": build it with `cargo build --release --package hertzlamb-cli --features parquet`";
     formats::sweep::check_rows(path).map_err(|error| {
         let unbuilt = matches!(error, OutputError::Unbuilt(..));
-        Failure::from(error).hint_if(unbuilt, BUILD)
+        Failure::from(error)
+            .hint_if(unbuilt, BUILD)
+            .hint_if(is_text(path), AS_TEXT)
     })
+}
+
+/// What is said of an output that was to be text.
+pub(crate) const AS_TEXT: &str = "; --csv OUT.csv writes text";
+
+/// Whether the name of an output is that of text.
+pub(crate) fn is_text(path: &Path) -> bool {
+    path.extension().is_some_and(|ending| ending == "csv")
 }
 
 /// What `--skip-complete` says where nothing is left to do.

@@ -91,6 +91,9 @@ impl<E: Fault> From<E> for Failure {
             (Class::Exists, _) => "; give --force to replace it",
             (Class::Memory, _) => ", or give --max-memory GB",
             (Class::OutsideTable, Remedy::Change) => "; use --kernel direct or another table",
+            (Class::Scene, _) if names_no_material(&culprit) => {
+                "; `hertzlamb materials` lists the names"
+            }
             _ => "",
         };
         Self {
@@ -99,6 +102,12 @@ impl<E: Fault> From<E> for Failure {
             about: about(&culprit),
         }
     }
+}
+
+/// Whether a material is unknown.
+fn names_no_material(culprit: &Culprit<'_>) -> bool {
+    let is_material = |key: &str| key.rsplit('.').next() == Some("material");
+    culprit.key.as_deref().is_some_and(is_material) && culprit.word.is_some()
 }
 
 /// A text without its middle, where a file has a word of a megabyte.

@@ -8,7 +8,8 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 use tabulator::Progress;
 
-/// A bar on a terminal, a line for each tenth elsewhere: share, slice, rate, time left; gone when it is dropped.
+/// A bar on a terminal; elsewhere a line for a tenth of the work, [`PAUSE`] or more after the one before: share, slice, rate,
+/// time left. Gone when it is dropped.
 pub(crate) struct Bar {
     /// It counts in both cases, and is seen on a terminal alone.
     bar: ProgressBar,
@@ -18,7 +19,8 @@ pub(crate) struct Bar {
     stage: Mutex<Stage>,
 }
 
-/// Time after which a line is due where there is no terminal.
+/// Times between two lines where there is no terminal: at least, for a job that writes a log, and at most.
+const PAUSE: Duration = Duration::from_secs(10);
 const SILENCE: Duration = Duration::from_secs(30);
 
 /// A part of the work, and what was told of it.
@@ -83,11 +85,12 @@ impl Bar {
     /// What to say when another tenth is done, or nothing has been said for long.
     fn line(&self, stage: &mut Stage, more: u64) -> Option<String> {
         let (done, units) = (self.bar.position(), self.units());
-        let tenth = 10 * done / units;
-        let silent = more == 0 || stage.told.elapsed() < SILENCE;
-        if std::mem::replace(&mut stage.tenth, tenth) == tenth && silent {
+        let (tenth, silence) = (10 * done / units, stage.told.elapsed());
+        let is_due = silence >= PAUSE && tenth != stage.tenth || silence >= SILENCE && more > 0;
+        if !is_due {
             return None;
         }
+        stage.tenth = tenth;
         let new = done - stage.before.unwrap_or(0).min(done);
         let rate = new as f64 / self.bar.elapsed().as_secs_f64().max(1e-9);
         let left = units.saturating_sub(done) as f64 / rate;

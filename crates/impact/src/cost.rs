@@ -7,6 +7,7 @@ use crate::error::ImpactError;
 use crate::evaluator::convolve::{direct_ns, transform_ns};
 use crate::evaluator::discs::Discs;
 use crate::evaluator::sum::most_whole;
+use crate::evaluator::{APART, MOST_HELD};
 use crate::excitation::{Excitation, PressureRadius};
 use crate::grid::{Grid, Wanted};
 use crate::kernels::KernelSource;
@@ -37,7 +38,25 @@ const KERNELS_OF_OPEN: f64 = 2.6;
 /// Radii from the axis and below the surface within which whole contacts are integrated, and kernels of each over the square
 /// of the digits.
 const BESIDE: [f64; 2] = [3.0, 1.4];
-const KERNELS_OF_WHOLE: f64 = 4.0;
+const KERNELS_OF_WHOLE: f64 = 6.0;
+
+/// Seconds of a rate of a point inside the contact at four digits, and how many times as many for each digit more. On the axis,
+/// up to some radii from it, all parts of the contact are as far, and it takes more.
+const RATE_INSIDE_S: f64 = 0.15;
+const RATE_A_DIGIT: f64 = 4.0;
+const INSIDE: [f64; 2] = [1.2, 0.5];
+const ON_AXIS: f64 = 8.0;
+const AXIS: f64 = 0.05;
+
+/// Times that a longitudinal wave takes over the radius: shorter contacts have short waves, and all choices of discs are tried.
+const SHORT: f64 = 20.0;
+
+/// A force with a kink, such as that of a contact that yields, has more parts to be integrated over.
+const WITH_KINKS: f64 = 3.0;
+
+/// Power of the longitudinal over the shear speed, over that of a ratio of 1/4: the fields beside a contact on a block that is
+/// nearly incompressible have as many more scales.
+const OF_SPEEDS: f64 = 0.5;
 
 /// What the rates of a contact that follows its load take beside its fields.
 const FOLLOWING_RATES: f64 = 2.0;
@@ -65,9 +84,14 @@ pub(crate) fn fields_s(scene: &Scene, excitation: &Excitation, samples: f64) -> 
     // those beside the load seldom leave little at the first choice
     let choices = Discs::computed(radius, tolerance);
     let beside = !choices[0].is_apart();
-    let discs = choices[usize::from(beside).min(choices.len() - 1)]
-        .radii
-        .len() as f64;
+    let counts = |choices: &[Discs]| choices.iter().map(|discs| discs.radii.len()).sum::<usize>();
+    let is_short = excitation.end_s() < SHORT * excitation.units().time_s();
+    let discs = match (radius, is_short) {
+        (PressureRadius::Following { .. }, true) => counts(&choices),
+        _ => choices[usize::from(beside).min(choices.len() - 1)]
+            .radii
+            .len(),
+    } as f64;
     let kernels = KERNELS + KERNELS_A_DIGIT * digits;
     let more = if rates > 0.0 { WITH_RATES } else { 1.0 };
     let [small, of_rates, open, beside] = match radius {
@@ -85,8 +109,67 @@ pub(crate) fn fields_s(scene: &Scene, excitation: &Excitation, samples: f64) -> 
     });
     let step_s = Wanted::of(scene).duration_and_step_s(excitation).1;
     let whole = most_whole(excitation, step_s, tolerance) as f64;
-    let beside_s = beside * whole * KERNELS_OF_WHOLE * digits.powi(2) * SMALL_DISC * KERNEL_S;
-    [OUTPUT_S + points_s + beside_s, looked_up_s]
+    let kinks = match excitation.kinks_s().is_empty() {
+        true => 1.0,
+        false => WITH_KINKS,
+    };
+    let speeds = excitation.speeds();
+    let scales = (speeds.p / speeds.s / 3.0_f64.sqrt()).max(1.0);
+    let harder = kinks * scales.powf(OF_SPEEDS);
+    let whole_s = whole * KERNELS_OF_WHOLE * digits.powi(2) * SMALL_DISC * KERNEL_S;
+    let rate_s = rates * RATE_INSIDE_S * RATE_A_DIGIT.powf(digits - 4.0);
+    let inside_s = match radius {
+        PressureRadius::Following { largest_m, .. } => points_inside(scene, largest_m) * rate_s,
+        PressureRadius::Fixed(_) => 0.0,
+    };
+    let more_s = harder * (beside * whole_s + inside_s);
+    [OUTPUT_S + points_s + more_s, looked_up_s]
+}
+
+/// Points of a scene that are inside a contact of a radius; those on the axis count for more.
+fn points_inside(scene: &Scene, radius_m: f64) -> f64 {
+    let [far_m, deep_m] = INSIDE.map(|radii| radii * radius_m);
+    let of = |r_m: f64| if r_m < AXIS * radius_m { ON_AXIS } else { 1.0 };
+    let probes = scene.probes.iter();
+    let inside = probes.filter(|probe| probe.r_m < far_m && probe.z_m < deep_m);
+    let section = scene.section.as_ref().map_or(0.0, |s| {
+        let [columns, rows] = s.points.map(|n| n as f64);
+        let columns = ON_AXIS + (columns - 1.0) * (far_m / s.r_max_m).min(1.0);
+        columns * (1.0 + (rows - 1.0) * (deep_m / s.z_max_m).min(1.0))
+    });
+    inside.map(|probe| of(probe.r_m)).sum::<f64>() + section
+}
+
+/// Discs that stand for the load at some point of a scene, at most.
+fn most_discs(
+    scene: &Scene,
+    excitation: &Excitation,
+    source: Option<&KernelSource>,
+    samples: f64,
+) -> f64 {
+    let radius = excitation.radius();
+    let choices = match source {
+        None => return 0.0,
+        Some(KernelSource::Table(_)) => Discs::looked_up(radius),
+        Some(KernelSource::Direct(_)) => Discs::computed(radius, scene.settings.tolerance),
+    };
+    let near_m = APART * radius.largest_m();
+    let probes = scene.probes.iter();
+    let near = scene.section.is_some()
+        || probes
+            .map(|probe| probe.r_m.hypot(probe.z_m))
+            .any(|far_m| far_m < near_m);
+    let counts = choices.iter().map(|discs| discs.radii.len());
+    let apart = choices.iter().filter(|discs| discs.is_apart());
+    let held = counts.filter(|&count| count as f64 * samples <= MOST_HELD as f64);
+    let few = apart.map(|discs| discs.radii.len()).max().unwrap_or(0);
+    let first = choices.iter().find(|discs| !discs.is_apart());
+    let few = few.max(first.map_or(1, |discs| discs.radii.len()));
+    if near {
+        held.max().unwrap_or(few) as f64
+    } else {
+        few as f64
+    }
 }
 
 /// Points of a scene that are beside a contact of a radius.
@@ -161,6 +244,9 @@ const QUANTITY_FRAME: f64 = 4.0;
 /// Bytes that a sample takes in each thread: averages and moments of the kernels, the convolution's room.
 const CELL: f64 = 8.0 * 6.0 * 6.0;
 
+/// Bytes that a sample takes of the force on a disc, and of what of it is left.
+const FORCE_SAMPLE: f64 = 200.0;
+
 /// Bytes of a point of a section at one frame: six fields in single precision.
 const FRAME_POINT: f64 = 4.0 * 6.0;
 
@@ -198,10 +284,13 @@ impl Forecast {
             }
         };
         let deflection_s = (products * PRODUCT_S).min(1e-9 * transform_ns(2.0 * samples));
-        Self {
-            seconds: loaded_s + fields_s / threads + deflection_s,
-            ..Self::of(scene, samples, threads)
-        }
+        let forcings = 1.0 + scene.rates() as f64;
+        let discs = most_discs(scene, excitation, source, samples);
+        let of_discs = threads * CELL * (discs - 1.0).max(0.0) + forcings * FORCE_SAMPLE * discs;
+        let mut forecast = Self::of(scene, samples, threads);
+        forecast.seconds = loaded_s + fields_s / threads + deflection_s;
+        forecast.memory_bytes += samples * of_discs;
+        forecast
     }
 
     fn of(scene: &Scene, samples: f64, threads: f64) -> Self {

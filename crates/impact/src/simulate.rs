@@ -12,7 +12,7 @@ use crate::fields::probes::{at_probes, frames, on_section};
 use crate::grid::{Grid, Wanted};
 use crate::impact::Impact;
 use crate::kernels::KernelSource;
-use crate::kernels::source::{KernelChoice, choose_source};
+use crate::kernels::source::{KernelChoice, choose_source, error_at_places};
 use crate::outcome::{Cause, FieldsUsed, Outcome, RecordResults, Series, StrikerSeries, checked};
 use crate::record::ForceRecord;
 use crate::scene::{Load, Scene, Strike};
@@ -158,11 +158,19 @@ fn begin<'e>(
     excitation: &'e Excitation,
     (cause, mut warnings): (Cause, Vec<String>),
 ) -> Result<(Grid<'e>, Outcome), ImpactError> {
-    let chosen = choose_source(scene, kernels, excitation)?;
+    let planned = |source: Option<&KernelSource>| {
+        let grid = Grid::new(&Wanted::of(scene), excitation, source)?;
+        let forecast = Forecast::new(scene, &grid, source, busy(scene.points()));
+        forecast.check(scene, allowance.memory_bytes)?;
+        Ok::<_, ImpactError>((grid, forecast))
+    };
+    let mut judge = |source: &KernelSource| {
+        let (grid, _) = planned(Some(source))?;
+        error_at_places(scene, source, &grid)
+    };
+    let chosen = choose_source(scene, kernels, excitation, &mut judge)?;
     let source = chosen.as_ref().map(|(source, _)| source);
-    let grid = Grid::new(&Wanted::of(scene), excitation, source)?;
-    let forecast = Forecast::new(scene, &grid, source, busy(scene.points()));
-    forecast.check(scene, allowance.memory_bytes)?;
+    let (grid, forecast) = planned(source)?;
     if !(allowance.go_on)(&forecast) {
         let seconds = forecast.seconds;
         return Err(ImpactError::GivenUp { seconds });

@@ -1,7 +1,10 @@
 //! Many contacts, without histories: what a sweep computes. Where a scene has probes, their peaks come with it.
 
+use crate::cost::Forecast;
 use crate::fields::probes::{ProbePeaks, peaks_at_probes};
+use crate::grid::{Grid, Wanted};
 use crate::impact::solve;
+use crate::kernels::KernelSource;
 use crate::kernels::source::KernelChoice;
 use crate::scene::{Load, Scene};
 use contact::{Collision, ContactError, Model, Outcomes, Results, Settings, Solver, Tabulated};
@@ -54,6 +57,19 @@ pub fn observe(
         results: run.results,
         peaks: Some(peaks.map_err(|error| error.to_string())),
     })
+}
+
+/// Forecast memory in bytes of the fields at the probes of a scene, on one thread with computed kernels; none where the contact
+/// fails.
+pub fn fields_bytes(solver: &mut Solver<'_, Tabulated>, scene: &Scene) -> Option<f64> {
+    let strike = scene.strike()?;
+    let (target, settings) = (&scene.target, &scene.settings);
+    let collision = Collision::new(target, &strike.striker, strike.velocity_m_s);
+    let run = solve(solver, target, &collision, settings).ok()?;
+    let excitation = run.excitation();
+    let source = KernelSource::direct(excitation.medium(), settings.tolerance).ok()?;
+    let grid = Grid::new(&Wanted::of(scene), excitation, Some(&source)).ok()?;
+    Some(Forecast::new(scene, &grid, Some(&source), 1.0).memory_bytes)
 }
 
 /// Rows from which it is told where all of them lie, at most.

@@ -1,6 +1,6 @@
 //! `hertzlamb impact`: one scene.
 
-use crate::arguments::{Kernels, MemoryLimit, Overwrite, say_complete};
+use crate::arguments::{AS_TEXT, Kernels, MemoryLimit, Overwrite, is_text, say_complete};
 use crate::failure::{Failure, lines, say, show};
 use crate::progress::Bar;
 use crate::report::{text_report, understood};
@@ -131,7 +131,9 @@ fn outputs(arguments: &Arguments, mut read: Vec<Role>) -> Result<[Option<Output>
     read.extend(arguments.kernels.input());
     let mut claim = |path: &Option<PathBuf>, ending: Ending| {
         let claimed = path.as_ref().map(|path| {
-            let checked = ending.check(path).map_err(Failure::from);
+            let text = is_text(path);
+            let told = |error| Failure::from(error).hint_if(text, AS_TEXT);
+            let checked = ending.check(path).map_err(told);
             let claimed = checked.and_then(|()| arguments.overwrite.claim(path, &read));
             read.push(("another output", path.clone()));
             claimed

@@ -86,7 +86,11 @@ fn info(path: &Path, json: bool) -> Result<(), Failure> {
     let table = lookup::Table::open(path).map_err(Failure::input)?;
     let content = table.content();
     let value = table_report(path, &table);
-    let cells: Vec<usize> = content.slices.iter().map(|slice| slice.cells).collect();
+    let cells = content.slices.iter().map(|slice| slice.cells);
+    let cells = match (cells.clone().min(), cells.max()) {
+        (Some(fewest), Some(most)) if fewest < most => format!("{fewest} to {most}"),
+        (_, most) => most.unwrap_or(0).to_string(),
+    };
     let text = format!(
         "file            {} ({:.1} MB)\n\
          id              {}, format {}, written by {}\n\
@@ -94,7 +98,7 @@ fn info(path: &Path, json: bool) -> Result<(), Failure> {
          Poisson ratios  {:?}\n\
          r               0 .. {} r0, {} nodes\n\
          z               0 .. {} r0, {} nodes\n\
-         time            cells of {} r0/c1, {cells:?} of them, then a tail\n\
+         time            cells of {} r0/c1, {cells} of them, then a tail\n\
          interpolation   {} points\n{}",
         path.display(),
         value["bytes"].as_f64().unwrap_or(0.0) / 1e6,

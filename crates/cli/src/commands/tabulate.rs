@@ -1,13 +1,13 @@
 //! `hertzlamb tabulate`: builds a kernel table.
 
 use crate::arguments::{MemoryLimit, Overwrite, say_complete};
-use crate::failure::{Failure, say, show};
+use crate::failure::{Failure, lines, say, show};
 use crate::process;
 use crate::progress::Bar;
 use clap::Args;
 use formats::accuracy_report;
 use lookup::{Accuracy, Quantiles, schema, worst};
-use output::{Existing, Output, OutputError, SHARD, TABLE, apart};
+use output::{Existing, Output, OutputError, SHARD, TABLE, apart, processor_s};
 use serde_json::json;
 use std::path::{Path, PathBuf};
 use tabulator::{BuildError, Extension, Grid, NUMBERS_REVISION, Shard, Summary};
@@ -20,6 +20,7 @@ const EXAMPLES: &str = "Examples:
   hertzlamb tabulate --nu 0.2917 --r-max 8 -o kernels.h5      (adds to that table)
   hertzlamb tabulate --grid my-grid.toml -o mine.h5 --json
   hertzlamb tabulate --grid standard --shard 2/4 -o 2.shard
+  hertzlamb tabulate --grid wide --plan
 
 An interrupted build goes on where it stopped when the same command is given again.";
 
@@ -30,7 +31,7 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "PRESET|FILE.toml")]
     grid: Option<String>,
     /// Poisson ratios, comma-separated: instead of those of the grid, or, without --grid, slices to add to the output if it exists.
-    #[arg(long, value_name = "LIST", value_delimiter = ',')]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = ratio)]
     nu: Option<Vec<f64>>,
     /// Serve radii up to this, in r0; extends the output if it exists.
     #[arg(long, value_name = "R0")]
@@ -48,8 +49,11 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "LENGTH", requires = "tol")]
     pulse: Option<f64>,
     /// The table to write.
-    #[arg(short, long, value_name = "OUT.h5")]
-    output: PathBuf,
+    #[arg(short, long, value_name = "OUT.h5", required_unless_present = "plan")]
+    output: Option<PathBuf>,
+    /// Compute a few points and print the time, memory and size of the table; nothing is written.
+    #[arg(long, conflicts_with_all = ["output", "shard", "skip_complete", "force"])]
+    plan: bool,
     /// Succeed at once where the output is a whole table of this grid and version; fail with 1 where it is not.
     #[arg(long, conflicts_with = "force")]
     skip_complete: bool,
@@ -65,44 +69,101 @@ pub(crate) struct Arguments {
     json: bool,
 }
 
+/// A Poisson's ratio.
+fn ratio(text: &str) -> Result<f64, &'static str> {
+    let number = text.parse().ok();
+    let number = number.filter(|nu| (-0.95..=0.495).contains(nu));
+    number.ok_or("it is outside [-0.95, 0.495]")
+}
+
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    match &arguments.output {
+        None => plan(arguments),
+        Some(output) => tabulate(arguments, output),
+    }
+}
+
+/// Prints what the table of a grid takes.
+fn plan(arguments: &Arguments) -> Result<(), Failure> {
+    /// Time in s of the measurement, about.
+    const MEASURED_S: f64 = 2.0;
+    let found = grid(arguments)?
+        .cost(MEASURED_S, processor_s)
+        .map_err(failure)?;
+    let threads = std::thread::available_parallelism().map_or(1, usize::from);
+    let seconds = found.seconds / threads as f64;
+    let value = json!({
+        "points": found.points,
+        "blocks": found.blocks,
+        "seconds": seconds,
+        "threads": threads,
+        "measured_points": found.measured_points,
+        "memory_bytes": found.memory_bytes,
+        "most_bytes": found.most_bytes,
+    });
+    let [memory, size] = [found.memory_bytes, found.most_bytes].map(|bytes| 1e-9 * bytes);
+    let text = lines([
+        (
+            "points",
+            format!("{} in {} blocks", found.points, found.blocks),
+        ),
+        (
+            "time",
+            format!(
+                "{seconds:.0} s on {threads} threads, from {} points",
+                found.measured_points
+            ),
+        ),
+        (
+            "memory",
+            format!("{memory:.2} GB; a shard takes its part of it"),
+        ),
+        (
+            "size",
+            format!("{size:.2} GB at most, a third of it as a rule: the file is compressed"),
+        ),
+    ]);
+    show(arguments.json, &value, text)
+}
+
+fn tabulate(arguments: &Arguments, output: &Path) -> Result<(), Failure> {
     let ending = arguments.shard.map_or(TABLE, |_| SHARD);
-    ending.check(&arguments.output)?;
+    ending.check(output)?;
     if let Some(grid) = arguments.grid.as_deref().filter(|name| is_file(name)) {
-        apart(&[&arguments.output], &[("the grid", grid.into())])?;
+        apart(&[output], &[("the grid", grid.into())])?;
     }
     let beside = arguments.shard.map_or(".journal", |_| "");
-    let place = format!("{}{beside}", arguments.output.display());
+    let place = format!("{}{beside}", output.display());
     process::say_then(move || {
         format!("what is finished is kept in {place}; the same command goes on with it")
     });
-    if let Some(extension) = extension(arguments) {
-        let summary = extend(&arguments.output, &extension, &Bar::new()).map_err(failure)?;
-        let content = lookup::read(&arguments.output).map_err(Failure::work)?;
+    if let Some(extension) = extension(arguments, output) {
+        let summary = extend(output, &extension, &Bar::new()).map_err(failure)?;
+        let content = lookup::read(output).map_err(Failure::work)?;
         let grid = Grid::parse(&content.origin.grid).map_err(failure)?;
-        return tell(&grid, arguments, &summary);
+        return tell(&grid, output, arguments.json, &summary);
     }
     let grid = grid(arguments)?;
     // ends at once where it has all its blocks
     if let Some(shard) = arguments.shard {
-        let blocks = build_shard(&grid, shard, &arguments.output, &Bar::new()).map_err(failure)?;
-        let file = arguments.output.display().to_string();
+        let blocks = build_shard(&grid, shard, output, &Bar::new()).map_err(failure)?;
+        let file = output.display().to_string();
         let text = format!("{file}: {blocks} blocks; join all shards with hertzlamb table merge");
         let value = json!({ "file": file, "blocks": blocks });
         return show(arguments.json, &value, text);
     }
-    if arguments.skip_complete && arguments.output.exists() {
+    if arguments.skip_complete && output.exists() {
         // also removes what a killed run has left beside it
-        Output::claim(&arguments.output, Existing::Replace)?;
-        check_complete(&arguments.output, &grid)?;
-        return say_complete(&arguments.output, arguments.json);
+        Output::claim(output, Existing::Replace)?;
+        check_complete(output, &grid)?;
+        return say_complete(output, arguments.json);
     }
     let existing = arguments.overwrite.existing();
     let needed = grid.memory_bytes().map_err(failure)?;
     let change = "ask for fewer nodes, fewer slices or wider cells";
     arguments.memory.check(needed, "the table", change)?;
-    let summary = build_over(&grid, &arguments.output, existing, &Bar::new()).map_err(failure)?;
-    tell(&grid, arguments, &summary)
+    let summary = build_over(&grid, output, existing, &Bar::new()).map_err(failure)?;
+    tell(&grid, output, arguments.json, &summary)
 }
 
 /// Fails where a file is not the whole table of a grid, made by this version.
@@ -125,7 +186,7 @@ fn check_complete(path: &Path, grid: &Grid) -> Result<(), Failure> {
 }
 
 /// What to add to the output, if it exists and no new table was asked for.
-fn extension(arguments: &Arguments) -> Option<Extension> {
+fn extension(arguments: &Arguments, output: &Path) -> Option<Extension> {
     let extension = Extension {
         exact_ratios: arguments.nu.clone().unwrap_or_default(),
         r_max: arguments.r_max,
@@ -138,7 +199,7 @@ fn extension(arguments: &Arguments) -> Option<Extension> {
         || arguments.skip_complete
         || arguments.shard.is_some()
         || arguments.tol.is_some();
-    (more && !new && arguments.output.exists()).then_some(extension)
+    (more && !new && output.exists()).then_some(extension)
 }
 
 /// The settings of a new table.
@@ -164,8 +225,8 @@ fn grid(arguments: &Arguments) -> Result<Grid, Failure> {
     Ok(grid)
 }
 
-fn tell(grid: &Grid, arguments: &Arguments, summary: &Summary) -> Result<(), Failure> {
-    let file = arguments.output.display().to_string();
+fn tell(grid: &Grid, output: &Path, json: bool, summary: &Summary) -> Result<(), Failure> {
+    let file = output.display().to_string();
     let (id, points, wall_s) = (&summary.id, summary.points, summary.wall_s);
     let accuracy = &summary.accuracy[..];
     let lengths: Vec<f64> = accuracy.iter().map(|errors| errors.pulse_length).collect();
@@ -188,7 +249,7 @@ fn tell(grid: &Grid, arguments: &Arguments, summary: &Summary) -> Result<(), Fai
     let errors = errors_in_words(accuracy);
     let text =
         format!("{file}: {points} points, {megabytes:.1} MB, {wall_s:.1} s, id {id}\n{errors}");
-    show(arguments.json, &value, text)
+    show(json, &value, text)
 }
 
 /// The errors of the worst field in each region, for each length of the pulse.

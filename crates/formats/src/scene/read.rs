@@ -7,6 +7,7 @@ use super::section::{Section, as_number, parse, read_standard, read_text};
 use crate::error::SceneError;
 use contact::{Choice, Conflict, HalfSpace, Library, Settings};
 use impact::{Load, Probe, Reading, Scene, Section as MeridionalSection, Strike};
+use lookup::schema::FIELD_NAMES;
 use output::{Role, is_standard};
 use std::path::Path;
 use toml::{Table, Value};
@@ -86,6 +87,7 @@ pub(crate) fn scene_with(
     let none = Table::new();
     let output = output.unwrap_or(Section::of("output", &none));
     output.allow_keys_of("output")?;
+    always_there(&output)?;
     Ok(Scene {
         target,
         load,
@@ -96,6 +98,20 @@ pub(crate) fn scene_with(
         quantities: output.choices("quantities")?,
         peaks: output.flag("peaks")?,
     })
+}
+
+/// Refuses to be asked for a field that is written in any case.
+fn always_there(output: &Section<'_>) -> Result<(), SceneError> {
+    let asked = output.value("quantities").and_then(Value::as_array);
+    let mut words = asked.into_iter().flatten().filter_map(Value::as_str);
+    let Some(word) = words.find(|word| FIELD_NAMES.contains(word)) else {
+        return Ok(());
+    };
+    Err(SceneError::superfluous(
+        format!("output.quantities = \"{word}\""),
+        "the six fields",
+        "displacements and stresses are always written; leave it out",
+    ))
 }
 
 /// The half-space and the striker of a parsed scene; none for a force record, whose file is not read.

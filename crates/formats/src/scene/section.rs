@@ -100,6 +100,10 @@ impl<'a> Section<'a> {
     /// A list of subsections such as [[probe]], with the names of their elements.
     pub(crate) fn list(&self, key: &str) -> Result<Vec<(String, &'a Table)>, SceneError> {
         let expected = "a list of sections [[..]]";
+        if let Some(one) = self.value(key).filter(|value| value.is_table()) {
+            let brackets = format!("a list: write [[{key}]] for [{key}]");
+            return Err(self.wrong_kind(key, one, &brackets));
+        }
         let items = self.typed(key, expected, Value::as_array)?;
         let named = items.into_iter().flatten().enumerate().map(|(i, item)| {
             let table = item.as_table();
@@ -130,7 +134,15 @@ impl<'a> Section<'a> {
     }
 
     pub(crate) fn number_in(&self, key: &str, range: Range) -> Result<Option<f64>, SceneError> {
-        match self.typed(key, "a number", as_number)? {
+        // what varies in a sweep
+        let many = |value: &&Value| value.is_array() || value.is_table();
+        let expected = match self.value(key).filter(many) {
+            Some(_) if number(key).is_some() => {
+                "a number; a sweep varies it: put the values below [product] of a sweep file"
+            }
+            Some(_) | None => "a number",
+        };
+        match self.typed(key, expected, as_number)? {
             Some(x) if !(range.holds)(x) => {
                 Err(SceneError::out_of_range(self.key(key), x, range.name))
             }
@@ -262,12 +274,7 @@ impl<'a> Section<'a> {
         Ok(flag.unwrap_or(false))
     }
 
-    pub(crate) fn wrong_kind(
-        &self,
-        key: &str,
-        value: &Value,
-        expected: &'static str,
-    ) -> SceneError {
+    pub(crate) fn wrong_kind(&self, key: &str, value: &Value, expected: &str) -> SceneError {
         let mut shown = value.to_string().replace('\n', " ");
         if shown.chars().count() > 60 {
             shown = shown.chars().take(57).chain("...".chars()).collect();
@@ -347,7 +354,7 @@ pub(crate) fn read_text_up_to(path: &Path, most: u64) -> Result<String, SceneErr
 }
 
 /// The TOML that standard input has.
-pub(super) fn read_standard() -> Result<String, SceneError> {
+pub(crate) fn read_standard() -> Result<String, SceneError> {
     text_of(io::stdin(), Path::new("standard input"), MOST_OF_TOML)
 }
 

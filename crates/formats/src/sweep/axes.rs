@@ -98,9 +98,25 @@ fn spaced(range: &Section<'_>) -> Result<Vec<f64>, SceneError> {
     let value = |i: usize| match (i as f64 / last, spacing) {
         _ if i + 1 == count => to,
         (fraction, Spacing::Linear) => from + fraction * (to - from),
-        (fraction, Spacing::Log) => from * (to / from).powf(fraction),
+        (fraction, Spacing::Log) => decade(from, from * (to / from).powf(fraction)),
     };
     Ok((0..count).map(value).collect())
+}
+
+/// A value that is whole decades from another but for rounding, as the decimal that it is meant to be.
+fn decade(from: f64, value: f64) -> f64 {
+    /// Rounding of a logarithm and a power, in decades.
+    const ROUNDING: f64 = 1e-13;
+    let decades = (value / from).log10();
+    let whole = decades.round();
+    let shown = format!("{from:e}");
+    match shown.split_once('e') {
+        Some((digits, exponent)) if (decades - whole).abs() < ROUNDING => {
+            let exponent = exponent.parse::<f64>().unwrap_or(0.0) + whole;
+            format!("{digits}e{exponent}").parse().unwrap_or(value)
+        }
+        Some(_) | None => value,
+    }
 }
 
 /// A scene key with its values along an axis.
@@ -155,4 +171,24 @@ impl Axis {
 pub(super) fn rows(axes: &[Axis]) -> Option<usize> {
     axes.iter()
         .try_fold(1_usize, |rows, axis| rows.checked_mul(axis.len))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn logarithmic_values_hit_their_decades() {
+        let values = |text: &str| {
+            let table: Table = text.parse().unwrap_or_default();
+            spaced(&Section::of("x", &table)).unwrap_or_default()
+        };
+        let found = values("from = 2e-4\nto = 20\ncount = 51\nspacing = \"log\"");
+        let decades: Vec<f64> = found.iter().copied().step_by(10).collect();
+        assert_eq!(decades, [2e-4, 2e-3, 0.02, 0.2, 2.0, 20.0]);
+        // no other is moved
+        assert_eq!(found[7], 2e-4 * (20.0_f64 / 2e-4).powf(7.0 / 50.0));
+        let falling = values("from = 30\nto = 0.003\ncount = 5\nspacing = \"log\"");
+        assert_eq!(falling, [30.0, 3.0, 0.3, 0.03, 0.003]);
+    }
 }

@@ -66,8 +66,8 @@ impl Fields {
             .find(|name| !known().any(|known| known == *name))
         {
             let known: Vec<&str> = known().collect();
-            let hint = format!("the results are {}", known.join(", "));
-            return Err(SceneError::missing(format!("the column {name}"), &hint));
+            let key = "the column".to_owned();
+            return Err(SceneError::unknown_choice(key, name, &known.join(", ")));
         }
         let wanted = |place: &usize| names.clone().any(|name| name == self.known[*place].name);
         let places = (0..self.width()).filter(wanted).collect();

@@ -46,6 +46,9 @@ impl Kept {
     /// Opens or begins a journal; that of other rows is replaced where it `drops`.
     pub(super) fn open(path: &Path, spec: &Spec, drops: bool) -> Result<Self, OutputError> {
         let (rows, results, mut spans) = (spec.selected(), results(&spec.fields), Vec::new());
+        if !drops && lacks(path, spec, results)? {
+            return Err(OutputError::Begun(path.to_owned(), KIND));
+        }
         let take = |record, kept: &[u8]| take(&mut spans, &rows, results, record, kept);
         let journal = Journal::open(path, &title(spec), |_| drops, take)?;
         Ok(Self {
@@ -115,6 +118,23 @@ impl Unfinished {
             kept: apart(&mut spans),
         })
     }
+}
+
+/// Whether a journal keeps rows that are asked for without some of these results.
+fn lacks(path: &Path, spec: &Spec, results: u64) -> Result<bool, OutputError> {
+    if !path.exists() {
+        return Ok(false);
+    }
+    let Some(mut records) = Records::open(path, KIND)? else {
+        return Ok(false);
+    };
+    let own = records.title == title(spec);
+    let held = |(_, kept): (_, Vec<u8>)| parsed(&kept).map(|(_, held)| held);
+    Ok(own
+        && records
+            .by_ref()
+            .map_while(held)
+            .any(|held| held & results != results))
 }
 
 /// Whether the journal at `part` keeps all rows that are asked for, so that a run may have begun to write its outputs.

@@ -34,6 +34,6 @@ pub use rows::{
     key_unit, print_csv, row_bytes, stage_csv, stage_rows,
 };
 pub(crate) use rows::{Cells, Footer, MAGIC, What, columns, stage_hdf5};
-pub use run::{check_at_once, compute_columns, compute_rows, run_rows};
+pub use run::{Computed, check_at_once, compute_columns, compute_rows, fields_bytes, run_rows};
 pub use shard::{BLOCK, Part, Selection, grain};
 pub use spec::Spec;

@@ -4,7 +4,7 @@ use super::error::SweepError;
 use super::fields::probed_numbers;
 use super::journal::Kept;
 use super::kernels::Kernels;
-use super::rows::{Block, Held, NO_MODEL};
+use super::rows::{Block, Blocks, Held, NO_MODEL};
 use super::shard::BLOCK;
 use super::spec::Spec;
 use super::template::{Memory, Templates};
@@ -14,7 +14,7 @@ use contact::{Choice, Model, Outcomes, Solver, Tabulated};
 use fault::AnyError;
 use impact::sweep::{Observed, collide, observe, outcomes};
 use ledger::gaps;
-use output::Existing;
+use output::{Existing, Fault};
 use rayon::prelude::*;
 use std::ops::Range;
 use std::path::Path;
@@ -73,6 +73,7 @@ pub fn run_rows(
 }
 
 /// What rows are computed with.
+#[derive(Debug)]
 struct Computer<'a> {
     spec: &'a Spec,
     templates: Templates<'a>,
@@ -182,6 +183,60 @@ fn fill_row(numbers: &mut [f64], model: &mut u8, found: Observed) -> Result<(), 
         }
     }
     Ok(())
+}
+
+/// The rows of a sweep that are asked for, computed as they are visited.
+#[derive(Debug)]
+pub struct Computed<'a>(Computer<'a>);
+
+impl<'a> Computed<'a> {
+    /// Reads what all rows share.
+    ///
+    /// # Errors
+    /// [`SceneError`] of the sweep.
+    pub fn new(spec: &'a Spec) -> Result<Self, SceneError> {
+        Computer::new(spec).map(Self)
+    }
+}
+
+impl Blocks for Computed<'_> {
+    fn each(&self, visit: &mut dyn FnMut(&Block) -> Result<(), Fault>) -> Result<(), Fault> {
+        let computer = &self.0;
+        let (mut block, mut size) = (Block::default(), computer.first_block());
+        let Range { mut start, end } = computer.spec.selected();
+        while start < end {
+            let until = (start + size).min(end);
+            block.make_room(start, until - start, computer.spec.fields.width());
+            let filled = computer.fill(&mut block, start..until, BLOCK_S, |row| row);
+            size = filled.map_err(|error| Fault::from(error.to_string()))?;
+            visit(&block)?;
+            start = until;
+        }
+        Ok(())
+    }
+}
+
+/// Rows whose fields are forecast before a run, at most.
+const FORECAST: usize = 64;
+
+/// Forecast memory in bytes of the fields at probes while rows are computed on all threads: that of the largest among some
+/// rows, which are spread over those that are asked for; 0 without probes.
+///
+/// # Errors
+/// [`SceneError`] of the sweep.
+pub fn fields_bytes(spec: &Spec) -> Result<f64, SceneError> {
+    if spec.kernels.is_none() {
+        return Ok(0.0);
+    }
+    let (computer, rows) = (Computer::new(spec)?, spec.selected());
+    let mut solver = Solver::sharing(&computer.responses, &computer.outcomes);
+    let (mut memory, mut most) = (Memory::default(), 0.0_f64);
+    for row in rows.clone().step_by(rows.len().div_ceil(FORECAST).max(1)) {
+        if let Ok(scene) = computer.templates.scene(row, &mut memory) {
+            most = most.max(impact::sweep::fields_bytes(&mut solver, scene).unwrap_or(0.0));
+        }
+    }
+    Ok(most * rayon::current_num_threads().min(rows.len()) as f64)
 }
 
 /// Rows that are held in memory together, at most: eight bytes for each of their numbers.

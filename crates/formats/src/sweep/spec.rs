@@ -11,7 +11,7 @@ use crate::error::SceneError;
 use crate::quantities::{Described, QUANTITIES};
 use crate::scene::body::parse_materials;
 use crate::scene::keys::{FINITE, SECTIONS, keys_of};
-use crate::scene::section::{Section, parse, read_text};
+use crate::scene::section::{Section, parse, read_standard, read_text};
 use contact::{Choice, Library, NUMBERS_REVISION, Plasticity};
 use impact::numbers::FIELDS_REVISION;
 use ledger::{Identity, Shard};
@@ -68,6 +68,15 @@ impl Spec {
         let text = read_text(path)?;
         let directory = path.parent().unwrap_or(Path::new("."));
         Self::from_toml(&text, directory).map_err(|error| error.in_file(path))
+    }
+
+    /// Reads a sweep from standard input; the scene it names is looked for in the current folder.
+    ///
+    /// # Errors
+    /// [`SceneError`].
+    pub fn from_standard_input() -> Result<Self, SceneError> {
+        let read = || Self::from_toml(&read_standard()?, Path::new("."));
+        read().map_err(|error| error.in_file(Path::new("standard input")))
     }
 
     /// Reads a sweep; the scene it names is looked for in `directory`.
@@ -205,9 +214,9 @@ impl Spec {
     pub fn select_rows(&mut self, rows: Range<usize>) -> Result<(), SceneError> {
         if rows.end > self.rows() {
             return Err(SceneError::out_of_range(
-                format!("the end of the rows, of a sweep of {},", self.rows()),
+                "the end of the rows",
                 rows.end as f64,
-                "the rows of the sweep, which count from 0",
+                &format!("[0, {}], the rows of the sweep", self.rows()),
             ));
         }
         self.selection = Some(Selection { rows, shard: None });
@@ -429,10 +438,9 @@ fn drawn(random: &Section<'_>) -> Result<Axis, SceneError> {
     Ok(Axis { name, columns, len })
 }
 
-/// Numbers of a product are in the ranges of their keys; of a list or of draws one outside is a row that fails.
+/// Numbers of a product and of a list are in the ranges of their keys; a draw outside is a row that fails.
 fn in_range(axes: &[Axis]) -> Result<(), SceneError> {
-    let of_product = axes.iter().filter(|axis| axis.name != LIST);
-    for column in of_product.flat_map(|axis| &axis.columns) {
+    for column in axes.iter().flat_map(|axis| &axis.columns) {
         let known = keys_of(&column.section).find(|key| key.name == column.key);
         if let (Some(range), Values::Numbers(numbers)) =
             (known.and_then(|key| key.range), &column.values)

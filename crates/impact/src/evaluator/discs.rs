@@ -142,6 +142,30 @@ impl Discs {
         }
     }
 
+    /// Chebyshev's polynomials of the squared radius at `square` of the largest, one for each disc: the load that each of
+    /// them multiplies acts on the kernels of [`Self::kernel`].
+    pub(crate) fn polynomial(&self, j: usize, square: f64) -> f64 {
+        match self.radii.len() {
+            1 => 1.0,
+            _ => chebyshev(j, (2.0 * square - 1.0 - self.least) / (1.0 - self.least)),
+        }
+    }
+
+    /// What disc `k` counts in the kernel on which polynomial `j` of the load acts,
+    ///
+    /// ```text
+    /// sum_k share_k R_k = sum_j T_j D_j,     D_0 = sum_k R_k / N,     D_j = 2 sum_k T_j(node_k) R_k / N
+    /// ```
+    ///
+    /// D_j is a difference of order j of the kernels and small where waves are long beside the radii, while shares of
+    /// loads that are smaller than the smallest disc are large and cancel.
+    pub(crate) fn kernel(&self, j: usize, k: usize) -> f64 {
+        let count = self.radii.len();
+        let node = (PI * (2 * k + 1) as f64 / (2 * count) as f64).cos();
+        let twice = if j == 0 { 1.0 } else { 2.0 };
+        twice * chebyshev(j, node) / count as f64
+    }
+
     /// The share of disc `k` of a load that has `square` of the largest radius squared, and the part of it that the
     /// highest power brings.
     pub(crate) fn share(&self, k: usize, square: f64) -> [f64; 2] {
@@ -170,9 +194,37 @@ impl Discs {
     }
 }
 
+/// Chebyshev's polynomial of degree j at any x.
+fn chebyshev(j: usize, x: f64) -> f64 {
+    let (mut before, mut own) = (1.0, x);
+    for _ in 0..j {
+        (before, own) = (own, 2.0 * x * own - before);
+    }
+    before
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn polynomials_on_differences_of_kernels_are_shares_of_kernels() {
+        for (count, smallest) in [(1, 1.0), (3, 0.0), (4, 0.5)] {
+            let discs = Discs::following(count, smallest);
+            // extrapolated to small loads, too
+            for square in [0.0, 0.04, 0.3, 1.0] {
+                for k in 0..count {
+                    let terms =
+                        (0..count).map(|j| discs.polynomial(j, square) * discs.kernel(j, k));
+                    let sum: f64 = terms.sum();
+                    assert!(
+                        (sum - discs.share(k, square)[0]).abs() < 1e-11,
+                        "{count} {square}"
+                    );
+                }
+            }
+        }
+    }
 
     #[test]
     fn shares_reproduce_powers_of_the_squared_radius() {

@@ -10,7 +10,7 @@
 use super::convolve::Convolver;
 use super::discs::Discs;
 use super::ends::{Zone, zones};
-use super::projection::{CellNodes, Projection};
+use super::projection::{CellNodes, Node, Projection, taken_between};
 use crate::excitation::{Excitation, Pressed, PressureRadius, Run};
 use crate::fields::quantity::Derivative;
 use crate::grid::Grid;
@@ -18,6 +18,7 @@ use crate::kernels::Cells;
 use crate::record::stretch::{Departure, largest};
 use halfspace::Six;
 use lookup::Moments;
+use std::collections::BTreeSet;
 use std::convert::Infallible;
 use std::ops::Range;
 
@@ -70,6 +71,20 @@ pub(crate) struct RunForce {
     pub(crate) last: Option<Sampled>,
     /// Cells that the samples do not resolve.
     pub(crate) zones: Vec<Zone>,
+}
+
+/// Forces on the discs of a choice.
+pub(crate) struct DiscForces {
+    pub(crate) each: Vec<DiscForce>,
+    /// Of each run the cells of the zones, where kernels are known in cells alone.
+    pub(crate) rough: Vec<Vec<Rough>>,
+}
+
+/// Residual of the load in a cell of a zone, once the parabola that the cell takes of its rate is subtracted.
+pub(crate) struct Rough {
+    pub(crate) cell: usize,
+    /// Largest residual rate over a cell in N, of the load times each polynomial of the radius.
+    pub(crate) left: Vec<f64>,
 }
 
 impl RunForce {
@@ -217,8 +232,8 @@ impl<'a> Forcing<'a> {
         [cells.start - 1, cells.end - 1].map(|n| run.start_s + n as f64 * self.step_s)
     }
 
-    /// Forces on the discs of a choice.
-    pub(crate) fn on_discs(&self, discs: &Discs) -> Vec<DiscForce> {
+    /// Forces on the discs of a choice, with kernels that are known at each instant or, `in_cells`, in cells alone.
+    pub(crate) fn on_discs(&self, discs: &Discs, in_cells: bool) -> DiscForces {
         let nodes = |run| self.excitation.cell_nodes(run, self.step_s);
         let nodes: Vec<CellNodes> = self.runs.iter().map(nodes).collect();
         let of = |k| {
@@ -235,7 +250,50 @@ impl<'a> Forcing<'a> {
             (*most_n, *sum_n) = (per_step * *most_n, per_step * *sum_n);
             force
         };
-        (0..discs.radii.len()).map(of).collect()
+        let each: Vec<DiscForce> = (0..discs.radii.len()).map(of).collect();
+        let rough = match in_cells {
+            true => (0..self.runs.len()).map(|i| self.rough(discs, &each, i, &nodes[i])),
+            false => {
+                return DiscForces {
+                    each,
+                    rough: Vec::new(),
+                };
+            }
+        };
+        DiscForces {
+            rough: rough.collect(),
+            each,
+        }
+    }
+
+    /// Residuals of the load in the zones of all discs during a run.
+    fn rough(&self, discs: &Discs, each: &[DiscForce], i: usize, nodes: &CellNodes) -> Vec<Rough> {
+        let run = &self.runs[i];
+        let zones = each.iter().flat_map(|force| &force.runs[i].zones);
+        let cells: BTreeSet<usize> = zones.flat_map(|zone| zone.cells.clone()).collect();
+        let of = |cell: usize| {
+            let left = |j: usize| {
+                let at = |x: f64| {
+                    let time_s = run.start_s + (cell as f64 - 0.5 + x) * self.step_s;
+                    match discs.radii.len() {
+                        1 => self.on_disc(discs, 0, time_s)[0],
+                        _ => self.sum(
+                            time_s,
+                            |one| [one.force_n * discs.polynomial(j, one.square)],
+                        )[0],
+                    }
+                };
+                let own = nodes.of(cell - 1).iter().map(|node| Node {
+                    force: at(node.x),
+                    ..*node
+                });
+                let own: Vec<Node> = own.collect();
+                taken_between([at(-0.5), at(0.5)], &own).left
+            };
+            let left = (0..discs.radii.len()).map(left).collect();
+            Rough { cell, left }
+        };
+        cells.into_iter().map(of).collect()
     }
 
     fn add_run(

@@ -32,7 +32,7 @@ use crate::grid::Grid;
 use crate::kernels::{CellPlan, Cells, KernelSource};
 use convolve::Method;
 use discs::Discs;
-use forcing::{DiscForce, Forcing};
+use forcing::{DiscForces, Forcing};
 use lookup::BEYOND;
 use std::sync::OnceLock;
 use sum::Sum;
@@ -51,7 +51,7 @@ pub(crate) struct Evaluator<'a> {
     forcings: Vec<Forcing<'a>>,
     /// The discs that may stand for the load, and the forces on them that a point has needed, of each forcing.
     choices: Vec<Discs>,
-    forces: Vec<OnceLock<Vec<Vec<DiscForce>>>>,
+    forces: Vec<OnceLock<Vec<DiscForces>>>,
     /// Of a contact whose radius follows the load.
     past: Option<Past<'a>>,
 }
@@ -77,14 +77,14 @@ impl Trace {
 const PART_OF_PAST: f64 = 10.0;
 
 /// Largest radii from the load between which waves are long beside the contact and kernels of small discs have their digits.
-const APART: f64 = 4.0;
+pub(crate) const APART: f64 = 4.0;
 const FAR: f64 = 30.0;
 
 /// Samples of a disc that are summed while one is integrated.
 const SUMMED: usize = 400;
 
 /// Samples of forces on discs that are held at most.
-const MOST_HELD: usize = 1 << 24;
+pub(crate) const MOST_HELD: usize = 1 << 24;
 
 impl<'a> Evaluator<'a> {
     /// Of what is asked at points, of the excitation of a grid with kernels.
@@ -140,7 +140,8 @@ impl<'a> Evaluator<'a> {
     /// How forces are summed, for reports.
     pub(crate) fn method(&self) -> Method {
         let forces = self.forces.iter().filter_map(OnceLock::get);
-        let mut runs = forces.flatten().flatten().flat_map(|force| &force.runs);
+        let each = forces.flatten().flat_map(|forces| &forces.each);
+        let mut runs = each.flat_map(|force| &force.runs);
         match runs.any(|run| run.force.convolver.transform.is_some()) {
             true => Method::Transform,
             false => Method::Direct,
@@ -256,7 +257,8 @@ impl<'a> Evaluator<'a> {
             }
         };
         let cells: Vec<Cells> = discs.radii.iter().map(of).collect::<Result<_, _>>()?;
-        let on_discs = |forcing: &Forcing<'_>| forcing.on_discs(discs);
+        let in_cells = matches!(self.source, KernelSource::Table(_));
+        let on_discs = |forcing: &Forcing<'_>| forcing.on_discs(discs, in_cells);
         let forces =
             self.forces[choice].get_or_init(|| self.forcings.iter().map(on_discs).collect());
         let sums = (self.forcings.iter().zip(forces))

@@ -175,7 +175,11 @@ pub(crate) struct Taken {
 /// slope = 12 [(P0 + P1)/2 - int P dx],     bend = 180 [(P1 - P0)/6 - 2 int P x dx]
 /// ```
 fn taken(samples: &[f64], nodes: &CellNodes, m: usize) -> Taken {
-    let (before, after, nodes) = (samples[m - 1], samples[m], nodes.of(m - 1));
+    taken_between([samples[m - 1], samples[m]], nodes.of(m - 1))
+}
+
+/// The same from the forces at the ends of the cell and its nodes.
+pub(crate) fn taken_between([before, after]: [f64; 2], nodes: &[Node]) -> Taken {
     let (mut mean, mut moment) = (0.0, 0.0);
     for node in nodes {
         // less the line between the ends, so that little is left to cancel

@@ -3,7 +3,7 @@
 use super::Trace;
 use super::discs::{COARSEST, Discs};
 use super::ends::open;
-use super::forcing::{DiscForce, Forcing};
+use super::forcing::{DiscForce, DiscForces, Forcing, Rough};
 use super::past::Past;
 use crate::error::ImpactError;
 use crate::excitation::{Excitation, PressureRadius};
@@ -11,6 +11,7 @@ use crate::fields::quantity::Derivative;
 use crate::kernels::Cells;
 use crate::record::stretch::largest;
 use halfspace::Six;
+use lookup::Moments;
 use std::ops::Range;
 
 /// Samples of six fields, or of the rates of the first two, with what the samples leave open.
@@ -72,16 +73,17 @@ impl<'a> Sum<'a> {
     pub(crate) fn new(
         forcing: &'a Forcing<'a>,
         discs: &'a Discs,
-        forces: &'a [DiscForce],
+        forces: &'a DiscForces,
         place_m: [f64; 2],
         cells: &[Cells],
     ) -> Result<Self, ImpactError> {
+        let DiscForces { each, rough } = forces;
         let samples = forcing.times_s.len();
         let blank = || std::array::from_fn(|_| vec![0.0; samples]);
         let mut sum = Self {
             forcing,
             discs,
-            forces,
+            forces: each,
             place_m,
             values: blank(),
             errors: Six::default(),
@@ -94,6 +96,7 @@ impl<'a> Sum<'a> {
             sum.add_disc(k, cells);
         }
         sum.add_omitted(cells);
+        sum.add_rough(cells, rough);
         if let PressureRadius::Following { largest_m, .. } = forcing.excitation.radius() {
             if discs.radii.len() == 1 {
                 let near = NEAR * (largest_m / place_m[0].hypot(place_m[1])).powi(2);
@@ -157,7 +160,7 @@ impl<'a> Sum<'a> {
             PressureRadius::Fixed(_) => cells.static_part,
             PressureRadius::Following { .. } => Six::default(),
         };
-        let has_zones = force.runs.iter().any(|run| !run.zones.is_empty());
+        let has_zones = force.runs.iter().any(|run| !run.zones.is_empty()) && cells.trace.is_some();
         let open = if has_zones {
             open(&cells.moments)
         } else {
@@ -176,7 +179,8 @@ impl<'a> Sum<'a> {
                     self.left[f][first + i] += unit[f] * value;
                 }
             }
-            for zone in &run.zones {
+            let traced = cells.trace.as_ref();
+            for zone in traced.iter().flat_map(|_| &run.zones) {
                 for (i, &n) in needed.iter().enumerate() {
                     let rough = run.force.projection.left_by(n, &zone.cells, &open);
                     for f in 0..self.components() {
@@ -192,6 +196,61 @@ impl<'a> Sum<'a> {
             // those of the discs are independent
             self.errors[f] = self.errors[f].hypot(unit[f] * (error + changed * rest[f].abs()));
         }
+    }
+
+    /// Adds a bound on the error of the zones where no trace integrates them: for each polynomial of the radius, with the kernel
+    /// on which it acts. Summed disc by disc it was thousands of times the error (`scripts/measure-lookups`), because the shares
+    /// of a load that is smaller than the discs are large and cancel.
+    fn add_rough(&mut self, cells: &[Cells], rough: &[Vec<Rough>]) {
+        if rough.iter().all(Vec::is_empty) {
+            return;
+        }
+        let count = self.discs.radii.len();
+        let open: Vec<Vec<Six>> = (0..count).map(|j| open(&self.moments(j, cells))).collect();
+        let (components, mut first) = (self.components(), 0);
+        for (rough, needed) in rough.iter().zip(&self.forcing.needed) {
+            for (i, &n) in needed.iter().enumerate() {
+                for Rough { cell, left } in rough.iter().filter(|one| one.cell <= n) {
+                    for (left, open) in left.iter().zip(&open) {
+                        let fields = self.rough.iter_mut().zip(open[n - cell]);
+                        for (rough, open) in fields.take(components) {
+                            rough[first + i] += left * open;
+                        }
+                    }
+                }
+            }
+            first += needed.len();
+        }
+    }
+
+    /// In SI units the kernel on which polynomial `j` of the load acts.
+    fn moments(&self, j: usize, cells: &[Cells]) -> Moments {
+        let zero = || vec![Six::default(); cells[0].moments.averages.len()];
+        let mut sum = Moments {
+            averages: zero(),
+            first: zero(),
+            second: zero(),
+        };
+        for (k, (cells, over)) in cells.iter().zip(&self.discs.radii).enumerate() {
+            let count = self.discs.kernel(j, k);
+            let unit = self
+                .forcing
+                .excitation
+                .units_si(*over)
+                .map(|unit| count * unit);
+            let own = &cells.moments;
+            let lists = [
+                (&mut sum.averages, &own.averages),
+                (&mut sum.first, &own.first),
+                (&mut sum.second, &own.second),
+            ];
+            for (sum, own) in lists {
+                for (sum, own) in sum.iter_mut().zip(own) {
+                    *sum = std::array::from_fn(|f| sum[f] + unit[f] * own[f]);
+                }
+            }
+        }
+        sum
     }
 
     /// Adds what discs leave that stand for the load away from it: of each so many times what the first one has.
@@ -326,7 +385,8 @@ impl<'a> Sum<'a> {
         }
         let radius = self.forcing.excitation.radius();
         let follows = matches!(radius, PressureRadius::Following { .. });
-        let zones = follows || self.integrated.contains(&true);
+        // cells that are looked up are summed, not integrated
+        let zones = follows && are_traces(cells) || self.integrated.contains(&true);
         let anew = past.filter(|_| !self.open.is_empty());
         // over the past as much as its last terms may be
         let over_past = match (&anew, self.forcing.derivative) {

@@ -7,7 +7,7 @@ use crate::excitation::Excitation;
 use crate::fields::quantity::Quantity;
 use crate::grid::{Grid, Wanted};
 use crate::kernels::KernelSource;
-use crate::kernels::source::{KernelChoice, choose_source};
+use crate::kernels::source::{KernelChoice, choose_source, relative_error};
 use crate::scene::{Probe, Scene, Section};
 use contact::HalfSpace;
 use rayon::prelude::*;
@@ -219,15 +219,37 @@ pub(crate) fn peaks_at_probes(
     kernels: &KernelChoice,
     excitation: &Excitation,
 ) -> Result<ProbePeaks, ImpactError> {
+    // what a table gives is kept once it is judged by its errors
+    let mut judged = None;
+    let mut judge = |source: &KernelSource| {
+        let found = peaks_from(scene, source, excitation)?;
+        let all = found.peaks.iter().enumerate();
+        let fields =
+            all.map(|(i, &[peak, _, error])| (i % (6 + scene.quantities.len()), peak, error));
+        let error = relative_error(fields.filter(|(field, ..)| *field < 6));
+        judged = Some(found);
+        Ok(error)
+    };
+    let chosen = choose_source(scene, kernels, excitation, &mut judge)?;
+    match (chosen, judged) {
+        (None, _) => Ok(ProbePeaks {
+            looked_up: false,
+            peaks: Vec::new(),
+        }),
+        (Some((KernelSource::Table(_), _)), Some(found)) => Ok(found),
+        (Some((source, _)), _) => peaks_from(scene, &source, excitation),
+    }
+}
+
+fn peaks_from(
+    scene: &Scene,
+    source: &KernelSource,
+    excitation: &Excitation,
+) -> Result<ProbePeaks, ImpactError> {
     let mut found = ProbePeaks {
-        looked_up: false,
+        looked_up: matches!(source, KernelSource::Table(_)),
         peaks: Vec::new(),
     };
-    let Some((source, _)) = choose_source(scene, kernels, excitation)? else {
-        return Ok(found);
-    };
-    let source = &source;
-    found.looked_up = matches!(source, KernelSource::Table(_));
     let grid = Grid::new(&Wanted::of(scene), excitation, Some(source))?;
     // on its own thread: whether a row fails depends on the row alone
     Forecast::new(scene, &grid, Some(source), 1.0).check(scene, MOST_BYTES)?;

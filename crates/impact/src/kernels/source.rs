@@ -3,13 +3,14 @@
 use crate::cost::{busy, fields_s};
 use crate::error::ImpactError;
 use crate::evaluator::discs::Discs;
+use crate::evaluator::{Evaluator, Trace};
 use crate::excitation::Excitation;
-use crate::grid::Wanted;
-use crate::kernels::{self, KernelSource};
+use crate::grid::{Grid, Wanted};
+use crate::kernels::KernelSource;
 use crate::scene::Scene;
 use fault::AnyError;
-use halfspace::Profile;
 use lookup::{LookupError, Table};
+use rayon::prelude::*;
 use std::collections::hash_map::{Entry, HashMap};
 use std::fmt;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -146,11 +147,17 @@ const CHEAP_S: f64 = 0.2;
 /// Computed fields that cost more are not worth waiting for, whatever a table's error.
 const DEAR_S: f64 = 10.0;
 
+/// Finds the relative error of the fields of a scene that a source gives.
+type Judge<'a> = &'a mut dyn FnMut(&KernelSource) -> Result<f64, ImpactError>;
+
 /// The source of the fields of a scene and why it is this one; none when it asks for none.
+///
+/// A table is judged by the errors that would be stored with its fields.
 pub(crate) fn choose_source(
     scene: &Scene,
     kernels: &KernelChoice,
     excitation: &Excitation,
+    judge: Judge<'_>,
 ) -> Result<Option<(KernelSource, String)>, ImpactError> {
     let points = places(scene);
     if points.is_empty() {
@@ -162,18 +169,17 @@ pub(crate) fn choose_source(
         let tolerance = (1e-1 * tolerance).clamp(1e-12, 1e-3);
         Ok(Some((KernelSource::direct(medium, tolerance)?, reason)))
     };
-    let looked_up = |table: Arc<Table>, reason: String| Some((KernelSource::Table(table), reason));
     let [nearest, farthest] = span(&points, excitation.units().disc_radius_m);
     let load = |tables: &Arc<dyn Tables>| {
         // as far as the smallest disc that stands for the load sees the places
         let smallest = Discs::looked_up(excitation.radius())[0].smallest();
         let span = [nearest, farthest.map(|far| far / smallest)];
         let table = tables.part(medium.poisson_ratio(), span);
-        table.map_err(ImpactError::Table)
+        table.map(KernelSource::Table).map_err(ImpactError::Table)
     };
     let (tables, cost_s, before) = match kernels {
         KernelChoice::Direct => return direct("asked for, or no table is given".to_owned()),
-        KernelChoice::Table(tables) => return Ok(looked_up(load(tables)?, "asked for".to_owned())),
+        KernelChoice::Table(tables) => return Ok(Some((load(tables)?, "asked for".to_owned()))),
         KernelChoice::Within(tables) => (tables, 0.0, Default::default()),
         KernelChoice::Auto(tables) => {
             let cells = Wanted::of(scene).cells(excitation);
@@ -193,9 +199,11 @@ pub(crate) fn choose_source(
         return direct(format!("{outside}: computed"));
     }
     let table = load(tables)?;
-    let error = match table_error(&table, excitation, &points) {
-        Err(outside) => return direct(format!("{outside}: computed")),
-        Ok(error) => error,
+    let error = match judge(&table) {
+        Err(ImpactError::OutsideTable { source, .. }) => {
+            return direct(format!("{source}: computed"));
+        }
+        found => found?,
     };
     let [and, then]: [String; 2] = before;
     if error > tolerance && cost_s <= DEAR_S {
@@ -204,7 +212,7 @@ pub(crate) fn choose_source(
         ));
     }
     let reason = format!("{then}the table's error is {error:.1e}: looked up");
-    Ok(looked_up(table, reason))
+    Ok(Some((table, reason)))
 }
 
 /// All probes and the corners and edges of the section: [r, z] in m.
@@ -227,25 +235,34 @@ fn span(places: &[[f64; 2]], radius: f64) -> [[f64; 2]; 2] {
     [nearest, [0, 1].map(|axis| extreme(axis, f64::max, 0.0))]
 }
 
-/// Largest estimated error at some places, over the largest static field of its kind there.
-fn table_error(
-    table: &Table,
-    excitation: &Excitation,
-    places: &[[f64; 2]],
-) -> Result<f64, LookupError> {
-    let (nu, units) = (excitation.medium().poisson_ratio(), excitation.units());
+/// Largest estimated error of fields over the largest field of their kind, displacements and stresses: of each the number of
+/// the field, its peak and its error.
+///
+/// Where nothing moves there is no error.
+pub(crate) fn relative_error(fields: impl Iterator<Item = (usize, f64, f64)>) -> f64 {
     let (mut errors, mut sizes) = ([0.0_f64; 2], [0.0_f64; 2]);
-    for place_m in places {
-        let [r, z] = place_m.map(|x| x / units.disc_radius_m);
-        let error = kernels::table_error(table, nu, [r, z], excitation.pulse(1.0))?;
-        let still = excitation.medium().static_field(Profile::Hertz, r, z)?;
-        for field in 0..6 {
-            // displacements and stresses
-            let kind = usize::from(field >= 2);
-            errors[kind] = errors[kind].max(error[field]);
-            sizes[kind] = sizes[kind].max(still[field].abs());
-        }
+    for (field, peak, error) in fields {
+        let kind = usize::from(field >= 2);
+        errors[kind] = errors[kind].max(error);
+        sizes[kind] = sizes[kind].max(peak.abs());
     }
     let relative = |kind: usize| errors[kind] / sizes[kind].max(f64::MIN_POSITIVE);
-    Ok(relative(0).max(relative(1)))
+    relative(0).max(relative(1))
+}
+
+/// The same at the places of a scene, whose fields are evaluated as those that are stored are.
+pub(crate) fn error_at_places(
+    scene: &Scene,
+    source: &KernelSource,
+    grid: &Grid<'_>,
+) -> Result<f64, ImpactError> {
+    let all: Vec<usize> = (0..grid.count()).collect();
+    let evaluator = Evaluator::new(source, grid, &all, &[], &|| {})?;
+    let places = places(scene);
+    let found = places.par_iter().map(|&[r_m, z_m]| evaluator.at(r_m, z_m));
+    let found: Vec<Vec<Trace>> = found.collect::<Result<_, _>>()?;
+    let each = found.iter().flat_map(|traces| traces.iter().enumerate());
+    Ok(relative_error(
+        each.map(|(field, trace)| (field, trace.peak(), trace.error)),
+    ))
 }

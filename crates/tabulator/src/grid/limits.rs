@@ -53,7 +53,7 @@ impl Grid {
     }
 
     /// Bytes of the numbers of the table in memory.
-    fn bytes(&self) -> Result<f64, BuildError> {
+    pub(crate) fn bytes(&self) -> Result<f64, BuildError> {
         let nodes: usize = self.nodes().iter().map(Vec::len).product();
         let slices = self.poisson_ratios.len() + self.exact_ratios.len();
         let each = 3 * self.cells()? + self.tail_terms;

@@ -13,12 +13,13 @@ use fault::Fault as _;
 use formats::parts::check_complete;
 use formats::sweep::schema::COUNTED;
 use formats::sweep::{
-    Axis, Blocks, Kept, Precision, Shard, Spec, SweepError, is_computed, print_csv, row_bytes,
-    run_rows, stage_csv, stage_rows,
+    Axis, Block, Blocks, Computed, Kept, Precision, Shard, Spec, SweepError, fields_bytes,
+    is_computed, print_csv, row_bytes, run_rows, stage_csv, stage_rows,
 };
 use formats::{Existing, Output, OutputError, QUANTITIES};
 use output::{CSV, Fault, Staged, apart, behind, free_disk, is_standard};
 use serde_json::{Value, json};
+use std::cell::RefCell;
 use std::io::{BufWriter, ErrorKind, Write};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -61,13 +62,13 @@ pub(crate) enum Action {
 
 #[derive(Debug, Args)]
 pub(crate) struct Run {
-    /// Sweep file (TOML, see data-schema/sweep.md).
+    /// Sweep file (TOML, see data-schema/sweep.md); - is standard input.
     #[arg(required = true)]
     sweep: Option<PathBuf>,
     /// Results file: HDF5, or Parquet where the name ends with .parquet (see data-schema/sweep.md).
-    #[arg(short, long, value_name = "OUT", required_unless_present = "plan")]
+    #[arg(short, long, value_name = "OUT", required_unless_present_any = ["plan", "csv"])]
     output: Option<PathBuf>,
-    /// Also write the rows as text; - is standard output.
+    /// Also write the rows as text; - is standard output, for which no OUT is needed.
     #[arg(long, value_name = "OUT.csv")]
     csv: Option<PathBuf>,
     #[command(flatten)]
@@ -85,8 +86,11 @@ pub(crate) struct Run {
     #[arg(long)]
     float32: bool,
     /// Succeed at once where the output is whole and of the same sweep, rows and version; fail with 1 where it is not.
-    #[arg(long, conflicts_with = "force")]
+    #[arg(long, conflicts_with = "force", requires = "output")]
     skip_complete: bool,
+    /// End with exit code 1 if a scene failed. Default: only if all of them failed. The outputs are written in both cases.
+    #[arg(long)]
+    fail_if_failed: bool,
     /// Compute a few rows and say what the sweep takes, in shards; nothing is written.
     #[arg(long, conflicts_with_all = ["output", "csv", "shard", "rows", "skip_complete", "force"])]
     plan: bool,
@@ -120,12 +124,17 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         (Some(Action::Merge(arguments)), _, _) => merge::run(arguments),
         (None, Some(sweep), _) if run.plan => plan::run(run, sweep, &spec(run, sweep)?),
         (None, Some(sweep), Some(output)) => compute(run, sweep, output),
-        (None, _, _) => Err(Failure::input("give a sweep file and -o OUT")),
+        (None, Some(sweep), None) if run.csv.as_deref().is_some_and(is_standard) => {
+            stream(run, sweep)
+        }
+        (None, _, _) => Err(Failure::input(
+            "give a sweep file and -o OUT; only --csv - needs no OUT",
+        )),
     }
 }
 
-fn compute(arguments: &Run, sweep: &Path, output: &Path) -> Result<(), Failure> {
-    let start = Instant::now();
+/// The sweep with the rows that are asked for, within the memory that there is.
+fn selected(arguments: &Run, sweep: &Path) -> Result<Spec, Failure> {
     let mut spec = spec(arguments, sweep)?;
     let (memory, needed) = (arguments.memory, spec.memory_bytes());
     memory.check(needed, "the sweep", "ask for fewer values")?;
@@ -134,6 +143,54 @@ fn compute(arguments: &Run, sweep: &Path, output: &Path) -> Result<(), Failure> 
         (None, Some(rows)) => spec.select_rows(rows.clone())?,
         (None, None) => {}
     }
+    let fields = fields_bytes(&spec).map_err(|error| error.in_file(sweep))?;
+    let change = "ask for fewer probes, a larger step_s or a smaller duration_s, or compute on fewer threads";
+    memory.check(needed + fields, "the sweep with its fields", change)?;
+    Ok(spec)
+}
+
+/// Writes rows to standard output as they are computed; none of them is kept.
+fn stream(arguments: &Run, sweep: &Path) -> Result<(), Failure> {
+    if arguments.json {
+        return Err(Failure::input(STREAMED));
+    }
+    check_stdout()?;
+    let spec = selected(arguments, sweep)?;
+    let computed = Computed::new(&spec).map_err(|error| error.in_file(sweep))?;
+    let progress = Bar::new();
+    progress.total("scenes", spec.selected().len() as u64);
+    let rows = Watched {
+        computed,
+        tally: RefCell::default(),
+        progress,
+    };
+    print_rows(&spec, &rows)?;
+    let tally = rows.tally.into_inner();
+    tally.verdict(arguments, spec.selected().len())
+}
+
+const STREAMED: &str = "--csv - and --json both go to standard output: give the rows a file";
+
+/// Rows that are counted while they are computed.
+struct Watched<'a> {
+    computed: Computed<'a>,
+    tally: RefCell<Tally>,
+    progress: Bar,
+}
+
+impl Blocks for Watched<'_> {
+    fn each(&self, visit: &mut dyn FnMut(&Block) -> Result<(), Fault>) -> Result<(), Fault> {
+        self.computed.each(&mut |block| {
+            self.tally.borrow_mut().add(block);
+            self.progress.advance(block.len() as u64);
+            visit(block)
+        })
+    }
+}
+
+fn compute(arguments: &Run, sweep: &Path, output: &Path) -> Result<(), Failure> {
+    let start = Instant::now();
+    let spec = selected(arguments, sweep)?;
     let Some(outputs) = Outputs::claim(arguments, sweep, output, &spec)? else {
         return say_complete(output, arguments.json);
     };
@@ -144,12 +201,6 @@ fn compute(arguments: &Run, sweep: &Path, output: &Path) -> Result<(), Failure> 
     let kept = kept.ok_or_else(|| Failure::work("the sweep was stopped"))?;
     let computing_s = start.elapsed().as_secs_f64();
     let tally = Tally::of(&kept).map_err(|fault| OutputError::writing(&outputs.part, fault))?;
-    if let Some((row, reason)) = &tally.first {
-        let (failed, rows) = (tally.failed, spec.selected().len());
-        say(format!(
-            "warning: {failed} of {rows} scenes failed, the first in row {row} (rows count from 0): {reason}"
-        ));
-    }
     outputs.write(&spec, &kept)?;
     let took_s = [start.elapsed().as_secs_f64(), computing_s];
     let (value, text) = report(arguments, &spec, &outputs, &tally, took_s, kept.resumed);
@@ -160,7 +211,8 @@ fn compute(arguments: &Run, sweep: &Path, output: &Path) -> Result<(), Failure> 
         show(arguments.json, &value, text)
     };
     kept.remove();
-    done
+    done?;
+    tally.verdict(arguments, spec.selected().len())
 }
 
 /// What was done, in how many s and s of computing, with how many rows of an earlier run.
@@ -223,7 +275,11 @@ fn report(
 
 /// The sweep, and what of its results is written.
 fn spec(arguments: &Run, sweep: &Path) -> Result<Spec, Failure> {
-    let spec = Spec::from_file(sweep).map_err(|error| {
+    let read = match is_standard(sweep) {
+        true => Spec::from_standard_input(),
+        false => Spec::from_file(sweep),
+    };
+    let spec = read.map_err(|error| {
         let is_scene = error.culprit().key.as_deref() == Some("scene");
         Failure::from(error).hint_if(is_scene, "; one scene is computed by `hertzlamb impact`")
     })?;
@@ -284,9 +340,7 @@ impl Outputs {
     ) -> Result<Option<Self>, Failure> {
         let print = arguments.csv.as_deref().is_some_and(is_standard);
         if print && arguments.json {
-            return Err(Failure::input(
-                "--csv - and --json both go to standard output: give the rows a file",
-            ));
+            return Err(Failure::input(STREAMED));
         }
         if print {
             check_stdout()?;
@@ -298,7 +352,10 @@ impl Outputs {
         let part = PathBuf::from(part);
         csv.map_or(Ok(()), |csv| CSV.check(csv))?;
         let outputs: Vec<&Path> = [output, &part].into_iter().chain(csv).collect();
-        let mut inputs = vec![("the sweep", sweep.to_owned())];
+        let mut inputs = Vec::new();
+        if !is_standard(sweep) {
+            inputs.push(("the sweep", sweep.to_owned()));
+        }
         inputs.extend_from_slice(&spec.inputs);
         inputs.extend(arguments.kernels.input());
         apart(&outputs, &inputs)?;
@@ -383,16 +440,37 @@ impl Tally {
     fn of(rows: &impl Blocks) -> Result<Self, Fault> {
         let mut tally = Self::default();
         rows.each(&mut |block| {
-            tally.failed += block.failures.len();
-            let first = || block.failures.first().cloned();
-            tally.first = tally.first.take().or_else(first);
-            tally.looked_up += block.looked_up();
-            for (count, name) in tally.beyond.iter_mut().zip(COUNTED) {
-                let place = QUANTITIES.iter().position(|quantity| quantity.name == name);
-                *count += place.map_or(0, |k| block.rows().filter(|row| row[k] > 1.0).count());
-            }
+            tally.add(block);
             Ok(())
         })?;
         Ok(tally)
+    }
+
+    fn add(&mut self, block: &Block) {
+        self.failed += block.failures.len();
+        let first = || block.failures.first().cloned();
+        self.first = self.first.take().or_else(first);
+        self.looked_up += block.looked_up();
+        for (count, name) in self.beyond.iter_mut().zip(COUNTED) {
+            let place = QUANTITIES.iter().position(|quantity| quantity.name == name);
+            *count += place.map_or(0, |k| block.rows().filter(|row| row[k] > 1.0).count());
+        }
+    }
+
+    /// Warns of scenes that failed; an error where all of them did, or one where that is asked for.
+    fn verdict(&self, arguments: &Run, rows: usize) -> Result<(), Failure> {
+        let Some((row, reason)) = &self.first else {
+            return Ok(());
+        };
+        let failed = match self.failed {
+            all if all == rows => format!("all {rows} scenes failed"),
+            some => format!("{some} of {rows} scenes failed"),
+        };
+        let told = format!("{failed}, the first in row {row} (rows count from 0): {reason}");
+        if self.failed == rows || arguments.fail_if_failed {
+            return Err(Failure::work(told));
+        }
+        say(format!("warning: {told}"));
+        Ok(())
     }
 }

@@ -149,6 +149,10 @@ fn begin<'a>(
             text(&dataset, COORDINATES, &beside.join(" "))?;
         }
     }
+    // the root is what programs open that are told no group
+    for name in group.member_names()? {
+        file.link_hard(&format!("{}/{name}", schema::RESULTS), &name)?;
+    }
     if let Some(sources) = sources {
         let places: Vec<&str> = sources.iter().map(|(path, _)| path.as_str()).collect();
         text(file, part::PARTS, &places.join("\n"))?;
