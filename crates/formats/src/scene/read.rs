@@ -220,7 +220,9 @@ fn read_load(
                 units: force.words("units", "a pair of words")?,
                 start_s: force.number("start_s")?,
                 end_s: force.number("end_s")?,
+                onset_s: force.number("onset_s")?,
                 sign: force.number("sign")?,
+                sensitivity_v_per_n: force.number("sensitivity_v_per_n")?,
             };
             let record = read_record(&directory.join(file), reading)?;
             Ok(Load::Record(record.treat(baseline_s, low_pass_hz)?))
