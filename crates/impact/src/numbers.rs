@@ -5,7 +5,7 @@
 /// Sweeps with probes carry it, beside [`contact::NUMBERS_REVISION`], in what makes two of them the same. It is
 /// raised by hand with every change that alters a field by more than the rounding of double precision, in this crate, in
 /// `lookup` or in `halfspace`; a test compares fields with those that were written down for it.
-pub const FIELDS_REVISION: u32 = 16;
+pub const FIELDS_REVISION: u32 = 17;
 
 #[cfg(test)]
 mod tests {
@@ -55,7 +55,7 @@ mod tests {
         }
     }
 
-    /// Revision 16.
+    /// Revision 16; 17 changed the fields of records that jump.
     #[rustfmt::skip]
     const KNOWN: [[f64; 3]; 6] = [
         [8.236_619_355_763_50e-6, 1.103_152_945_390_66e-5, 2.320_835_102_674_21e-9],

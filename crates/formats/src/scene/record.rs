@@ -315,8 +315,8 @@ fn no_header<'a>(
 ) -> (usize, String) {
     let fields = |text: &'a str| columns(text, separator(text));
     let is_row = |text: &'a str| {
-        let fields = fields(text);
-        (0..2).all(|place| number_at(&fields, place, separator(text)).is_some())
+        let numbers = fields(text).into_iter().filter_map(|field| number(field, separator(text)));
+        numbers.count() >= 2
     };
     let (mut above, mut row) = (None, None);
     for (line, text) in lines {
