@@ -215,7 +215,10 @@ fn force_files_are_checked_line_by_line() {
         ("time,force\n0,1\n", &["line 1", "time_s,force_n"]),
         ("time_s,force_n\n", &["0 rows"]),
         ("time_s,force_n\n0,1\n", &["1 rows"]),
-        ("time_s,force_n\n0,1\n0,2\n", &["all samples have the time 0 s"]),
+        (
+            "time_s,force_n\n0,1\n0,2\n",
+            &["all samples have the time 0 s"],
+        ),
         (
             "time_s,force_n\n0,1\n1,2\n1,3\n1,4\n",
             &["line 5", "must ascend", "at most two rows"],
@@ -331,7 +334,11 @@ fn each_refusal_of_a_record_says_the_way_out() {
             "columns = [1, 3]\n",
             "force.columns has 3, and the rows have 2 columns",
         ),
-        (BARE, "columns = [1, 2]\nunits = [\"s\", \"mV\"]\n", "give force.sensitivity_v_per_n"),
+        (
+            BARE,
+            "columns = [1, 2]\nunits = [\"s\", \"mV\"]\n",
+            "give force.sensitivity_v_per_n",
+        ),
         (
             "time_s,force_n\n0,1\n1,2\n",
             "sensitivity_v_per_n = 0.1\n",
@@ -403,10 +410,15 @@ fn signals_and_texts_of_two_bytes_are_read() {
 /// A force record may name any file of whoever runs the program: one that is no table of numbers is not shown.
 #[test]
 fn no_line_of_a_file_without_numbers_is_shown() {
-    for secret in ["root:$6$salt$hash:19000:0:99999:7:::\n", "key = abc\nsecret, secret\n"] {
+    for secret in [
+        "root:$6$salt$hash:19000:0:99999:7:::\n",
+        "key = abc\nsecret, secret\n",
+    ] {
         let message = record(secret, "").unwrap_err();
         assert!(message.contains("no row of two numbers"), "{message}");
-        let shown = ["root", "hash", "abc", "secret"].iter().any(|part| message.contains(part));
+        let shown = ["root", "hash", "abc", "secret"]
+            .iter()
+            .any(|part| message.contains(part));
         assert!(!shown, "{message}");
     }
 }

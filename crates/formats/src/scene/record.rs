@@ -315,7 +315,9 @@ fn no_header<'a>(
 ) -> (usize, String) {
     let fields = |text: &'a str| columns(text, separator(text));
     let is_row = |text: &'a str| {
-        let numbers = fields(text).into_iter().filter_map(|field| number(field, separator(text)));
+        let numbers = fields(text)
+            .into_iter()
+            .filter_map(|field| number(field, separator(text)));
         numbers.count() >= 2
     };
     let (mut above, mut row) = (None, None);

@@ -215,7 +215,8 @@ impl<'a> Sum<'a> {
                 if !jump.is_past(time_s) {
                     continue;
                 }
-                let since_s = (rounded_up(time_s) - jump.time_s).max(0.0);
+                // at the jump itself after it
+                let since_s = (rounded_up(time_s) - jump.time_s).max(f64::MIN_POSITIVE);
                 let response = cells.step_response(since_s / unit_s, forcing.step_s / unit_s);
                 for f in 0..self.components() {
                     self.values[f][i] += jump.rise_n * unit[f] * response[f];
