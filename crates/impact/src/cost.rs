@@ -175,7 +175,7 @@ const CELL: f64 = 8.0 * 6.0 * 6.0;
 
 /// Bytes of a row of a record, and of a cell between rows or samples, in which the force is read at nodes.
 ///
-/// Measured: 614 MB with 3.84 million rows. `records_take_the_memory_that_was_forecast` fails without them.
+/// Measured: 614 MB with 3.84 million rows. `test_a_record_takes_what_was_forecast` fails without them.
 const ROW: f64 = 8.0 * 4.0;
 const NODES: f64 = 8.0 * 16.0;
 

@@ -142,7 +142,7 @@ mod tests {
             ForceRecord::new(time_s, force_n)
         };
         assert!(of(1500, 2).is_ok());
-        let many = RecordError::Jumps { jumps: 1501 };
+        let many = RecordError::Jumps { jumps: 1500 };
         assert_eq!(of(3000, 2), Err(many));
         assert!(matches!(
             of(30, 3),

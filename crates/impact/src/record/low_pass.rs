@@ -310,7 +310,9 @@ mod tests {
     #[test]
     fn the_cutoffs_of_absurd_times_are_found() {
         for span_s in [1e-300, 1e-160, 1e205, 1e307] {
-            let many: Vec<f64> = (0..5000).map(|i| span_s * f64::from(i) / 4999.0).collect();
+            let many: Vec<f64> = (0..5000)
+                .map(|i| span_s * (f64::from(i) / 4999.0))
+                .collect();
             let [low, high] = allowed_hz(&many);
             assert!(low > 0.0 && high > low, "{span_s}: {low} {high}");
         }
