@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 
-use halfspace::{Deflection, FIELDS, Kernel, Medium, Profile, Six, SurfaceResponse};
+use halfspace::{Deflection, Kernel, Medium, Profile, Six, SurfaceResponse};
 use impact::{
     ForceRecord, HalfSpace, KernelChoice, Load, Material, Outcome, Probe, Quantity, Scene,
     Settings, simulate,
@@ -122,9 +122,9 @@ fn compared(found: &Outcome, rows: &[(f64, f64)], every: usize) -> [f64; 2] {
     for (probe, &place_m) in PLACES.iter().enumerate() {
         for (i, &time_s) in found.series.time_s.iter().enumerate().step_by(every) {
             let exact = reference.at(place_m, rows, time_s);
-            for field in 0..FIELDS.len() {
+            for (field, exact) in exact.into_iter().enumerate() {
                 let own = &probes.values[field][probe];
-                let (size, off) = (peak(own), (own[i] - exact[field]).abs());
+                let (size, off) = (peak(own), (own[i] - exact).abs());
                 if size > 0.0 {
                     worst[0] = worst[0].max(off / size);
                     worst[1] = worst[1].max(off / probes.errors[field][probe]);
