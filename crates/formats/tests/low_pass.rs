@@ -227,7 +227,7 @@ fn what_the_record_cannot_have_is_refused_with_key_value_and_range() {
     for (keys, part) in [
         (
             "low_pass_hz = 1e4",
-            "force.low_pass_hz = 10000 is outside (5",
+            "force.low_pass_hz = 10000 is outside (49999.99",
         ),
         (
             "low_pass_hz = -1.0",
