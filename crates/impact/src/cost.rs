@@ -273,7 +273,10 @@ impl Forecast {
         }
         let of_probes =
             scene.probes.len() as f64 * self.samples * PROBE_SAMPLE > 0.5 * self.memory_bytes;
-        let change = if of_probes {
+        let rows = scene.record().map_or(0, |record| record.time_s().len());
+        let change = if rows as f64 * (ROW + NODES) > 0.5 * self.memory_bytes {
+            "a shorter record, fewer rows or a lower low_pass_hz"
+        } else if of_probes {
             "fewer probes, a larger step_s or a smaller duration_s"
         } else if scene.section.is_some() {
             "fewer points or frames of the map"
