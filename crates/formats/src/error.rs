@@ -176,7 +176,10 @@ impl SceneError {
 /// A treatment that the force record cannot have.
 impl From<TreatmentError> for SceneError {
     fn from(error: TreatmentError) -> Self {
-        Self::told(format!("force.{error}"))
+        let key = format!("force.{}", error.key);
+        let mut found = Self::of_number(key, error.value, format!("force.{error}"));
+        (found.0.of_numbers, found.0.culprit.limits) = (false, Some(error.limits));
+        found
     }
 }
 

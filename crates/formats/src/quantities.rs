@@ -67,7 +67,7 @@ macro_rules! quantities {
 pub const QUANTITIES: [Quantity; 30] = quantities! {
     peak_force_n: Real "N" of peak_force_n, peak_force_n => "largest contact force";
     peak_force_time_s: Real "s" of peak_force_time_s, peak_force_time_s => "when it is reached";
-    contact_time_s: Real "s" of contact_time_s, duration_s => "duration of the first contact; of the record";
+    contact_time_s: Real "s" of contact_time_s, duration_s => "duration of the first contact; of a force record, from its onset to where the force ends";
     rebound_velocity_m_s: Real "m/s" of rebound_velocity_m_s => "velocity of departure, positive away from the half-space";
     restitution: Real "1" of restitution => "velocity of departure over velocity of approach";
     loss: Real "1" of loss => "kinetic energy lost over kinetic energy before, 1 - restitution^2";

@@ -210,12 +210,19 @@ fn every_fault_is_named() {
 fn force_files_are_checked_line_by_line() {
     let folder = tempfile::tempdir().unwrap();
     let scene = "[target]\nmaterial = \"steel\"\n[contact]\ndisc_radius_m = 0.004\n[force]\nfile = \"f.csv\"\n";
-    let cases: [(&str, &[&str]); 10] = [
+    let cases: [(&str, &[&str]); 11] = [
         ("", &["line 1", "empty"]),
         ("time,force\n0,1\n", &["line 1", "time_s,force_n"]),
         ("time_s,force_n\n", &["0 rows"]),
         ("time_s,force_n\n0,1\n", &["1 rows"]),
-        ("time_s,force_n\n0,1\n0,2\n", &["line 3", "must ascend"]),
+        (
+            "time_s,force_n\n0,1\n0,2\n",
+            &["all samples have the time 0 s"],
+        ),
+        (
+            "time_s,force_n\n0,1\n1,2\n1,3\n1,4\n",
+            &["line 5", "must ascend", "at most two rows"],
+        ),
         ("time_s,force_n\n1,1\n0.5,2\n", &["line 3", "0.5"]),
         ("time_s,force_n\n-1,1\n0.5,2\n", &["line 2", "[0, inf)"]),
         (
@@ -322,7 +329,36 @@ fn each_refusal_of_a_record_says_the_way_out() {
             "columns = [1, 2]\nunits = [\"us\", \"V\"]\n",
             "has the unit \"V\"",
         ),
-        (BARE, "columns = [1, 3]\n", "the header is"),
+        (
+            BARE,
+            "columns = [1, 3]\n",
+            "force.columns has 3, and the rows have 2 columns",
+        ),
+        (
+            BARE,
+            "columns = [1, 2]\nunits = [\"s\", \"mV\"]\n",
+            "give force.sensitivity_v_per_n",
+        ),
+        (
+            "time_s,force_n\n0,1\n1,2\n",
+            "sensitivity_v_per_n = 0.1\n",
+            "has the unit \"N\", and force.sensitivity_v_per_n is for a signal",
+        ),
+        (
+            "time_s,force_n\n0,1\n1,2\n",
+            "sensitivity_v_per_n = 0.0\n",
+            "force.sensitivity_v_per_n = 0 is outside (0, inf)",
+        ),
+        (
+            "time_s,force_n\n0,1\n1,2\n",
+            "start_s = -1.0\nonset_s = 1.0\n",
+            "force.onset_s = 1 is outside [0, 1), the times of the record",
+        ),
+        (
+            "time_s,force_n\n0,1\n1,2\n3,0\n",
+            "onset_s = 0.5\nbaseline_s = 0.75\n",
+            "force.baseline_s = 0.75 is outside (0, 0.5], the part of the record before onset_s",
+        ),
         (BARE, "columns = [1]\n", "not a pair of words"),
         (
             "time_s,force_n\n0,1\n1,2\n",
@@ -343,6 +379,47 @@ fn each_refusal_of_a_record_says_the_way_out() {
     for (text, keys, part) in cases {
         let message = record(text, keys).unwrap_err();
         assert!(message.contains(part), "{keys}: {message}");
+    }
+}
+
+/// A signal in volts, a header below other lines, and two bytes a letter, as instruments and spreadsheets write them.
+#[test]
+fn signals_and_texts_of_two_bytes_are_read() {
+    let signal = "CH1\nTime [ms];U [mV]\n0;0\n1;9\n2;0\n";
+    let keys = "columns = [\"Time [ms]\", \"U [mV]\"]\nsensitivity_v_per_n = 0.00225\n";
+    let (time_s, force_n) = record(signal, keys).unwrap();
+    assert_eq!((time_s[1], force_n[0]), (1e-3, 0.0));
+    assert!((force_n[1] - 4.0).abs() < 1e-12, "{force_n:?}");
+    let below = record("of the hammer\n\ntime_s,force_n\n0,0\n1,5\n", "").unwrap();
+    assert_eq!(below.1, [0.0, 5.0]);
+    let folder = tempfile::tempdir().unwrap();
+    let scene = "[target]\nmaterial = \"steel\"\n[contact]\ndisc_radius_m = 0.004\n[force]\nfile = \"f.csv\"\n";
+    let text = "time_s,force_n\n0,0\n1,5\n";
+    for order in [u16::to_le_bytes, u16::to_be_bytes] {
+        let units = "\u{feff}".encode_utf16().chain(text.encode_utf16());
+        let mut bytes: Vec<u8> = units.flat_map(order).collect();
+        std::fs::write(folder.path().join("f.csv"), &bytes).unwrap();
+        let found = parse_scene(scene, folder.path()).unwrap();
+        assert_eq!(found.record().unwrap().force_n(), [0.0, 5.0]);
+        bytes.pop();
+        std::fs::write(folder.path().join("f.csv"), &bytes).unwrap();
+        assert!(refused(scene, folder.path()).contains("UTF-16"));
+    }
+}
+
+/// A force record may name any file of whoever runs the program: one that is no table of numbers is not shown.
+#[test]
+fn no_line_of_a_file_without_numbers_is_shown() {
+    for secret in [
+        "root:$6$salt$hash:19000:0:99999:7:::\n",
+        "key = abc\nsecret, secret\n",
+    ] {
+        let message = record(secret, "").unwrap_err();
+        assert!(message.contains("no row of two numbers"), "{message}");
+        let shown = ["root", "hash", "abc", "secret"]
+            .iter()
+            .any(|part| message.contains(part));
+        assert!(!shown, "{message}");
     }
 }
 

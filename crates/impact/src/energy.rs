@@ -13,8 +13,9 @@
 //!
 //! Theory: `docs/theory.md` (T56).
 
-use crate::excitation::Excitation;
+use crate::excitation::{Excitation, Run};
 use crate::grid::Grid;
+use crate::record::jump::Jump;
 use contact::{Family, Plan, Rung, StaticShare, work_until_j};
 use halfspace::{Deflection, SurfaceResponse, lagrange};
 
@@ -98,20 +99,24 @@ impl EnergySeries {
 
     /// Of a record whose force is sampled at the output's times.
     pub(crate) fn of_record(grid: &Grid<'_>, force_n: &[f64]) -> Self {
-        let static_m_per_n = static_mean_m_per_n(grid.excitation);
+        let excitation = grid.excitation;
+        let static_m_per_n = static_mean_m_per_n(excitation);
         let (mut stored_j, mut radiated_j) = (Vec::new(), Vec::new());
         let (disc, share) = (Deflection::Mean, StaticShare::Dynamic);
         let lag_m = grid.deflection_m(disc, share, force_n);
         let runs = grid.split(force_n).into_iter().zip(grid.split(&lag_m));
         for ((run, force_n), (_, lag_m)) in runs {
-            // from the rest before the run, between which and the run before nothing is done
-            let force_n = [&[run.base_n], force_n].concat();
-            let lag_m = [&[0.0], lag_m].concat();
-            let before: f64 = radiated_j.last().copied().unwrap_or(0.0);
-            let work_j = work_until_j(&force_n, &lag_m);
-            radiated_j.extend(work_j.iter().skip(1).map(|work| before + work));
+            let mut lag = Lag {
+                excitation,
+                static_m_per_n,
+                // between the rest before the run and the run before nothing is done
+                work_j: radiated_j.last().copied().unwrap_or(0.0),
+                last: [run.base_n, 0.0],
+                slope_m: 0.0,
+            };
+            lag.add_run(&run, grid.step_s, [force_n, lag_m], &mut radiated_j);
             let stored = |p: &f64| 0.5 * static_m_per_n * p * p;
-            stored_j.extend(force_n.iter().skip(1).map(stored));
+            stored_j.extend(force_n.iter().map(stored));
         }
         let parts = stored_j.iter().zip(&radiated_j);
         let work_j = parts.map(|(stored, radiated)| stored + radiated).collect();
@@ -126,6 +131,83 @@ impl EnergySeries {
     /// The energy radiated at the last time, in J.
     pub fn radiated_at_last_j(&self) -> f64 {
         self.radiated_j.last().copied().unwrap_or(0.0)
+    }
+}
+
+/// The work of a record on the deflection that lags, along a run.
+struct Lag<'a> {
+    excitation: &'a Excitation,
+    static_m_per_n: f64,
+    /// The work so far.
+    work_j: f64,
+    /// Force in N and deflection in m so far.
+    last: [f64; 2],
+    /// What the deflection rose over the last whole step.
+    slope_m: f64,
+}
+
+impl Lag<'_> {
+    /// Adds the work until each sample of a run; between jumps of the force it is that of smooth samples.
+    fn add_run(
+        &mut self,
+        run: &Run,
+        step_s: f64,
+        [force_n, lag_m]: [&[f64]; 2],
+        work_j: &mut Vec<f64>,
+    ) {
+        let time_s = |i: usize| run.start_s + i as f64 * step_s;
+        let jumps = self.excitation.jumps().iter();
+        let mut jumps = jumps.filter(|jump| jump.time_s >= run.start_s).peekable();
+        let mut from = 0;
+        while from < force_n.len() {
+            let next = jumps.peek().map_or(force_n.len(), |jump| {
+                let samples = from..force_n.len();
+                samples
+                    .into_iter()
+                    .find(|&i| jump.is_past(time_s(i)))
+                    .unwrap_or(force_n.len())
+            });
+            self.add_smooth([&force_n[from..next], &lag_m[from..next]], work_j);
+            from = next;
+            while let Some(jump) =
+                jumps.next_if(|jump| from < force_n.len() && jump.is_past(time_s(from)))
+            {
+                let part = 1.0 - (time_s(from) - jump.time_s) / step_s;
+                self.jump(jump, part.clamp(0.0, 1.0));
+            }
+        }
+    }
+
+    fn go_to(&mut self, next: [f64; 2]) {
+        let [[force_n, lag_m], [last_n, last_m]] = [next, self.last];
+        self.work_j += 0.5 * (force_n + last_n) * (lag_m - last_m);
+        self.last = next;
+    }
+
+    /// Adds samples a step apart, after the last place.
+    fn add_smooth(&mut self, [force_n, lag_m]: [&[f64]; 2], work_j: &mut Vec<f64>) {
+        let (force_n, lag_m) = (
+            [&self.last[..1], force_n].concat(),
+            [&self.last[1..], lag_m].concat(),
+        );
+        let until_j = work_until_j(&force_n, &lag_m);
+        work_j.extend(until_j.iter().skip(1).map(|work| self.work_j + work));
+        self.work_j += until_j.last().copied().unwrap_or(0.0);
+        if let ([.., force_n], [.., before_m, after_m]) = (&force_n[..], &lag_m[..]) {
+            self.last = [*force_n, *after_m];
+            self.slope_m = after_m - before_m;
+        }
+    }
+
+    /// Goes over a jump that is a part of a step after the last sample: the lag jumps with the force, as the static
+    /// deflection does, and no work is done.
+    fn jump(&mut self, jump: &Jump, part: f64) {
+        let after_n = self.excitation.force_n(jump.time_s);
+        let before_m = self.last[1] + part * self.slope_m;
+        self.go_to([after_n - jump.rise_n, before_m]);
+        let fallen_m = self.static_m_per_n * jump.rise_n;
+        self.go_to([after_n, before_m - fallen_m]);
+        self.slope_m = 0.0;
     }
 }
 

@@ -9,6 +9,7 @@ use crate::evaluator::convolve::{Transform, rises};
 use crate::evaluator::projection::{CellNodes, Node};
 use crate::kernels::Pulse;
 use crate::record::ForceRecord;
+use crate::record::jump::Jump;
 use contact::{
     CollisionUnits, HalfSpace, History, KernelUnits, Resampler, SolvedContact, StaticShare,
     WaveSpeeds, Weights,
@@ -240,9 +241,22 @@ impl Excitation {
         pieces.filter(|one| one.flow.is_some())
     }
 
-    /// The force at a time, in N.
+    /// The force at a time, in N; at a jump that after it.
     pub fn force_n(&self, time_s: f64) -> f64 {
-        self.force_and_rate(time_s)[0]
+        match &self.force {
+            Force::Contact(_) => self.force_and_rate(time_s)[0],
+            Force::Record(record) => record.at(time_s),
+        }
+    }
+
+    /// Jumps of the force, which the sums of its continuous part do not hold; none of a contact.
+    pub(crate) fn jumps(&self) -> &[Jump] {
+        self.record().map_or(&[], ForceRecord::jumps)
+    }
+
+    /// What has jumped of the force in N until a time, itself among it.
+    pub(crate) fn jumped_n(&self, time_s: f64) -> f64 {
+        self.record().map_or(0.0, |record| record.jumped_n(time_s))
     }
 
     /// Hertz's pressures that together stand for the one at a time: two under a contact that yields and whose pressure is
@@ -332,7 +346,17 @@ impl Excitation {
         self.contact().map_or(&[], |contact| &contact.kinks_s)
     }
 
-    /// The force in N and its rate in N/s at a time; NaN for that of a record, which jumps.
+    /// The force without its jumps in N long before a run.
+    pub(crate) fn continuous_base_n(&self, run: &Run) -> f64 {
+        let earlier = self
+            .jumps()
+            .iter()
+            .take_while(|jump| jump.time_s < run.start_s);
+        run.base_n - earlier.map(|jump| jump.rise_n).sum::<f64>()
+    }
+
+    /// The force in N without its jumps, and its rate in N/s at a time; NaN for that of a record, which changes at once where
+    /// lines meet.
     #[inline(always)]
     pub(crate) fn force_and_rate(&self, time_s: f64) -> [f64; 2] {
         match &self.force {
@@ -341,7 +365,7 @@ impl Excitation {
                 let [force, rate, _] = contact.samples.force(time_s / units.time_s);
                 [force * units.force_n, rate * units.force_n / units.time_s]
             }
-            Force::Record(record) => [record.at(time_s), f64::NAN],
+            Force::Record(record) => [record.continuous_n(time_s), f64::NAN],
         }
     }
 
@@ -403,7 +427,7 @@ impl Excitation {
         })
     }
 
-    /// When the force begins, in s: zero for a contact, the last row before a record leaves zero.
+    /// When the blow begins, in s: zero for a contact.
     pub(crate) fn start_s(&self) -> f64 {
         self.record().map_or(0.0, ForceRecord::start_s)
     }
@@ -411,6 +435,23 @@ impl Excitation {
     /// Wave speeds of the half-space.
     pub fn speeds(&self) -> WaveSpeeds {
         WaveSpeeds::new(&self.medium, self.units.longitudinal_speed_m_s)
+    }
+
+    /// Deflection of the disc in m a time in s after the force has jumped by 1 N, with a share of its static part.
+    pub(crate) fn deflection_after_jump_m(
+        &self,
+        deflection: Deflection,
+        share: StaticShare,
+    ) -> impl Fn(f64) -> f64 {
+        let response = SurfaceResponse::new(&self.medium, deflection);
+        let static_m_per_n = response.disc.static_compliance * self.units.displacement_m_per_n();
+        let (factor, unit_s) = (share.factor(), self.units.time_s());
+        move |time_s| static_m_per_n * (factor - 1.0 + response.step(time_s / unit_s))
+    }
+
+    /// When a force begins, in s, however small.
+    pub(crate) fn first_s(&self) -> f64 {
+        self.record().map_or(0.0, ForceRecord::leaves_zero_s)
     }
 
     /// First arrivals in s of the P, S and Rayleigh wave at a place in m; infinite for a Rayleigh wave where there is
@@ -433,12 +474,15 @@ impl Excitation {
         let unit_s = over * self.units.time_s();
         match &self.force {
             Force::Contact(contact) => Pulse::Contact(contact.duration_s / unit_s),
-            Force::Record(record) => Pulse::Smooth(record.pulse_s() / unit_s),
+            Force::Record(record) => Pulse::Lines {
+                length: record.pulse_s() / unit_s,
+                jump: record.largest_jump_n() / record.largest_n().max(f64::MIN_POSITIVE),
+            },
         }
     }
 
-    /// Deflection of the disc in m under the force sampled a step apart, with a share of its static part; `base_n` is the
-    /// force long before.
+    /// Deflection of the disc in m under a continuous force sampled a step apart, with a share of its static part; `base_n`
+    /// is the force long before.
     pub(crate) fn deflection_m(
         &self,
         deflection: Deflection,

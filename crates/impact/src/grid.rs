@@ -212,10 +212,35 @@ impl<'a> Grid<'a> {
         share: StaticShare,
         force_n: &[f64],
     ) -> Vec<f64> {
-        let of = |(run, force_n): (Run, &[f64])| {
-            (self.excitation).deflection_m(deflection, share, self.step_s, run.base_n, force_n)
+        let excitation = self.excitation;
+        let of = |(run, force_n): (Run, Vec<f64>)| {
+            excitation.deflection_m(deflection, share, self.step_s, run.base_n, &force_n)
         };
-        self.split(force_n).into_iter().flat_map(of).collect()
+        let mut found: Vec<f64> = self.continuous(force_n).into_iter().flat_map(of).collect();
+        if excitation.jumps().is_empty() {
+            return found;
+        }
+        let after_jump_m = excitation.deflection_after_jump_m(deflection, share);
+        for jump in excitation.jumps() {
+            for (time_s, deflection_m) in self.times_s().zip(&mut found) {
+                if jump.is_past(time_s) {
+                    *deflection_m += jump.rise_n * after_jump_m((time_s - jump.time_s).max(0.0));
+                }
+            }
+        }
+        found
+    }
+
+    /// The samples of each run without the jumps of the force, which was the base of the run long before.
+    pub(crate) fn continuous(&self, force_n: &[f64]) -> Vec<(Run, Vec<f64>)> {
+        let of = |(run, force_n): (Run, &[f64])| {
+            let time_s = |i: usize| run.start_s + i as f64 * self.step_s;
+            let samples = force_n.iter().enumerate();
+            let samples = samples.map(|(i, force)| force - self.excitation.jumped_n(time_s(i)));
+            let base_n = self.excitation.continuous_base_n(&run);
+            (Run { base_n, ..run }, samples.collect())
+        };
+        self.split(force_n).into_iter().map(of).collect()
     }
 
     /// The samples of each run, of samples of all.

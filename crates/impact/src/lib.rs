@@ -52,6 +52,7 @@ pub use kernels::KernelSource;
 pub use kernels::source::{self, KernelChoice, Shared, Tables};
 pub use outcome::{Cause, FieldsUsed, Outcome, RecordResults, Series, StrikerSeries};
 pub use record::condition::TreatmentError;
-pub use record::{ForceRecord, Reading, RecordError, Treated};
+pub use record::jump::{Jump, follows};
+pub use record::{ASCENDING, ForceRecord, Reading, RecordError, Treated};
 pub use scene::{Load, Probe, Scene, Section, Strike};
 pub use simulate::{simulate, simulate_within};

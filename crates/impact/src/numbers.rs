@@ -55,7 +55,7 @@ mod tests {
         }
     }
 
-    /// Since revision 16.
+    /// Revision 16; 17 changed the fields of records that jump and the estimates of looked-up fields.
     #[rustfmt::skip]
     const KNOWN: [[f64; 3]; 6] = [
         [8.236_619_355_763_50e-6, 1.103_152_945_390_66e-5, 2.320_835_102_674_21e-9],

@@ -34,7 +34,7 @@ pub struct RecordResults {
     pub peak_force_n: f64,
     /// When it is reached in s.
     pub peak_force_time_s: f64,
-    /// Time from the first to the last sample in s.
+    /// Time in s that the blow lasts, from its onset to the end of the force.
     pub duration_s: f64,
     /// int P dt in N s.
     pub impulse_n_s: f64,

@@ -132,14 +132,12 @@ fn of_record(
         ));
     }
     warnings.extend(record.lost_before_zero());
-    if record.force_n().iter().any(|&p| p < 0.0) {
-        warnings.push("the force is negative in places: it pulls there".to_owned());
-    }
+    warnings.extend(rates_of_jumps(scene, record, grid.step_s));
     let (peak_force_time_s, peak_force_n) = record.peak();
     outcome.cause = Cause::Record(RecordResults {
         peak_force_n,
         peak_force_time_s,
-        duration_s: end_s - start_s,
+        duration_s: record.blow_s(),
         relative_error_estimate: relative_error,
         disc_radius_m: radius_m,
         impulse_n_s: record.impulse_n_s(),
@@ -148,6 +146,17 @@ fn of_record(
     });
     series.energy = Some(energy);
     Ok(outcome)
+}
+
+/// A sentence where velocities or accelerations are asked for under a jump of the force that counts.
+fn rates_of_jumps(scene: &Scene, record: &ForceRecord, step_s: f64) -> Option<String> {
+    let jump_n = record.largest_jump_n();
+    let counts = scene.rates() > 0 && jump_n > scene.settings.tolerance * record.largest_n();
+    counts.then(|| {
+        format!(
+            "the force jumps by up to {jump_n} N: velocities and accelerations are means over the output's step of {step_s:.3e} s, and where fronts of the jump pass they grow without limit as the step falls"
+        )
+    })
 }
 
 /// What follows from an excitation, whatever has caused it: the times of the output, and times, force and fields there.
@@ -247,10 +256,10 @@ fn add_fields(
 
 /// The most in N that the cells leave of the force.
 fn left_n(grid: &Grid<'_>, force_n: &[f64]) -> f64 {
-    let left = grid.split(force_n).into_iter().map(|(run, force_n)| {
+    let left = grid.continuous(force_n).into_iter().map(|(run, force_n)| {
         let nodes = grid.excitation.cell_nodes(&run, grid.step_s);
-        let rises = rises(run.base_n, force_n);
-        let projection = Projection::new(force_n, &rises, &nodes, (0, f64::INFINITY));
+        let rises = rises(run.base_n, &force_n);
+        let projection = Projection::new(&force_n, &rises, &nodes, (0, f64::INFINITY));
         projection.left.most_n
     });
     left.fold(0.0, f64::max)

@@ -45,10 +45,17 @@ pub(crate) fn end_s(series: &Series) -> f64 {
     series.time_s[loaded(&series.force_n).end - 1]
 }
 
-/// Speeds of the waves in the half-space of an impact, and when its force begins in s.
+/// Speeds of the waves in the half-space of an impact, and when its force begins in s: at the onset of a record where its
+/// scene has one.
 pub(crate) fn waves_of(impact: &StoredImpact) -> Result<(WaveSpeeds, f64), PlotError> {
     let series = &impact.series;
-    let start_s = series.time_s[loaded(&series.force_n).start];
+    let keys = impact.keys();
+    let key = |name: &str| {
+        let value = keys.iter().find(|(key, _)| key == name);
+        value.and_then(|(_, value)| value.as_float())
+    };
+    let onset_s = key("force.onset_s").map(|t| t - key("force.start_s").unwrap_or(0.0));
+    let start_s = onset_s.unwrap_or(series.time_s[loaded(&series.force_n).start]);
     Ok((WaveSpeeds::of(&impact.target)?, start_s))
 }
 

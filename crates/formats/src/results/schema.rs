@@ -8,6 +8,8 @@ use impact::{EnergySeries, ProbeFields, Series};
 pub const FILE_TYPE: &str = "hertzlamb results";
 /// Version of the format: the first number changes when a reader of the old one would fail.
 pub const FORMAT_VERSION: &str = "1.9";
+/// Minor version from which on files end with their checksums.
+pub(crate) const SEALED_FROM: u32 = 8;
 /// Datasets in the root, with unit and description.
 pub const SERIES: [(&str, &str, &str); 5] = labels! {
     "time", "s", "time since the first touch";

@@ -142,7 +142,9 @@ const KEYS: &[Key] = keys! {
     force.units = |s, _| s.record()?.reading.units.clone()?.to_vec();
     force.start_s: FINITE = |s, _| s.record()?.reading.start_s?;
     force.end_s: FINITE = |s, _| s.record()?.reading.end_s?;
+    force.onset_s: FINITE = |s, _| s.record()?.reading.onset_s?;
     force.sign: SIGN = |s, _| s.record()?.reading.sign?;
+    force.sensitivity_v_per_n: POSITIVE = |s, _| s.record()?.reading.sensitivity_v_per_n?;
     force.low_pass_hz: POSITIVE = |s, _| s.record()?.treated?.low_pass_hz?;
     force.baseline_s: POSITIVE = |s, _| s.record()?.treated?.baseline_s?;
     probe.r_m: NOT_NEGATIVE ("the distance from the axis");

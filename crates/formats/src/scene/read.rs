@@ -234,7 +234,9 @@ fn read_load(
                 units: force.words("units", "a pair of words")?,
                 start_s: force.number("start_s")?,
                 end_s: force.number("end_s")?,
+                onset_s: force.number("onset_s")?,
                 sign: force.number("sign")?,
+                sensitivity_v_per_n: force.number("sensitivity_v_per_n")?,
                 samples: None,
             };
             let record = match source {

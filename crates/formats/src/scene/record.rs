@@ -3,7 +3,8 @@
 use super::keys::FINITE;
 use super::section::{MOST_OF_RECORD, read_text_up_to};
 use crate::error::SceneError;
-use impact::{ForceRecord, Reading, RecordError, TreatmentError};
+use crate::results::schema::{FILE_TYPE, SEALED_FROM};
+use impact::{ASCENDING, ForceRecord, Reading, RecordError, TreatmentError, follows};
 use ledger::{Group, HdfError, HdfFile};
 use output::HDF5;
 use std::io::ErrorKind;
@@ -26,8 +27,12 @@ type Rows = (Vec<f64>, Vec<f64>);
 pub fn read_record(path: &Path, reading: Reading) -> Result<ForceRecord, SceneError> {
     let unreadable = |reason: String| SceneError::unreadable(path, reason);
     let (rows, name) = if HDF5.is_of(path) {
-        if reading.columns.is_some() || reading.units.is_some() {
-            let reason = "force.columns and force.units are for text, and it is an HDF5 file";
+        let of_text = [
+            reading.columns.is_some() || reading.units.is_some(),
+            reading.sensitivity_v_per_n.is_some(),
+        ];
+        if of_text.contains(&true) {
+            let reason = "force.columns, force.units and force.sensitivity_v_per_n are for text, and it is an HDF5 file";
             return Err(unreadable(reason.to_owned()));
         }
         (from_hdf5(path).map_err(unreadable)?, "/time")
@@ -71,8 +76,8 @@ pub(super) fn record_of_samples(
             return Err(SceneError::out_of_range(key, number, FINITE.name));
         }
     }
-    if let Some(pair) = time_s.windows(2).find(|pair| pair[1] <= pair[0]) {
-        return Err(wrong(not_ascending(name, pair[1], pair[0])));
+    if let Some(place) = (1..times).find(|&n| !follows(&time_s[..n], time_s[n])) {
+        return Err(wrong(not_ascending(name, time_s[place], time_s[place - 1])));
     }
     reading.samples = Some([time_s.clone(), force_n.clone()]);
     record_of((time_s, force_n), reading, name, wrong)
@@ -96,11 +101,18 @@ fn record_of(
             RecordError::NotAscending {
                 time_s, before_s, ..
             } => not_ascending(name, time_s, before_s),
-            RecordError::NotFinite { .. } => error.to_string(),
+            RecordError::NotFinite { .. }
+            | RecordError::AtOnce { .. }
+            | RecordError::Jumps { .. } => error.to_string(),
         })
     })?;
+    let onset_s = reading.onset_s;
+    let zero_s = reading.start_s.unwrap_or(0.0);
     record.reading = Box::new(reading);
-    Ok(record)
+    match onset_s {
+        Some(onset_s) => Ok(record.with_onset(onset_s - zero_s)?),
+        None => Ok(record),
+    }
 }
 
 /// What is said of times before zero, with what to do.
@@ -111,7 +123,7 @@ fn before_zero(name: &str, time_s: f64) -> String {
 }
 
 fn not_ascending(name: &str, time_s: f64, before_s: f64) -> String {
-    format!("{name} = {time_s} does not follow {before_s}; times must ascend")
+    format!("{name} = {time_s} does not follow {before_s}: {ASCENDING}")
 }
 
 fn too_few(rows: usize) -> String {
@@ -126,17 +138,19 @@ fn cut((time_s, force_n): Rows, reading: &Reading) -> Result<Rows, SceneError> {
     let zero_s = reading.start_s.unwrap_or(0.0);
     let from_s = reading.start_s.unwrap_or(first_s);
     let to_s = reading.end_s.unwrap_or(last_s);
-    let within = |key, value, least: f64, most: f64| {
-        let fits = value >= least && value <= most;
-        fits.then_some(()).ok_or(TreatmentError {
-            key,
-            value,
-            limits: [least, most],
-            reason: "the times of the record",
-        })
+    let within = |key, value: f64, limits: [f64; 2], brackets| {
+        let fits = value >= limits[0] && value <= limits[1];
+        let reason = "the times of the record";
+        let error = || TreatmentError::new(key, value, limits, brackets, reason);
+        fits.then_some(()).ok_or_else(error)
     };
-    within("start_s", from_s, f64::NEG_INFINITY, last_s)?;
-    within("end_s", to_s, from_s.max(first_s), f64::INFINITY)?;
+    within("start_s", from_s, [f64::NEG_INFINITY, last_s], ['(', ']'])?;
+    within(
+        "end_s",
+        to_s,
+        [from_s.max(first_s), f64::INFINITY],
+        ['[', ')'],
+    )?;
     let at = |i: usize, t: f64| {
         let part = (t - time_s[i - 1]) / (time_s[i] - time_s[i - 1]);
         force_n[i - 1] + part * (force_n[i] - force_n[i - 1])
@@ -174,6 +188,8 @@ const FORCES: [(&str, f64); 8] = [
     ("lbf", 4.448_221_615_260_5),
     ("\u{3bc}N", 1e-6),
 ];
+/// Units in V of the signal of a sensor, whose sensitivity makes a force of it.
+const SIGNALS: [(&str, f64); 2] = [("V", 1.0), ("mV", 1e-3)];
 
 /// What divides the columns of a line; blanks where nothing else does.
 fn separator(line: &str) -> Option<char> {
@@ -203,17 +219,22 @@ fn number_at(fields: &[&str], place: usize, by: Option<char>) -> Option<f64> {
     number(fields.get(place)?, by)
 }
 
-/// The factor of the unit of a column: that given, or the one that its name ends with, such as `Time [us]` or `F/kN`.
-fn factor(name: &str, given: Option<&String>, known: &[(&str, f64)]) -> Result<f64, String> {
-    let own = || {
+/// The unit of a column: that given, or the one that its name ends with, such as `Time [us]` or `F/kN`; empty where there is
+/// none.
+fn unit<'a>(name: &'a str, given: Option<&'a String>, own: &'static str) -> &'a str {
+    let named = || {
         let (_, end) = name.rsplit_once(['[', '(', '/'])?;
         Some(end.trim_end_matches([']', ')']).trim())
     };
-    let unit = match (given, COLUMNS.contains(&name)) {
-        (Some(unit), _) => unit.as_str(),
-        (None, true) => return Ok(1.0),
-        (None, false) => own().unwrap_or(""),
-    };
+    match given {
+        Some(unit) => unit,
+        None if COLUMNS.contains(&name) => own,
+        None => named().unwrap_or(""),
+    }
+}
+
+/// The factor of the unit of a column.
+fn factor(name: &str, unit: &str, known: &[(&str, f64)], more: &str) -> Result<f64, String> {
     let factor = known.iter().find(|(name, _)| *name == unit);
     factor.map(|(_, factor)| *factor).ok_or_else(|| {
         let names: Vec<&str> = known.iter().map(|(name, _)| *name).collect();
@@ -222,11 +243,31 @@ fn factor(name: &str, given: Option<&String>, known: &[(&str, f64)]) -> Result<f
             unit => format!("has the unit \"{unit}\""),
         };
         format!(
-            "the column \"{name}\" {has}, needed one of {}: give force.units, such as [\"us\", \"kN\"]",
+            "the column \"{name}\" {has}, needed one of {}{more}: give force.units, such as [\"us\", \"kN\"]",
             // the last is another letter mu
             names[..names.len() - 1].join(", ")
         )
     })
+}
+
+/// The factor of a column of forces, or of the signal of a sensor.
+fn force_factor(name: &str, unit: &str, sensitivity: Option<f64>) -> Result<f64, String> {
+    let signal = SIGNALS.iter().find(|(name, _)| *name == unit);
+    match (signal, sensitivity) {
+        (Some((_, volts)), Some(v_per_n)) => Ok(volts / v_per_n),
+        (Some(_), None) => Err(format!(
+            "the column \"{name}\" has the unit \"{unit}\": give force.sensitivity_v_per_n, the volts that the sensor gives per newton"
+        )),
+        (None, Some(_)) => Err(format!(
+            "the column \"{name}\" has the unit \"{unit}\", and force.sensitivity_v_per_n is for a signal: give force.units, such as [\"s\", \"V\"], or leave the sensitivity out"
+        )),
+        (None, None) => factor(
+            name,
+            unit,
+            &FORCES,
+            ", or V, mV with force.sensitivity_v_per_n",
+        ),
+    }
 }
 
 /// Where the columns of time and force are in a line that has them all.
@@ -254,21 +295,24 @@ fn from_text(text: &str, reading: &Reading) -> Result<Rows, (usize, String)> {
     }
     // instruments write lines of their own above the header
     let is_named = reading.columns.is_some();
-    let mut above = lines().take(if is_named { usize::MAX } else { 1 });
-    let header = above.find_map(|(line, text)| Some((line, text, places(text, &wanted)?)));
+    let header = lines().find_map(|(line, text)| Some((line, text, places(text, &wanted)?)));
     let Some((line, header, [time, force])) = header else {
         return Err(no_header(lines(), &wanted));
     };
     let by = separator(header);
     let names = columns(header, by);
+    let count = names.len();
     let is_number = |fields: &[&str], place| number_at(fields, place, by).is_some();
     let has_header = !(is_number(&names, time) && is_number(&names, force));
-    let factor_of = |i: usize, place: usize, known: &[(&str, f64)]| {
-        let name = if has_header { names[place] } else { &wanted[i] };
-        let given = reading.units.as_ref().map(|units| &units[i]);
-        factor(name, given, known).map_err(|reason| (line, reason))
-    };
-    let factors = [factor_of(0, time, &TIMES)?, factor_of(1, force, &FORCES)?];
+    let names = [time, force].map(|place| names[place]);
+    let names: [&str; 2] = std::array::from_fn(|i| if has_header { names[i] } else { &wanted[i] });
+    let given = |i: usize| reading.units.as_ref().map(|units| &units[i]);
+    let [of_time, of_force] = [("s", 0), ("N", 1)].map(|(own, i)| unit(names[i], given(i), own));
+    let at_header = |reason: String| (line, reason);
+    let factors = [
+        factor(names[0], of_time, &TIMES, "").map_err(at_header)?,
+        force_factor(names[1], of_force, reading.sensitivity_v_per_n).map_err(at_header)?,
+    ];
     let (mut time_s, mut force_n): Rows = Default::default();
     // some have a line of units below it
     let is_row = |row: &str| {
@@ -288,14 +332,14 @@ fn from_text(text: &str, reading: &Reading) -> Result<Rows, (usize, String)> {
             })
         };
         let (t, p) = (value(0, time)?, value(1, force)?);
-        if let Some(extra) = fields.get(names.len()) {
-            let what = if names.len() == 2 { "third" } else { "further" };
+        if let Some(extra) = fields.get(count) {
+            let what = if count == 2 { "third" } else { "further" };
             return Err((line, format!("there is a {what} field, \"{extra}\"")));
         }
         if t < 0.0 && time_s.is_empty() && reading.start_s.is_none() {
             return Err((line, before_zero(&wanted[0], t)));
         }
-        if let Some(&before) = time_s.last().filter(|&&before| t <= before) {
+        if let Some(&before) = time_s.last().filter(|_| !follows(&time_s, t)) {
             return Err((line, not_ascending(&wanted[0], t, before)));
         }
         if time_s.len() == MOST_SAMPLES {
@@ -311,37 +355,53 @@ fn from_text(text: &str, reading: &Reading) -> Result<Rows, (usize, String)> {
     Ok((time_s, force_n))
 }
 
-/// Where the header seems to be, above the first row of numbers, and what to do with it.
+/// Where the header seems to be, directly above the first row of numbers, and what to do with it.
+///
+/// A file without such a row is not shown: it may be any file of whoever runs the program.
 fn no_header<'a>(
     lines: impl Iterator<Item = (usize, &'a str)>,
     wanted: &[String; 2],
 ) -> (usize, String) {
-    let is_row = |text: &str| {
-        let by = separator(text);
-        let fields = columns(text, by);
-        (0..2).all(|place| number_at(&fields, place, by).is_some())
+    let fields = |text: &'a str| columns(text, separator(text));
+    let is_row = |text: &'a str| {
+        let numbers = fields(text)
+            .into_iter()
+            .filter_map(|field| number(field, separator(text)));
+        numbers.count() >= 2
     };
-    let (mut line, mut text) = (1, "");
-    for (at, found) in lines {
-        let is_row = is_row(found);
-        if !is_row || text.is_empty() {
-            (line, text) = (at, found);
-        }
-        if is_row {
+    let (mut above, mut row) = (None, None);
+    for (line, text) in lines {
+        if is_row(text) {
+            row = Some((line, text));
             break;
         }
+        above = Some((line, text));
     }
-    let by = separator(text);
-    let way = match columns(text, by).as_slice() {
-        [first, ..] if number(first, by).is_some() => {
-            "force.columns = [1, 2] with force.units = [\"s\", \"N\"], by place".to_owned()
-        }
-        [first, second, ..] => format!("such as force.columns = [\"{first}\", \"{second}\"]"),
-        _ => "in force.columns".to_owned(),
+    let names = wanted.join(",");
+    let Some(row) = row else {
+        let reason = format!("no header \"{names}\", and no row of two numbers: is it a record?");
+        return (1, reason);
     };
-    let wanted = wanted.join(",");
+    let count = fields(row.1).len();
+    if let Some(far) = wanted
+        .iter()
+        .find(|name| name.parse().is_ok_and(|n: usize| n > count))
+    {
+        let reason = format!("force.columns has {far}, and the rows have {count} columns");
+        return (row.0, reason);
+    }
+    let Some((line, header)) = above else {
+        let reason = format!(
+            "the first line is a row of numbers, not the header \"{names}\": name the columns of time and force by their places, force.columns = [1, 2] with force.units = [\"s\", \"N\"]"
+        );
+        return (row.0, reason);
+    };
+    let way = match fields(header).as_slice() {
+        [first, second, ..] => format!("such as force.columns = [\"{first}\", \"{second}\"]"),
+        _ => "in force.columns, or by their places".to_owned(),
+    };
     let reason = format!(
-        "the header is \"{text}\", not \"{wanted}\": name the columns of time and force, {way}"
+        "the header is \"{header}\", not \"{names}\": name the columns of time and force, {way}"
     );
     (line, reason)
 }
@@ -354,6 +414,9 @@ fn from_hdf5(path: &Path) -> Result<Rows, String> {
         }
         other => other.to_string(),
     })?;
+    if is_unsealed(&file) {
+        return Err("it is a results file without its checksums: it was cut short, or something has written to it since it was made".to_owned());
+    }
     let (time_s, force_n) = (samples(&file.root, "time")?, samples(&file.root, "force")?);
     let (times, forces) = (time_s.len(), force_n.len());
     if times != forces || times < 2 {
@@ -361,10 +424,23 @@ fn from_hdf5(path: &Path) -> Result<Rows, String> {
             "/time has {times} samples and /force {forces}; at least 2 and as many of each are needed"
         ));
     }
-    if let Some(pair) = time_s.windows(2).find(|pair| pair[1] <= pair[0]) {
-        return Err(not_ascending("/time", pair[1], pair[0]));
+    if let Some(i) = (1..times).find(|&i| !follows(&time_s[..i], time_s[i])) {
+        return Err(not_ascending("/time", time_s[i], time_s[i - 1]));
     }
     Ok((time_s, force_n))
+}
+
+/// Whether a file is one of the program's results that has lost the checksums with which it was written.
+fn is_unsealed(file: &HdfFile) -> bool {
+    let minor = || {
+        let version = file.root.text("format_version").ok()?;
+        version.split('.').nth(1)?.parse::<u32>().ok()
+    };
+    let is_own = file
+        .root
+        .text("file_type")
+        .is_ok_and(|own| own == FILE_TYPE);
+    is_own && !file.is_sealed() && minor().is_none_or(|minor| minor >= SEALED_FROM)
 }
 
 /// The numbers of a dataset of one dimension.

@@ -367,6 +367,9 @@ fn text_of(source: impl Read, path: &Path, most: u64) -> Result<String, SceneErr
     if bytes.len() as u64 > most {
         return Err(fault(format!("it has more than {} MB", most >> 20)));
     }
+    if let Some(text) = from_utf16(&bytes) {
+        return text.ok_or_else(|| fault("it begins as UTF-16, and is none".to_owned()));
+    }
     String::from_utf8(bytes).map_err(|error| {
         let (bytes, valid) = (error.as_bytes(), error.utf8_error().valid_up_to());
         let line = bytes[..valid].split(|&byte| byte == b'\n').count();
@@ -376,4 +379,17 @@ fn text_of(source: impl Read, path: &Path, most: u64) -> Result<String, SceneErr
             format!("line {line} is not UTF-8")
         })
     })
+}
+
+/// The text of bytes that begin with a byte order mark of UTF-16, as those of LabVIEW and Excel do; none inside where it is
+/// damaged.
+fn from_utf16(bytes: &[u8]) -> Option<Option<String>> {
+    let read: fn([u8; 2]) -> u16 = match bytes {
+        [0xff, 0xfe, ..] => u16::from_le_bytes,
+        [0xfe, 0xff, ..] => u16::from_be_bytes,
+        _ => return None,
+    };
+    let units = bytes[2..].chunks(2);
+    let units: Option<Vec<u16>> = units.map(|two| Some(read(two.try_into().ok()?))).collect();
+    Some(units.and_then(|units| String::from_utf16(&units).ok()))
 }

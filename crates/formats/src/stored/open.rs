@@ -46,7 +46,7 @@ impl FileKind {
     /// What the file is, and the minor version of the format from which on its files have a seal.
     fn row(self) -> (&'static str, u32) {
         match self {
-            Self::Impact => ("the results of an impact", 8),
+            Self::Impact => ("the results of an impact", results::schema::SEALED_FROM),
             Self::Sweep => ("a sweep", 6),
             Self::SweepPart => ("a part of a sweep", 2),
             Self::Table => ("a kernel table", lookup::schema::SEALED_FROM),

@@ -5,6 +5,9 @@
 //! P'' of a contact is infinite where it begins and ends, and P' of a record jumps at each row: accelerations, and the
 //! velocities of records, are means over one step of the output, differences of sums half a step before and after.
 //!
+//! A record may jump. The samples are those of its continuous part; each jump is a term of its own, a step response
+//! ([`Cells::step_response`]).
+//!
 //! Theory: `docs/theory.md` (T24, T60, T61).
 
 use super::convolve::Convolver;
@@ -134,6 +137,12 @@ impl Sampled {
     }
 }
 
+/// Times its estimate that a kernel may be off at an instant: estimates are for convolutions, in which what is left of a
+/// series has either sign; 3.2 was seen.
+///
+/// `fields_under_jumps_are_those_of_steps_within_their_estimates` fails without it.
+const AT_INSTANTS: f64 = 4.0;
+
 /// Part of the force over which a polynomial of the radius is differenced (T61).
 const PART: f64 = 1e-6;
 
@@ -245,6 +254,7 @@ impl<'a> Forcing<'a> {
             for (i, nodes) in nodes.iter().enumerate() {
                 self.add_run(&mut force, (discs, k), i, nodes);
             }
+            force.half_variation += AT_INSTANTS * self.half_jumps();
             let per_step = self.step_s.recip().powi(self.differences as i32);
             let Departure { most_n, sum_n } = &mut force.left;
             (*most_n, *sum_n) = (per_step * *most_n, per_step * *sum_n);
@@ -314,7 +324,10 @@ impl<'a> Forcing<'a> {
             nodes.places().map(at).collect()
         };
         let base = match self.reading {
-            Reading::Force => discs.share(k, 1.0).map(|share| run.base_n * share),
+            Reading::Force => {
+                let base_n = self.excitation.continuous_base_n(run);
+                discs.share(k, 1.0).map(|share| base_n * share)
+            }
             Reading::Rate => [0.0; 2],
         };
         let of = |i: usize, least: f64| {
@@ -358,6 +371,13 @@ impl<'a> Forcing<'a> {
             last,
             zones: run_zones,
         });
+    }
+
+    /// Half of the total variation of the jumps, differenced as the outputs are.
+    pub(crate) fn half_jumps(&self) -> f64 {
+        let jumps = self.excitation.jumps().iter();
+        let sum: f64 = jumps.map(|jump| jump.rise_n.abs()).sum();
+        0.5 * sum * (2.0 / self.step_s).powi(self.differences as i32)
     }
 
     /// The cells of each contact during a run.

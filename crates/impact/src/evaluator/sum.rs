@@ -9,6 +9,7 @@ use crate::error::ImpactError;
 use crate::excitation::{Excitation, PressureRadius};
 use crate::fields::quantity::Derivative;
 use crate::kernels::Cells;
+use crate::record::jump::rounded_up;
 use crate::record::stretch::largest;
 use halfspace::Six;
 use lookup::Moments;
@@ -190,11 +191,41 @@ impl<'a> Sum<'a> {
             }
             first += needed.len();
         }
+        self.add_jumps(k, cells);
         let (settled, changed) = self.forcing.left_out;
         let rest = cells.smooth.get(settled).copied().unwrap_or_default();
+        let read = match excitation.jumps() {
+            [] => Six::default(),
+            _ => cells
+                .error_at_instants()
+                .map(|own| 2.0 * own * self.forcing.half_jumps()),
+        };
         for (f, error) in force.errors(cells).into_iter().enumerate() {
+            let error = error + read[f] + changed * rest[f].abs();
             // those of the discs are independent
-            self.errors[f] = self.errors[f].hypot(unit[f] * (error + changed * rest[f].abs()));
+            self.errors[f] = self.errors[f].hypot(unit[f] * error);
+        }
+    }
+
+    /// Adds the response to each jump of the force, a step, at the instants after it; at an arrival it is that after it.
+    fn add_jumps(&mut self, k: usize, cells: &Cells) {
+        let (forcing, over) = (self.forcing, self.discs.radii[k]);
+        let (unit, unit_s) = (
+            forcing.excitation.units_si(over),
+            over * forcing.excitation.units().time_s(),
+        );
+        for jump in forcing.excitation.jumps() {
+            for (i, &time_s) in forcing.times_s.iter().enumerate() {
+                if !jump.is_past(time_s) {
+                    continue;
+                }
+                // at the jump itself after it
+                let since_s = (rounded_up(time_s) - jump.time_s).max(f64::MIN_POSITIVE);
+                let response = cells.step_response(since_s / unit_s, forcing.step_s / unit_s);
+                for f in 0..self.components() {
+                    self.values[f][i] += jump.rise_n * unit[f] * response[f];
+                }
+            }
         }
     }
 
@@ -295,8 +326,15 @@ impl<'a> Sum<'a> {
 
     /// Sets to zero what the sum leaves before the first wave from the largest disc has arrived.
     fn still_before_arrival(&mut self) {
-        let first_s = self.forcing.excitation.arrivals_s(self.place_m)[0];
-        let early = self.forcing.times_s.iter().filter(|&&t| t < first_s);
+        let excitation = self.forcing.excitation;
+        let (radius_m, [r_m, z_m]) = (excitation.units().disc_radius_m, self.place_m);
+        let travel_s = excitation.speeds().arrivals_s(r_m, z_m, radius_m)[0];
+        let first_s = excitation.first_s() + travel_s;
+        let early = self
+            .forcing
+            .times_s
+            .iter()
+            .filter(|&&t| rounded_up(t) < first_s);
         let still = early.count();
         for samples in [&mut self.values, &mut self.left, &mut self.rough] {
             samples.iter_mut().for_each(|own| own[..still].fill(0.0));

@@ -35,6 +35,54 @@ pub struct Cells {
 }
 
 impl Cells {
+    /// The response to a force that jumps from zero to one, so long after it, in cells of `step` in the same unit of time.
+    ///
+    /// At an arrival it is that after it. Cells alone are read as in [`Self::error_at_instants`].
+    pub(crate) fn step_response(&self, time: f64, step: f64) -> Six {
+        let rest = match &self.trace {
+            Some(trace) => trace.at(time),
+            None => {
+                let cell = (time / step).floor();
+                match (cell as usize) < self.moments.averages.len() {
+                    true => parabola(&self.moments, cell as usize, time / step - cell - 0.5),
+                    false => Six::default(),
+                }
+            }
+        };
+        std::array::from_fn(|f| self.static_part[f] + rest[f])
+    }
+
+    /// How far the remainder may be off at an instant beside the error of the kernels: not at all of a trace; of cells, each
+    /// of which is followed by the parabola of its moments, as far as a front that passes within one departs from it.
+    ///
+    /// Where the parabolas of neighbours do not meet, or have another slope or bend than the averages around, the kernel is
+    /// not smooth. `looked_up_jumps_are_within_their_estimates` fails without it.
+    pub(crate) fn error_at_instants(&self) -> Six {
+        let mut most = Six::default();
+        if self.trace.is_some() {
+            return most;
+        }
+        let Moments {
+            averages,
+            first,
+            second,
+        } = &self.moments;
+        for j in 0..averages.len().saturating_sub(1) {
+            let [end, begin] =
+                [(j, 0.5), (j + 1, -0.5)].map(|(j, s)| parabola(&self.moments, j, s));
+            for (f, most) in most.iter_mut().enumerate() {
+                let [own, after] = [j, j + 1].map(|j| averages[j][f]);
+                let before = j
+                    .checked_sub(1)
+                    .map_or(2.0 * own - after, |j| averages[j][f]);
+                let tilt = 12.0 * first[j][f] - 0.5 * (after - before);
+                let bend = 180.0 * second[j][f] - 0.5 * (after - 2.0 * own + before);
+                *most = most.max(tilt.abs() + bend.abs() + (end[f] - begin[f]).abs());
+            }
+        }
+        most
+    }
+
     /// Of each field's step response the total variation, which is the largest response to a force that is nowhere above
     /// one, and the largest change from one cell to the next.
     pub(crate) fn steps(&self) -> [[f64; 2]; 6] {
@@ -48,6 +96,18 @@ impl Cells {
         })
     }
 }
+
+/// The remainder within a cell by its moments, s from -1/2 to 1/2.
+fn parabola(moments: &Moments, cell: usize, s: f64) -> Six {
+    let [average, first, second] =
+        [&moments.averages, &moments.first, &moments.second].map(|own| &own[cell]);
+    std::array::from_fn(|f| average[f] + 12.0 * s * first[f] + (180.0 * s * s - 15.0) * second[f])
+}
+
+/// Part of the tolerance that a trace has for a force that jumps, which shows it as it is.
+///
+/// `fields_under_jumps_are_those_of_steps_within_their_estimates` fails without it.
+const AT_INSTANTS: f64 = 0.1;
 
 /// Part of the tolerance that a trace has for rates, those of the displacements: with the power 1/2 a force begins steeper.
 const RATES: f64 = 0.01;
@@ -106,8 +166,13 @@ impl KernelSource {
                 let domain = |source| ImpactError::OutsideBlock { r_m, z_m, source };
                 let has_rate = |f: usize| wanted.rates && f < 2;
                 let rise = |length: f64| std::array::from_fn(|f| pulse.rise(length, has_rate(f)));
+                let at_instants = if pulse.jump() > wanted.tolerance {
+                    AT_INSTANTS
+                } else {
+                    1.0
+                };
                 let tolerance = std::array::from_fn(|f| {
-                    wanted.tolerance * if has_rate(f) { RATES } else { 1.0 }
+                    wanted.tolerance * if has_rate(f) { RATES } else { at_instants }
                 });
                 // the last cell ends a rounding error before the trace
                 let end = step * count as f64;
@@ -164,11 +229,26 @@ pub struct CellPlan {
 pub enum Pulse {
     /// As smooth as sin^4(pi t/T) of this length.
     Smooth(f64),
+    /// Of lines as steep as such a pulse, and of jumps, each up to this part of its peak.
+    Lines {
+        /// Length of the pulse.
+        length: f64,
+        /// Largest jump over the peak.
+        jump: f64,
+    },
     /// Of a contact of this duration, which begins and ends with the power 3/2.
     Contact(f64),
 }
 
 impl Pulse {
+    /// Largest jump over the peak.
+    fn jump(self) -> f64 {
+        match self {
+            Self::Smooth(_) | Self::Contact(_) => 0.0,
+            Self::Lines { jump, .. } => jump,
+        }
+    }
+
     /// The most by which the force, and its rate where `rates`, may change within a time, over its peak.
     fn rise(self, length: f64, rates: bool) -> f64 {
         let part = match self {
@@ -180,8 +260,12 @@ impl Pulse {
                 part.powf(power).max(LINE * part)
             }
             // lines have rates that jump
-            Self::Smooth(_) if rates => 1.0,
+            Self::Smooth(_) | Self::Lines { .. } if rates => 1.0,
             Self::Smooth(duration) => 1.3 * PI * length / duration,
+            Self::Lines {
+                length: duration,
+                jump,
+            } => (1.3 * PI * length / duration).max(jump),
         };
         part.min(1.0)
     }
@@ -203,6 +287,17 @@ pub(crate) fn table_error(
     let of = |length: f64| table.error(poisson_ratio, r, z, length);
     match pulse {
         Pulse::Smooth(length) => of(length),
+        Pulse::Lines { length, jump } => {
+            let mut error = of(length)?;
+            if jump > 0.0 {
+                // as sharp as the shortest pulse that was measured, at least
+                let sharp = of(table.content().pulse_lengths[0])?;
+                for (all, own) in error.iter_mut().zip(sharp) {
+                    *all += jump * own;
+                }
+            }
+            Ok(error)
+        }
         Pulse::Contact(duration) => {
             let mut error = of(duration)?;
             let lengths = &table.content().pulse_lengths;

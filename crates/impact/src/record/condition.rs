@@ -1,21 +1,44 @@
 //! What may be asked to be done to a record before it loads the half-space: a baseline taken away, a low pass.
 
+use crate::record::jump::jumps;
 use crate::record::low_pass::{Rows, allowed_hz, low_pass};
 use crate::record::{ForceRecord, Treated};
 use thiserror::Error;
 
-/// A treatment that this record cannot have.
-#[derive(Debug, Clone, Copy, PartialEq, Error)]
-#[error("{key} = {value} is outside ({:.4e}, {:.4e}], {reason}", limits[0], limits[1])]
+/// Something asked of a record that it cannot have.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[error("{key} = {value} is outside {range}, {reason}")]
 pub struct TreatmentError {
-    /// Which of the two, by the name of its scene key.
+    /// Name of its scene key.
     pub key: &'static str,
     /// Its value.
     pub value: f64,
-    /// What it must exceed, and the most allowed.
+    /// Its limits.
     pub limits: [f64; 2],
+    /// The same in interval notation.
+    pub range: String,
     /// Where the limits come from.
     pub reason: &'static str,
+}
+
+impl TreatmentError {
+    /// Of a value that is not between two limits, with the brackets of their interval.
+    pub fn new(
+        key: &'static str,
+        value: f64,
+        limits: [f64; 2],
+        [open, shut]: [char; 2],
+        reason: &'static str,
+    ) -> Self {
+        let [least, most] = limits.map(fault::number);
+        Self {
+            key,
+            value,
+            limits,
+            range: format!("{open}{least}, {most}{shut}"),
+            reason,
+        }
+    }
 }
 
 impl ForceRecord {
@@ -47,18 +70,21 @@ impl ForceRecord {
         if let Some(cutoff_hz) = low_pass_hz {
             let limits = allowed_hz(record.time_s());
             if !(cutoff_hz > limits[0] && cutoff_hz <= limits[1]) {
-                return Err(TreatmentError {
-                    key: "low_pass_hz",
-                    value: cutoff_hz,
+                let reason = "one period in the record to rows that memory holds";
+                return Err(TreatmentError::new(
+                    "low_pass_hz",
+                    cutoff_hz,
                     limits,
-                    reason: "one period in the record to rows that memory holds",
-                });
+                    ['(', ']'],
+                    reason,
+                ));
             }
             let filtered = low_pass(record.time_s(), record.force_n(), cutoff_hz);
             done.before_zero_n_s = filtered.before_zero_n_s;
             done.removed_rms_n = record.difference_rms_n(&filtered);
             (record.time_s, record.force_n) = (filtered.time_s, filtered.force_n);
         }
+        record.jumps = jumps(&record.time_s, &record.force_n);
         if done.baseline_s.is_some() || done.low_pass_hz.is_some() {
             record.treated = Some(done);
         }
@@ -83,26 +109,33 @@ impl ForceRecord {
     /// Mean force in N over the first `length_s`.
     fn mean_n(&self, length_s: f64) -> Result<f64, TreatmentError> {
         let [start_s, end_s] = self.span_s();
-        let most = end_s - start_s;
+        let (most, reason) = match self.onset_s.filter(|onset_s| *onset_s > start_s) {
+            Some(onset_s) => (onset_s - start_s, "the part of the record before onset_s"),
+            None => (end_s - start_s, "the length of the record"),
+        };
         if !(length_s > 0.0 && length_s <= most) {
-            return Err(TreatmentError {
-                key: "baseline_s",
-                value: length_s,
-                limits: [0.0, most],
-                reason: "the length of the record",
-            });
+            return Err(TreatmentError::new(
+                "baseline_s",
+                length_s,
+                [0.0, most],
+                ['(', ']'],
+                reason,
+            ));
         }
         let until_s = start_s + length_s;
-        let mut before = (start_s, self.force_n()[0]);
         let mut sum = 0.0;
-        for &time_s in &self.time_s[1..] {
-            let end_s = time_s.min(until_s);
-            let end = (end_s, self.at(end_s));
-            sum += 0.5 * (end.0 - before.0) * (before.1 + end.1);
-            if time_s >= until_s {
+        for (t, p) in self.time_s.windows(2).zip(self.force_n.windows(2)) {
+            if t[0] >= until_s {
                 break;
             }
-            before = end;
+            // a jump has no width
+            let width_s = t[1].min(until_s) - t[0];
+            let slope = if t[0] < t[1] {
+                (p[1] - p[0]) / (t[1] - t[0])
+            } else {
+                0.0
+            };
+            sum += width_s * (p[0] + 0.5 * slope * width_s);
         }
         Ok(sum / length_s)
     }
@@ -111,18 +144,17 @@ impl ForceRecord {
     fn difference_rms_n(&self, other: &Rows) -> f64 {
         let mut sum = 0.0;
         let mut place = 0;
-        let mut before = None;
-        for (&time_s, &force_n) in self.time_s().iter().zip(self.force_n()) {
+        let mut gap = |time_s: f64, force_n: f64| {
             while other.time_s[place] < time_s {
                 place += 1;
             }
-            let gap = force_n - other.force_n[place];
-            if let Some((then_s, then)) = before {
-                // the square of a line, integrated
-                let part: f64 = gap * gap + gap * then + then * then;
-                sum += (time_s - then_s) * part / 3.0;
-            }
-            before = Some((time_s, gap));
+            force_n - other.force_n[place]
+        };
+        for (t, p) in self.time_s.windows(2).zip(self.force_n.windows(2)) {
+            let (before, after) = (gap(t[0], p[0]), gap(t[1], p[1]));
+            // the square of a line, integrated
+            let part = before * before + before * after + after * after;
+            sum += (t[1] - t[0]) * part / 3.0;
         }
         let [start_s, end_s] = self.span_s();
         (sum / (end_s - start_s)).sqrt()
@@ -173,7 +205,7 @@ mod tests {
                 .unwrap_err()
                 .to_string();
             assert!(
-                message.starts_with("low_pass_hz = ") && message.contains("(5.0000e-1, "),
+                message.starts_with("low_pass_hz = ") && message.contains("(0.5, "),
                 "{message}"
             );
         }

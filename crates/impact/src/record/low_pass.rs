@@ -50,13 +50,14 @@ pub(crate) fn allowed_hz(time_s: &[f64]) -> [f64; 2] {
         let added = |t: &[f64]| (ROWS * cutoff_hz * (t[1] - t[0])).min(reach).floor();
         time_s.len() as f64 + reach + time_s.windows(2).map(added).sum::<f64>()
     };
-    let (mut low, mut high) = (1.0 / span_s, 1e4 * MOST_ROWS / span_s);
+    let (mut low, mut high) = (1.0 / span_s, (1e4 * MOST_ROWS / span_s).min(f64::MAX));
     if rows(high) <= most {
         return [low, high];
     }
     let least = low;
     while high > 1.001 * low {
-        let middle = (low * high).sqrt();
+        // each root for itself: the product of times that nobody has is zero or infinite
+        let middle = low.sqrt() * high.sqrt();
         match rows(middle) <= most {
             true => low = middle,
             false => high = middle,
@@ -90,6 +91,7 @@ pub(crate) fn low_pass(time_s: &[f64], force_n: &[f64], cutoff_hz: f64) -> Rows 
         }
     }
     rows.force_n = sum;
+    rows.join();
     rows
 }
 
@@ -110,9 +112,14 @@ impl Rows {
             } else {
                 rows.between([t[0], t[1]], [p[0], p[1]], step_s);
             }
+            // a jump is two rows of one time until it is filtered
+            if t[0] == t[1] {
+                rows.add(t[0], p[0]);
+                rows.add(t[1], p[1]);
+            }
         }
-        rows.of_record.end = rows.time_s.len();
         rows.push(end_s, force_n[force_n.len() - 1]);
+        rows.of_record.end = rows.time_s.len() - 1;
         rows.between([end_s, end_s + reach_s], [0.0; 2], step_s);
         // the row at the record's end is there already
         rows.push(end_s + reach_s, 0.0);
@@ -121,9 +128,27 @@ impl Rows {
 
     fn push(&mut self, time_s: f64, force_n: f64) {
         if self.time_s.last().is_none_or(|&last| time_s > last) {
-            self.time_s.push(time_s);
-            self.force_n.push(force_n);
+            self.add(time_s, force_n);
         }
+    }
+
+    fn add(&mut self, time_s: f64, force_n: f64) {
+        self.time_s.push(time_s);
+        self.force_n.push(force_n);
+    }
+
+    /// Makes one row of two that have one time and, filtered, one force.
+    fn join(&mut self) {
+        let mut kept = 0;
+        for i in 0..self.time_s.len() {
+            if kept > 0 && self.time_s[kept - 1] == self.time_s[i] {
+                kept -= 1;
+            }
+            (self.time_s[kept], self.force_n[kept]) = (self.time_s[i], self.force_n[i]);
+            kept += 1;
+        }
+        self.time_s.truncate(kept);
+        self.force_n.truncate(kept);
     }
 
     /// The rows of an interval from its beginning, its end left out.
@@ -258,6 +283,39 @@ mod tests {
             "{} {expected}",
             found.before_zero_n_s
         );
+    }
+
+    /// Beside the same record with rises over a part of the cutoff's period that does not matter.
+    #[test]
+    fn a_jump_is_filtered_as_the_steepest_of_rises() {
+        let jumps = low_pass(
+            &[1.0, 1.0, 2.0, 2.0, 3.0, 3.0],
+            &[0.0, 2.0, 3.0, 1.0, 1.0, 0.0],
+            4.0,
+        );
+        let rises = low_pass(
+            &[1.0 - 1e-9, 1.0, 2.0, 2.0 + 1e-9, 3.0, 3.0 + 1e-9],
+            &[0.0, 2.0, 3.0, 1.0, 1.0, 0.0],
+            4.0,
+        );
+        let [ends, falls] = [&jumps, &rises].map(|rows| (rows.time_s.len(), at(rows, 2.0)));
+        assert!(ends.0 <= falls.0 && (ends.1 - 2.0).abs() < 0.1, "{ends:?}");
+        for t in [1.0, 2.0, 3.0] {
+            assert!((at(&jumps, t) - at(&rises, t)).abs() < 1e-7, "{t}");
+        }
+        assert!(jumps.time_s.windows(2).all(|t| t[0] < t[1]));
+    }
+
+    /// Products of times that no instrument has are zero or infinite.
+    #[test]
+    fn the_cutoffs_of_absurd_times_are_found() {
+        for span_s in [1e-300, 1e-160, 1e205, 1e307] {
+            let many: Vec<f64> = (0..5000)
+                .map(|i| span_s * (f64::from(i) / 4999.0))
+                .collect();
+            let [low, high] = allowed_hz(&many);
+            assert!(low > 0.0 && high > low, "{span_s}: {low} {high}");
+        }
     }
 
     #[test]

@@ -1,12 +1,15 @@
 //! A force history that was measured or invented: linear between its samples.
 //!
-//! How it is treated (`condition`, `low_pass`), and in which stretches it changes (`stretch`).
+//! Where it jumps (`jump`), when its blow begins and ends (`blow`), how it is treated (`condition`, `low_pass`), and in which stretches it changes (`stretch`).
 
+pub(crate) mod blow;
 pub(crate) mod condition;
+pub(crate) mod jump;
 mod low_pass;
 pub(crate) mod stretch;
 
 use crate::evaluator::projection::Node;
+use crate::record::jump::{Jump, MOST_JUMPS, follows, jumps, rounded_up};
 use halfspace::gauss;
 use std::path::PathBuf;
 use thiserror::Error;
@@ -22,17 +25,24 @@ pub struct Reading {
     pub start_s: Option<f64>,
     /// The last instant in s of the file that is taken.
     pub end_s: Option<f64>,
+    /// The instant in s of the file at which the blow begins.
+    pub onset_s: Option<f64>,
     /// -1 where the file counts pressing as negative.
     pub sign: Option<f64>,
     /// Times in s and forces in N that stand in the scene itself, in place of a file.
     pub samples: Option<[Vec<f64>; 2]>,
+    /// Volts per newton of the sensor whose signal the file has.
+    pub sensitivity_v_per_n: Option<f64>,
 }
 
-/// Samples of a force; zero before the first and after the last.
+/// Samples of a force, joined by lines; zero before the first and from the last on.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ForceRecord {
     time_s: Vec<f64>,
     force_n: Vec<f64>,
+    jumps: Vec<Jump>,
+    /// When the blow begins, if that is known.
+    onset_s: Option<f64>,
     /// The file that it comes from, if it comes from one.
     pub file: Option<PathBuf>,
     /// How it was read.
@@ -79,8 +89,8 @@ pub enum RecordError {
         /// The first time in s.
         time_s: f64,
     },
-    /// A time that does not follow the one before.
-    #[error("time {time_s} s of sample {sample} does not follow {before_s} s; times must ascend")]
+    /// A time that does not follow those before.
+    #[error("time {time_s} s of sample {sample} does not follow {before_s} s: {ASCENDING}")]
     NotAscending {
         /// The sample.
         sample: usize,
@@ -89,7 +99,25 @@ pub enum RecordError {
         /// The time before in s.
         before_s: f64,
     },
+    /// All samples have one time.
+    #[error("all samples have the time {time_s} s: a force needs a duration")]
+    AtOnce {
+        /// The time in s.
+        time_s: f64,
+    },
+    /// More jumps than a force has.
+    #[error(
+        "the force jumps at {jumps} times, at most {MOST_JUMPS} are allowed: two rows have each of these times, which may have been rounded"
+    )]
+    Jumps {
+        /// Number of jumps.
+        jumps: usize,
+    },
 }
+
+/// Rule for the times of a record, for messages.
+pub const ASCENDING: &str =
+    "times must ascend, and at most two rows may have one time, where the force jumps";
 
 /// Largest slope of sin^4(pi t/T) times T: 3 sqrt(3) pi/4.
 const STEEPNESS: f64 = 4.081;
@@ -100,12 +128,17 @@ const LONG_S: f64 = 1.0;
 const NOT_AT_REST: f64 = 0.05;
 
 impl ForceRecord {
-    /// Of times in s, strictly ascending from 0 or later, and forces in N; positive presses.
+    /// Of times in s, ascending from 0 or later, and forces in N; positive presses.
+    ///
+    /// Two rows of one time are a jump. A first or last force that is not zero is a jump from or to zero.
     ///
     /// ```
     /// let triangle = impact::ForceRecord::new(vec![0.0, 1e-5, 2e-5], vec![0.0, 100.0, 0.0])?;
     /// assert_eq!(triangle.at(5e-6), 50.0);
     /// assert_eq!(triangle.impulse_n_s(), 1e-3);
+    ///
+    /// let at_once = impact::ForceRecord::new(vec![0.0, 1e-5, 1e-5], vec![40.0, 40.0, 0.0])?;
+    /// assert_eq!((at_once.jumps().len(), at_once.at(1e-5)), (2, 0.0));
     /// # Ok::<(), impact::RecordError>(())
     /// ```
     ///
@@ -125,20 +158,35 @@ impl ForceRecord {
         if time_s[0] < 0.0 {
             return Err(RecordError::Negative { time_s: time_s[0] });
         }
-        if let Some(i) = (1..time_s.len()).find(|&i| time_s[i] <= time_s[i - 1]) {
+        if let Some(i) = (1..time_s.len()).find(|&i| !follows(&time_s[..i], time_s[i])) {
             return Err(RecordError::NotAscending {
                 sample: i,
                 time_s: time_s[i],
                 before_s: time_s[i - 1],
             });
         }
-        Ok(Self {
+        if time_s[0] == time_s[time_s.len() - 1] {
+            return Err(RecordError::AtOnce { time_s: time_s[0] });
+        }
+        let found = Self::of_rows(time_s, force_n);
+        let jumps = found.jumps.len();
+        if jumps > MOST_JUMPS {
+            return Err(RecordError::Jumps { jumps });
+        }
+        Ok(found)
+    }
+
+    /// Of rows that are checked.
+    fn of_rows(time_s: Vec<f64>, force_n: Vec<f64>) -> Self {
+        Self {
+            jumps: jumps(&time_s, &force_n),
             time_s,
             force_n,
+            onset_s: None,
             file: None,
             reading: Box::default(),
             treated: None,
-        })
+        }
     }
 
     /// Times of the samples in s.
@@ -151,22 +199,20 @@ impl ForceRecord {
         &self.force_n
     }
 
-    /// The force at a time: linear between samples, zero outside.
+    /// The force at a time: linear between samples, zero outside, at a jump that after it.
     pub fn at(&self, time_s: f64) -> f64 {
-        let [start_s, end_s] = self.span_s();
-        if time_s == end_s {
-            return self.force_n[self.force_n.len() - 1];
-        }
-        if !(start_s..end_s).contains(&time_s) {
+        let until_s = rounded_up(time_s);
+        let after = self.time_s.partition_point(|&t| t <= until_s);
+        if after == 0 || after == self.time_s.len() {
             return 0.0;
         }
-        let after = self.time_s.partition_point(|&t| t <= time_s);
         let (t0, t1) = (self.time_s[after - 1], self.time_s[after]);
         let fraction = (time_s - t0) / (t1 - t0);
         self.force_n[after - 1] + fraction * (self.force_n[after] - self.force_n[after - 1])
     }
 
-    /// Nodes in the cell of `step_s` from `from_s`, two between neighbouring samples: their sums are exact.
+    /// Nodes for the continuous force in the cell of `step_s` from `from_s`, two between neighbouring samples: their sums
+    /// are exact.
     pub(crate) fn nodes(&self, from_s: f64, step_s: f64, nodes: &mut Vec<Node>) {
         let to_s = from_s + step_s;
         let begin = self.time_s.partition_point(|&t| t <= from_s);
@@ -175,12 +221,14 @@ impl ForceRecord {
         let corners = corners.map(|&t| (t - from_s) / step_s - 0.5);
         let mut before = -0.5;
         for corner in corners.chain([0.5]) {
-            for (x, weight) in gauss::rule(2).on(before, corner) {
-                nodes.push(Node {
-                    x,
-                    weight,
-                    force: self.at(from_s + (x + 0.5) * step_s),
-                });
+            if corner > before {
+                for (x, weight) in gauss::rule(2).on(before, corner) {
+                    nodes.push(Node {
+                        x,
+                        weight,
+                        force: self.continuous_n(from_s + (x + 0.5) * step_s),
+                    });
+                }
             }
             before = corner;
         }
@@ -189,12 +237,6 @@ impl ForceRecord {
     /// Times of the first and the last sample in s.
     pub fn span_s(&self) -> [f64; 2] {
         [self.time_s[0], self.time_s[self.time_s.len() - 1]]
-    }
-
-    /// The last time in s before the force leaves zero.
-    pub(crate) fn start_s(&self) -> f64 {
-        let first = self.force_n.iter().position(|&force| force != 0.0);
-        first.map_or(self.time_s[0], |i| self.time_s[i.saturating_sub(1)])
     }
 
     /// Time in s and force in N of the largest sample; zeros where none is positive.
@@ -212,11 +254,12 @@ impl ForceRecord {
         pairs.fold(0.0, |sum, (t, p)| sum + 0.5 * (t[1] - t[0]) * (p[0] + p[1]))
     }
 
-    /// Length in s of a pulse sin^4(pi t/T) of the same largest force and the same largest slope, at most the time
-    /// from the first to the last sample.
+    /// Length in s of a pulse sin^4(pi t/T) of the same largest force and the same largest slope between jumps, at most the
+    /// time from the first to the last sample.
     pub(crate) fn pulse_s(&self) -> f64 {
         let pairs = self.time_s.windows(2).zip(self.force_n.windows(2));
-        let steepest = pairs.fold(0.0_f64, |most, (t, p)| {
+        let lines = pairs.filter(|(t, _)| t[0] < t[1]);
+        let steepest = lines.fold(0.0_f64, |most, (t, p)| {
             most.max((p[1] - p[0]).abs() / (t[1] - t[0]))
         });
         let [from_s, to_s] = self.span_s();
@@ -235,17 +278,28 @@ impl ForceRecord {
             ));
         }
         let largest_n = self.largest_n();
+        let [first_n, last_n] = [self.force_n.first(), self.force_n.last()];
         let ends = [
-            ("begins", "before it", self.force_n.first()),
-            ("ends", "after it", self.force_n.last()),
+            ("begins", "from", "before", start_s, first_n),
+            ("ends", "to", "after", end_s, last_n),
         ];
-        for (verb, side, force_n) in ends {
+        for (verb, way, side, at_s, force_n) in ends {
             if let Some(force_n) = force_n.filter(|p| p.abs() > NOT_AT_REST * largest_n) {
                 found.push(format!(
-                    "the record {verb} at {force_n} N, {:.0} % of its largest force, which jumps there from or to zero: what was {side} is missing, or a baseline is to be taken away",
+                    "the record {verb} at {force_n} N, {:.0} % of its largest force: the force jumps {way} zero at {at_s} s, and the fields follow the jump; if a part {side} it is missing, add it, or subtract a baseline",
                     100.0 * force_n.abs() / largest_n
                 ));
             }
+        }
+        found.extend(self.quiet_part());
+        let [most_n, least_n] =
+            [f64::max, f64::min].map(|of| self.force_n.iter().copied().fold(0.0, of));
+        if -least_n > most_n {
+            found.push(format!(
+                "the largest force is tensile: {least_n} N, and {most_n} N in compression; set force.sign = -1 if the record counts compression as negative"
+            ));
+        } else if least_n < 0.0 {
+            found.push("the force record is tensile (negative) in places".to_owned());
         }
         found
     }

@@ -17,7 +17,9 @@ pub(crate) struct Stretch {
 /// How far a force that is constant may stray, over the tolerance.
 const QUIET: f64 = 1e-3;
 
-/// Steps in the time in which kernels change for a force that only jumps.
+/// Steps in the time in which kernels change for a force that only jumps; fewer for a force that jumps by a part.
+///
+/// `the_step_follows_the_steepest_part` fails without it.
 const JUMP: f64 = 64.0;
 
 /// Largest magnitude.
@@ -86,12 +88,12 @@ impl ForceRecord {
         found
     }
 
-    /// How far the force departs from its samples a step apart from `from_s` to `to_s`, joined by straight lines, but for
-    /// the jumps at both ends, which no step lowers.
+    /// How far the force without its jumps departs from its samples a step apart from `from_s` to `to_s`, joined by straight
+    /// lines.
     ///
     /// Force and samples are linear between the rows and the samples, so that the difference is largest at a row.
     fn departure_at_rows(&self, from_s: f64, to_s: f64, step_s: f64) -> Departure {
-        let (time_s, force_n) = (self.time_s(), self.force_n());
+        let time_s = self.time_s();
         let rows = time_s.partition_point(|&t| t < from_s)..time_s.partition_point(|&t| t <= to_s);
         let (mut cell, mut ends) = (f64::NAN, [0.0; 2]);
         let (mut here, mut found) = (0.0_f64, Departure::default());
@@ -101,10 +103,10 @@ impl ForceRecord {
                 found.add(here);
                 here = 0.0;
                 cell = place.floor();
-                ends = [cell, cell + 1.0].map(|i| self.at(from_s + i * step_s));
+                ends = [cell, cell + 1.0].map(|i| self.continuous_n(from_s + i * step_s));
             }
             let joined = ends[0] + (place - cell) * (ends[1] - ends[0]);
-            here = here.max((force_n[row] - joined).abs());
+            here = here.max((self.continuous_n(time_s[row]) - joined).abs());
         }
         found.add(here);
         found
@@ -113,7 +115,8 @@ impl ForceRecord {
     /// The largest step in s, of halvings of a start, that leaves less than `tolerance` of the largest force.
     ///
     /// What is left within one cell moves the fields by the fraction that the cell is of `unit_s`, the time in which
-    /// kernels change. The search ends where `most` samples would be needed, as jumps do.
+    /// kernels change. Jumps are exact on any step, but their waves are as short as kernels are: what a jump brings is
+    /// resolved as the kernels of the largest force are. No more than about `most` samples are taken.
     pub(crate) fn step_s(
         &self,
         stretches: &[Stretch],
@@ -124,12 +127,12 @@ impl ForceRecord {
         let span = |stretch: &Stretch| stretch.span_s[1] - stretch.span_s[0];
         let spans = || stretches.iter().map(span).filter(|&s| s > 0.0);
         let (total_s, shortest_s) = (spans().sum::<f64>(), spans().fold(f64::INFINITY, f64::min));
-        if total_s == 0.0 {
-            // nothing but jumps
-            return unit_s / JUMP;
+        let (allowed_n, jump_n) = (tolerance * self.largest_n(), self.largest_jump_n());
+        let mut step_s = shortest_s / 64.0;
+        if jump_n > allowed_n {
+            step_s = step_s.min(unit_s / JUMP * self.largest_n() / jump_n);
         }
-        let allowed_n = tolerance * self.largest_n();
-        let mut step_s = (shortest_s / 64.0).max(total_s / most);
+        step_s = step_s.max(total_s / most);
         while step_s > total_s / most {
             let mut left = Departure::default();
             for stretch in stretches {
@@ -205,5 +208,13 @@ mod tests {
         assert!(left(1.5e-5).most_n > 0.1);
         // kernels that change slowly do not see the corner
         assert!(triangle.step_s(&stretches, 1e-3, 1.0, 1e6) > step_s);
+        // jumps are not resolved, their waves are
+        let of = |first: f64| {
+            let jumps = record(&[0.0, 1e-5, 2e-5], &[first, 1.0, 0.0]);
+            let stretches = jumps.stretches(1e-3, 1e-4);
+            jumps.step_s(&stretches, 1e-3, 1e-7, 1e6)
+        };
+        assert_eq!([of(0.0), of(1e-4)], [2e-5 / 64.0; 2]);
+        assert!((of(0.5) / (2e-7 / 64.0) - 1.0).abs() < 1e-12, "{}", of(0.5));
     }
 }
