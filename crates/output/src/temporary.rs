@@ -3,7 +3,7 @@
 
 use crate::place::{beside, folder};
 use std::collections::BTreeSet;
-use std::fs::{File, TryLockError};
+use std::fs::{File, OpenOptions, TryLockError};
 use std::hash::{BuildHasher, RandomState};
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
@@ -35,20 +35,10 @@ pub(crate) struct Temporary {
 }
 
 impl Temporary {
-    /// A new, empty file under a random name beside `path`.
-    ///
-    /// It is made where nothing was before: neither a file nor a link of that name is written to.
-    pub(crate) fn beside(path: &Path) -> io::Result<Self> {
-        let name = beside(path, ".", &format!(".{:016x}{SUFFIX}", random()));
+    /// A random name beside `path`, for a file that is about to be made.
+    pub(crate) fn beside(path: &Path) -> Self {
         // before it exists, so that no moment is left at which nobody knows of it
-        let made = Self::known(name);
-        match File::create_new(&made.path) {
-            Ok(_) => Ok(made),
-            Err(error) => {
-                made.forget();
-                Err(error)
-            }
-        }
+        Self::known(beside(path, ".", &format!(".{:016x}{SUFFIX}", random())))
     }
 
     /// A file of this name, which is there or is about to be.
@@ -70,6 +60,22 @@ impl Drop for Temporary {
             let _ = std::fs::remove_file(&self.path);
         }
     }
+}
+
+/// Makes an empty file where nothing has its name: neither a file nor a link of that name is written to.
+pub(crate) fn make(name: &Path) -> io::Result<File> {
+    let mut new = File::options();
+    new.read(true).write(true).create_new(true).open(name)
+}
+
+/// The same options, with which a link is not followed.
+pub(crate) fn without_links(options: &mut OpenOptions) -> &mut OpenOptions {
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::OpenOptionsExt;
+        options.custom_flags(rustix::fs::OFlags::NOFOLLOW.bits() as i32);
+    }
+    options
 }
 
 /// Removes temporaries of `path`; the caller holds its lock, so that none belongs to a run.
@@ -120,15 +126,13 @@ impl Lock {
                     name.display()
                 )));
             }
-            let file = File::options()
-                .read(true)
-                .append(true)
-                .create(true)
-                .open(&name)?;
+            let mut options = File::options();
+            options.read(true).append(true).create(true);
+            let file = without_links(&mut options).open(&name)?;
             let held = match file.try_lock() {
                 Ok(()) => true,
                 Err(TryLockError::WouldBlock) => return Ok(None),
-                Err(TryLockError::Error(error)) if error.kind() == ErrorKind::Unsupported => false,
+                Err(TryLockError::Error(error)) if keeps_no_locks(&error) => false,
                 Err(TryLockError::Error(error)) => return Err(error),
             };
             // The run that had the lock may have removed the name after it was opened here.
@@ -144,9 +148,18 @@ impl Lock {
     }
 }
 
+/// Whether the file system has no locks, or no service that keeps them (NFS).
+fn keeps_no_locks(error: &io::Error) -> bool {
+    #[cfg(unix)]
+    if rustix::io::Errno::from_io_error(error) == Some(rustix::io::Errno::NOLCK) {
+        return true;
+    }
+    error.kind() == ErrorKind::Unsupported
+}
+
 /// Whether an open file is the one under this name.
 #[cfg(unix)]
-fn is_at(file: &File, name: &Path) -> bool {
+pub(crate) fn is_at(file: &File, name: &Path) -> bool {
     use std::os::unix::fs::MetadataExt;
     match (file.metadata(), std::fs::symlink_metadata(name)) {
         (Ok(open), Ok(there)) => (open.dev(), open.ino()) == (there.dev(), there.ino()),
@@ -155,6 +168,6 @@ fn is_at(file: &File, name: &Path) -> bool {
 }
 
 #[cfg(not(unix))]
-fn is_at(_: &File, name: &Path) -> bool {
+pub(crate) fn is_at(_: &File, name: &Path) -> bool {
     name.exists()
 }

@@ -4,11 +4,12 @@
 
 use fault::{Fault as _, Remedy};
 use output::{CSV, Existing, HDF5, Output, OutputError, apart, write_whole};
-use std::io;
+use std::fs::File;
+use std::io::{self, Write};
 use std::path::Path;
 
-fn new(part: &Path) -> io::Result<()> {
-    std::fs::write(part, "new")
+fn new(mut file: &File) -> io::Result<()> {
+    file.write_all(b"new")
 }
 
 fn names(folder: &Path) -> Vec<String> {
@@ -24,8 +25,8 @@ fn names(folder: &Path) -> Vec<String> {
 fn a_file_is_written_whole_or_not_at_all() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.h5");
-    let full = |part: &Path| {
-        std::fs::write(part, "half")?;
+    let full = |mut file: &File| {
+        file.write_all(b"half")?;
         Err(io::Error::from_raw_os_error(28))
     };
     let refused = write_whole(&path, Existing::Keep, full).unwrap_err();
@@ -33,7 +34,7 @@ fn a_file_is_written_whole_or_not_at_all() {
     assert!(refused.to_string().contains("no space left"), "{refused}");
     assert!(names(folder.path()).is_empty());
 
-    write_whole(&path, Existing::Keep, |part| std::fs::write(part, "old")).unwrap();
+    write_whole(&path, Existing::Keep, |mut file| file.write_all(b"old")).unwrap();
     let refused = write_whole(&path, Existing::Keep, new).unwrap_err();
     assert!(matches!(refused, OutputError::Exists { .. }), "{refused}");
     write_whole(&path, Existing::Replace, full).unwrap_err();
@@ -101,7 +102,7 @@ fn what_was_written_before_a_kill_is_accepted_if_it_is_the_same() {
     ] {
         std::fs::write(&path, old).unwrap();
         let output = Output::claim(&path, Existing::KeepUnlessSame).unwrap();
-        let written = output.write(|part| std::fs::write(part, &long));
+        let written = output.write(|mut file| file.write_all(&long));
         assert_eq!(written.is_ok(), accepted, "{} bytes", old.len());
         assert!(std::fs::read(&path).unwrap() == old);
     }

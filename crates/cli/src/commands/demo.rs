@@ -9,6 +9,7 @@ use formats::{Existing, OutputError, parse_scene, write_results, write_whole};
 use impact::{Allowance, KernelChoice, Outcome, Scene, simulate, simulate_within};
 use paper::Numbers;
 use plot::{Request, compose};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
@@ -97,5 +98,5 @@ fn kept(scene: &Scene, outcome: &Outcome, results: PathBuf) -> Result<[PathBuf; 
 }
 
 fn replace(path: &Path, text: String) -> Result<(), OutputError> {
-    write_whole(path, Existing::Replace, |part| std::fs::write(part, text))
+    write_whole(path, Existing::Replace, |mut file| file.write_all(text.as_bytes()))
 }

@@ -8,6 +8,7 @@ use contact::Choice;
 use figure::{Figure, to_gif, to_pdf, to_png, to_svg};
 use output::Role;
 use plot::{Kind, Request, animate, compose};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 const EXAMPLES: &str = "Examples:
@@ -133,7 +134,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         (bytes, notes)
     };
     let bytes = bytes.map_err(Failure::work)?;
-    output.write(|part| std::fs::write(part, &bytes))?;
+    output.write(|mut file| file.write_all(&bytes))?;
     for note in notes {
         say(format!("note: {note}"));
     }
