@@ -3,11 +3,12 @@
 
 use crate::place::{beside, folder};
 use std::collections::BTreeSet;
-use std::fs::{File, OpenOptions, TryLockError};
+use std::fs::{File, OpenOptions, TryLockError as Unlocked};
 use std::hash::{BuildHasher, RandomState};
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError, TryLockError};
+use std::time::Duration;
 
 /// The files that this process would leave if it ended now.
 static LIVE: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
@@ -21,10 +22,23 @@ fn live() -> MutexGuard<'static, BTreeSet<PathBuf>> {
     LIVE.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Removes what this process has not finished; for a handler that ends it.
+/// Removes what this process has not finished; for what ends it at any moment, also while this very thread adds to the list.
 pub fn abandon() {
-    for path in std::mem::take(&mut *live()) {
-        let _ = std::fs::remove_file(path);
+    /// Times that the list is looked at, a millisecond apart.
+    const TRIES: usize = 100;
+    for _ in 0..TRIES {
+        let live = match LIVE.try_lock() {
+            Ok(mut live) => std::mem::take(&mut *live),
+            Err(TryLockError::Poisoned(live)) => std::mem::take(&mut *live.into_inner()),
+            Err(TryLockError::WouldBlock) => {
+                std::thread::sleep(Duration::from_millis(1));
+                continue;
+            }
+        };
+        for path in live {
+            let _ = std::fs::remove_file(path);
+        }
+        return;
     }
 }
 
@@ -131,9 +145,9 @@ impl Lock {
             let file = without_links(&mut options).open(&name)?;
             let held = match file.try_lock() {
                 Ok(()) => true,
-                Err(TryLockError::WouldBlock) => return Ok(None),
-                Err(TryLockError::Error(error)) if keeps_no_locks(&error) => false,
-                Err(TryLockError::Error(error)) => return Err(error),
+                Err(Unlocked::WouldBlock) => return Ok(None),
+                Err(Unlocked::Error(error)) if keeps_no_locks(&error) => false,
+                Err(Unlocked::Error(error)) => return Err(error),
             };
             // The run that had the lock may have removed the name after it was opened here.
             if !held || is_at(&file, &name) {

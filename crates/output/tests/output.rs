@@ -138,6 +138,44 @@ fn links_are_written_through_and_permissions_kept() {
     assert!(looped.to_string().contains("link"), "{looped}");
 }
 
+/// Somebody else who may write to the folder puts a link to a private file, or the file itself, in the place of the temporary:
+/// the private file keeps its bytes and its permissions, and the output what it was.
+#[cfg(unix)]
+#[test]
+fn a_file_in_the_place_of_the_temporary_is_left_alone() {
+    use std::os::unix::fs::{PermissionsExt, symlink};
+    let mode = |path: &Path| std::fs::metadata(path).unwrap().permissions().mode() & 0o777;
+    type Exchange = fn(&Path, &Path) -> io::Result<()>;
+    let ways: [Exchange; 2] = [
+        |private, name| symlink(private, name),
+        |private, name| std::fs::hard_link(private, name),
+    ];
+    for exchange in ways {
+        let folder = tempfile::tempdir().unwrap();
+        let (path, private) = (folder.path().join("a.h5"), folder.path().join("private"));
+        std::fs::write(&path, "old").unwrap();
+        std::fs::set_permissions(&path, PermissionsExt::from_mode(0o666)).unwrap();
+        std::fs::write(&private, "private").unwrap();
+        std::fs::set_permissions(&private, PermissionsExt::from_mode(0o600)).unwrap();
+        let output = Output::claim(&path, Existing::Replace).unwrap();
+        let refused = output.write(|mut file| {
+            let hidden = names(folder.path()).into_iter();
+            let part = hidden.into_iter().find(|name| name.ends_with(".part"));
+            let part = folder.path().join(part.unwrap());
+            std::fs::remove_file(&part)?;
+            exchange(&private, &part)?;
+            file.write_all(b"new")
+        });
+        let refused = refused.unwrap_err().to_string();
+        assert!(refused.contains("somebody else"), "{refused}");
+        assert_eq!(std::fs::read(&private).unwrap(), b"private");
+        assert_eq!(mode(&private), 0o600);
+        assert_eq!(std::fs::read(&path).unwrap(), b"old");
+        drop(output);
+        assert_eq!(names(folder.path()), ["a.h5", "private"]);
+    }
+}
+
 #[cfg(unix)]
 #[test]
 fn what_is_no_file_is_refused_even_to_be_replaced() {

@@ -1,7 +1,7 @@
 //! `hertzlamb demo`: the paper's case from kernels to picture, and the waves under a ball.
 
 use crate::arguments::open_table;
-use crate::failure::{Failure, print, say};
+use crate::failure::{Failure, line, print, say};
 use crate::progress::Bar;
 use clap::Args;
 use figure::to_svg;
@@ -64,7 +64,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     ));
     let [waves, drawn] = waves(folder)?;
     let files = [&numbers, &results, &picture, &waves, &drawn];
-    let [numbers, results, picture, waves, drawn] = files.map(|path| path.display());
+    let [numbers, results, picture, waves, drawn] = files.map(|path| line(path.display()));
     print(format!(
         "\nall numbers, with reasons  {numbers}\nthe paper's impact         {results}, {picture}\nwaves under a ball         {waves}, {drawn}"
     ))
@@ -98,5 +98,7 @@ fn kept(scene: &Scene, outcome: &Outcome, results: PathBuf) -> Result<[PathBuf; 
 }
 
 fn replace(path: &Path, text: String) -> Result<(), OutputError> {
-    write_whole(path, Existing::Replace, |mut file| file.write_all(text.as_bytes()))
+    write_whole(path, Existing::Replace, |mut file| {
+        file.write_all(text.as_bytes())
+    })
 }

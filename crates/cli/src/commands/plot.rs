@@ -1,7 +1,7 @@
 //! `hertzlamb plot`: pictures of what was computed.
 
 use crate::arguments::Overwrite;
-use crate::failure::{Failure, print, say};
+use crate::failure::{Failure, line, print, say};
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 use contact::Choice;
@@ -138,7 +138,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     for note in notes {
         say(format!("note: {note}"));
     }
-    print(arguments.output.display())
+    print(line(arguments.output.display()))
 }
 
 /// How long a frame of an animation is shown in s.

@@ -5,9 +5,7 @@
 //! (`H5Eset_auto2`), whoever makes it; a file of which one failed is not sealed.
 //! `scripts/attacks/writes.py` fails each write of each command in turn.
 
-use hdf5_sys::h5e::{
-    H5E_DEFAULT, H5E_WALK_DOWNWARD, H5E_error2_t, H5Eset_auto2, H5Ewalk2,
-};
+use hdf5_sys::h5e::{H5E_DEFAULT, H5E_WALK_DOWNWARD, H5E_error2_t, H5Eset_auto2, H5Ewalk2};
 use hdf5_sys::h5i::hid_t;
 use std::cell::Cell;
 use std::ffi::{CStr, c_int, c_uint, c_void};
@@ -120,7 +118,14 @@ thread_local! {
 unsafe extern "C" fn note(stack: hid_t, _: *mut c_void) -> c_int {
     let mut found: Option<String> = None;
     // SAFETY: the stack is that of the call, and `found` outlives the walk.
-    unsafe { H5Ewalk2(stack, H5E_WALK_DOWNWARD, Some(frame), (&raw mut found).cast()) };
+    unsafe {
+        H5Ewalk2(
+            stack,
+            H5E_WALK_DOWNWARD,
+            Some(frame),
+            (&raw mut found).cast(),
+        )
+    };
     let first = FAILURE.take().or(found);
     FAILURE.set(first.or_else(|| Some("a call of the HDF5 library failed".to_owned())));
     0
@@ -138,4 +143,80 @@ unsafe extern "C" fn frame(_: c_uint, frame: *const H5E_error2_t, found: *mut c_
         *found = system.or(found.take()).or_else(|| Some(text.into_owned()));
     }
     0
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
+
+    use super::*;
+    use std::os::fd::{AsRawFd, FromRawFd, OwnedFd};
+
+    /// Makes a file with two small datasets; where it fails, the library cannot write while it closes the first.
+    fn made(path: &Path, fails: bool) -> Result<File, String> {
+        new_file(path, |library, file| {
+            let told = |error: hdf5::Error| reason(&error);
+            let numbers: Vec<f64> = (0..100).map(f64::from).collect();
+            let dataset = |name: &str| {
+                let made = library.new_dataset::<f64>().shape([100]).create(name);
+                let made = made.map_err(told)?;
+                made.write_raw(&numbers).map_err(told)?;
+                Ok::<_, String>(made)
+            };
+            let (first, second) = (dataset("first")?, dataset("second")?);
+            let mut descriptor = descriptor(path, file);
+            if fails {
+                // a descriptor that is open for reading alone: the library calls it, and the system refuses
+                rustix::io::dup2(File::open("/dev/null").unwrap(), &mut descriptor).unwrap();
+            }
+            drop(first);
+            rustix::io::dup2(file, &mut descriptor).unwrap();
+            std::mem::forget(descriptor);
+            drop(second);
+            Ok(())
+        })
+    }
+
+    /// The descriptor of the library, which has the same file open as `own`.
+    fn descriptor(path: &Path, own: &File) -> OwnedFd {
+        let of = |number: i32| std::fs::read_link(format!("/proc/self/fd/{number}"));
+        let path = path.canonicalize().unwrap();
+        let others = (3..own.as_raw_fd()).filter(|&number| of(number).is_ok_and(|to| to == path));
+        let number = others.last().unwrap();
+        // SAFETY: it is open, and forgotten before it is closed.
+        #[allow(unsafe_code)]
+        unsafe {
+            OwnedFd::from_raw_fd(number)
+        }
+    }
+
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn a_write_that_fails_once_while_a_handle_is_dropped_is_noticed() {
+        let folder = tempfile::tempdir().unwrap();
+        let (good, bad) = (folder.path().join("good.h5"), folder.path().join("bad.h5"));
+        drop(made(&good, false).unwrap());
+        let file = ledger::HdfFile::open(&good).unwrap();
+        assert!(file.is_sealed());
+        let numbers = file.root.dataset("first").unwrap().numbers::<f64>(1 << 20);
+        assert_eq!(numbers.unwrap()[99], 99.0);
+        let failure = made(&bad, true).unwrap_err();
+        assert!(failure.contains("Bad file descriptor"), "{failure}");
+        assert!(!ledger::HdfFile::open(&bad).is_ok_and(|file| file.is_sealed()));
+        // nothing of it is left for the next file
+        drop(made(&folder.path().join("next.h5"), false).unwrap());
+    }
+
+    #[test]
+    fn a_file_is_made_where_nothing_is() {
+        let folder = tempfile::tempdir().unwrap();
+        let (private, link) = (folder.path().join("private"), folder.path().join("link"));
+        std::fs::write(&private, "private").unwrap();
+        std::os::unix::fs::symlink(&private, &link).unwrap();
+        for path in [&private, &link] {
+            let failure = made(path, false).unwrap_err();
+            assert!(failure.contains("File exists"), "{failure}");
+            assert_eq!(std::fs::read(&private).unwrap(), b"private");
+        }
+    }
 }

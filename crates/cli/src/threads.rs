@@ -1,0 +1,64 @@
+//! The threads of the work: as many as there are processors or `RAYON_NUM_THREADS` says, or as the system starts.
+
+use crate::failure::{Failure, say};
+use formats::SceneError;
+use output::MOST_THREADS;
+use rayon::{ThreadBuilder, ThreadPoolBuilder};
+use std::sync::{Arc, Mutex, PoisonError, mpsc};
+use std::thread;
+
+/// What says how many there are to be.
+const KEY: &str = "RAYON_NUM_THREADS";
+/// Stack of each in bytes, whatever RUST_MIN_STACK says: the default of the standard library.
+const STACK: usize = 2 << 20;
+
+/// Starts the threads that all work is divided among.
+///
+/// They are started before the pool is made of them: it could not be made with fewer once one of them had failed to start
+/// (`ulimit -u`, `pids.max`).
+pub(crate) fn start() -> Result<(), Failure> {
+    let asked = std::env::var(KEY).ok().and_then(|text| text.parse().ok());
+    let wanted = match asked {
+        None | Some(0) => thread::available_parallelism()
+            .map_or(1, usize::from)
+            .min(MOST_THREADS),
+        Some(count) if count > MOST_THREADS => {
+            let range = format!("[1, {MOST_THREADS}]");
+            return Err(SceneError::out_of_range(KEY, count as f64, &range).into());
+        }
+        Some(count) => count,
+    };
+    let (give, take) = mpsc::channel::<ThreadBuilder>();
+    let take = Arc::new(Mutex::new(take));
+    let starts = |_: &usize| {
+        let take = Arc::clone(&take);
+        let worker = move || {
+            let place = take.lock().unwrap_or_else(PoisonError::into_inner).recv();
+            if let Ok(place) = place {
+                place.run();
+            }
+        };
+        thread::Builder::new()
+            .stack_size(STACK)
+            .spawn(worker)
+            .is_ok()
+    };
+    let started = (0..wanted).take_while(starts).count();
+    if started < wanted {
+        say(format!(
+            "warning: the system starts {started} of {wanted} threads, the work goes on with them; {KEY} sets their number"
+        ));
+    }
+    let pool = ThreadPoolBuilder::new().num_threads(started.max(1));
+    let made = match started {
+        0 => pool.use_current_thread().build_global(),
+        _ => {
+            let hand = move |place| {
+                let sent = give.send(place);
+                sent.map_err(|error| std::io::Error::other(error.to_string()))
+            };
+            pool.spawn_handler(hand).build_global()
+        }
+    };
+    made.map_err(Failure::work)
+}
