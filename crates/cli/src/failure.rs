@@ -1,6 +1,5 @@
 //! How a command fails: exit code 2 for bad input, 1 when the work itself failed, 75 when it may be tried again.
 
-use crate::process::let_signals_end;
 use fault::{Class, Culprit, Fault, Remedy};
 use output::OutputError;
 use serde_json::{Map, Value, json};
@@ -71,7 +70,6 @@ impl Failure {
 
     /// Prints it on standard error, as an object where the command was to print one, and gives the exit code.
     pub(crate) fn report(mut self) -> ExitCode {
-        let_signals_end();
         if JSON.load(Ordering::Relaxed) {
             (self.about).insert("message".to_owned(), self.sentence.into());
             tell(json!({ "error": self.about }));

@@ -1,8 +1,9 @@
 //! From a name to the finished file under it.
 
 use crate::error::{Fault, OutputError};
+use crate::handle::{is_at, make};
 use crate::place::{behind, folder};
-use crate::temporary::{Lock, Temporary, is_at, make, sweep};
+use crate::temporary::{Lock, Temporary, sweep};
 use std::fs::File;
 use std::io::{self, ErrorKind, Read, Seek};
 use std::path::{Path, PathBuf};

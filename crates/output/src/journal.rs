@@ -5,7 +5,7 @@
 //! the journal; what comes after is done anew.
 
 use crate::error::OutputError;
-use crate::temporary::without_links;
+use crate::handle::without_links;
 use std::fs::{File, OpenOptions};
 use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};

@@ -25,6 +25,7 @@
 mod claim;
 mod error;
 mod folder;
+mod handle;
 mod journal;
 mod place;
 mod room;

@@ -1,9 +1,10 @@
 //! Files that are there while a run is, beside the file that it writes: temporaries, and the lock that keeps one run at a
 //! time on one name.
 
+use crate::handle::{is_at, without_links};
 use crate::place::{beside, folder};
 use std::collections::BTreeSet;
-use std::fs::{File, OpenOptions, TryLockError as Unlocked};
+use std::fs::{File, TryLockError as Unlocked};
 use std::hash::{BuildHasher, RandomState};
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
@@ -74,22 +75,6 @@ impl Drop for Temporary {
             let _ = std::fs::remove_file(&self.path);
         }
     }
-}
-
-/// Makes an empty file where nothing has its name: neither a file nor a link of that name is written to.
-pub(crate) fn make(name: &Path) -> io::Result<File> {
-    let mut new = File::options();
-    new.read(true).write(true).create_new(true).open(name)
-}
-
-/// The same options, with which a link is not followed.
-pub(crate) fn without_links(options: &mut OpenOptions) -> &mut OpenOptions {
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::OpenOptionsExt;
-        options.custom_flags(rustix::fs::OFlags::NOFOLLOW.bits() as i32);
-    }
-    options
 }
 
 /// Removes temporaries of `path`; the caller holds its lock, so that none belongs to a run.
@@ -169,19 +154,4 @@ fn keeps_no_locks(error: &io::Error) -> bool {
         return true;
     }
     error.kind() == ErrorKind::Unsupported
-}
-
-/// Whether an open file is the one under this name.
-#[cfg(unix)]
-pub(crate) fn is_at(file: &File, name: &Path) -> bool {
-    use std::os::unix::fs::MetadataExt;
-    match (file.metadata(), std::fs::symlink_metadata(name)) {
-        (Ok(open), Ok(there)) => (open.dev(), open.ino()) == (there.dev(), there.ino()),
-        _ => false,
-    }
-}
-
-#[cfg(not(unix))]
-pub(crate) fn is_at(_: &File, name: &Path) -> bool {
-    name.exists()
 }
