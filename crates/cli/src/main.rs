@@ -110,10 +110,12 @@ fn parsed() -> Cli {
     found
         .and_then(|found| Cli::from_arg_matches(&found))
         .unwrap_or_else(|error| {
-            if !error.use_stderr() {
-                error.exit();
-            }
-            if failure::JSON.load(Ordering::Relaxed) {
+            // a new line in an argument would look like a message of its own
+            let odd = std::env::args_os().any(|argument| {
+                let argument = argument.to_string_lossy();
+                argument.chars().any(char::is_control)
+            });
+            if error.use_stderr() && (odd || failure::JSON.load(Ordering::Relaxed)) {
                 let text = error.to_string();
                 let sentence = text.split("\n\nUsage").next().unwrap_or(&text);
                 let sentence = sentence.trim().trim_start_matches("error: ");
@@ -121,21 +123,6 @@ fn parsed() -> Cli {
                 Failure::input(sentence).report();
                 std::process::exit(2);
             }
-            let arguments = std::env::args_os().map(|argument| {
-                let argument = argument.to_string_lossy().into_owned();
-                (failure::line(&argument), argument)
-            });
-            let mut odd = arguments
-                .filter(|(line, argument)| line != argument)
-                .peekable();
-            if odd.peek().is_none() {
-                error.exit();
-            }
-            // the arguments that it shows have lines of their own
-            let shown = odd.fold(error.to_string(), |text, (line, argument)| {
-                text.replace(&argument, &line)
-            });
-            eprint!("{shown}");
-            std::process::exit(error.exit_code())
+            error.exit()
         })
 }

@@ -43,14 +43,17 @@ pub(crate) fn start() -> Result<(), Failure> {
             .spawn(worker)
             .is_ok()
     };
-    let started = (0..wanted).take_while(starts).count();
-    if started < wanted {
+    let mut count = (0..wanted).take_while(starts).count();
+    if count < wanted {
+        let started = count;
+        // the others end and leave their room to the work: of memory (`ulimit -v`) there is none left now
+        count = started.div_ceil(2);
         say(format!(
-            "warning: the system starts {started} of {wanted} threads, the work goes on with them; {KEY} sets their number"
+            "warning: the system starts no more than {started} of {wanted} threads, the work goes on with {count}; {KEY} sets their number"
         ));
     }
-    let pool = ThreadPoolBuilder::new().num_threads(started.max(1));
-    let made = match started {
+    let pool = ThreadPoolBuilder::new().num_threads(count.max(1));
+    let made = match count {
         0 => pool.use_current_thread().build_global(),
         _ => {
             let hand = move |place| {

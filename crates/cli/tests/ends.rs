@@ -67,11 +67,11 @@ fn threads_that_the_system_does_not_start_are_done_without() {
         &["sweep", "sweep.toml", "-o", "a.h5"],
     );
     assert!(all.status.success(), "{}", said(&all));
-    // the stacks of 900 threads take 1.8 GB
-    let few = "ulimit -v 500000; export RAYON_NUM_THREADS=900";
+    // the stacks of 1,000 threads take 2 GB
+    let few = "ulimit -v 2000000; export RAYON_NUM_THREADS=1000";
     let done = run(here, few, &["sweep", "sweep.toml", "-o", "b.h5"]);
     assert!(done.status.success(), "{}", said(&done));
-    assert!(said(&done).contains(" of 900 threads"), "{}", said(&done));
+    assert!(said(&done).contains(" of 1000 threads"), "{}", said(&done));
     let read = |name: &str| std::fs::read(here.join(name)).unwrap();
     assert!(read("a.h5") == read("b.h5"));
     let many = "export RAYON_NUM_THREADS=1025";

@@ -118,7 +118,7 @@ fn complete<'a>(arguments: &'a Arguments, scene: &Scene) -> Result<Option<&'a Pa
     check_results(output, scene, direct, id.as_deref()).map_err(Failure::work)?;
     match &arguments.csv {
         Some(csv) if !csv.exists() => Err(Failure::work(format!(
-            "{} is whole, but {} is not there: leave --skip-complete out and give --force to compute both",
+            "{} is whole, but {} is not there: leave --skip-complete out to add it",
             output.display(),
             csv.display()
         ))),
