@@ -2,7 +2,7 @@
 
 use crate::failure::{Failure, say};
 use formats::SceneError;
-use output::MOST_THREADS;
+use output::{MOST_THREADS, free_address_space};
 use rayon::{ThreadBuilder, ThreadPoolBuilder};
 use std::sync::{Arc, Mutex, PoisonError, mpsc};
 use std::thread;
@@ -11,6 +11,9 @@ use std::thread;
 const KEY: &str = "RAYON_NUM_THREADS";
 /// Stack of each in bytes, whatever RUST_MIN_STACK says: the default of the standard library.
 const STACK: usize = 2 << 20;
+/// Address space in bytes that a thread may take: its stack, and what the allocator of the C library reserves for it. Where that
+/// runs out, a thread that has just started ends the program (`crates/cli/tests/ends.rs`).
+const THREAD: f64 = (STACK + (64 << 20)) as f64;
 
 /// Starts the threads that all work is divided among.
 ///
@@ -43,13 +46,11 @@ pub(crate) fn start() -> Result<(), Failure> {
             .spawn(worker)
             .is_ok()
     };
-    let mut count = (0..wanted).take_while(starts).count();
+    let room = free_address_space().map_or(wanted, |bytes| (0.5 * bytes / THREAD) as usize);
+    let count = (0..wanted.min(room.max(1))).take_while(starts).count();
     if count < wanted {
-        let started = count;
-        // the others end and leave their room to the work: of memory (`ulimit -v`) there is none left now
-        count = started.div_ceil(2);
         say(format!(
-            "warning: the system starts no more than {started} of {wanted} threads, the work goes on with {count}; {KEY} sets their number"
+            "warning: the work goes on with {count} of {wanted} threads: the system starts no more (ulimit -u, pids.max), or more would need over half of the memory that is allowed (ulimit -v); {KEY} sets their number"
         ));
     }
     let pool = ThreadPoolBuilder::new().num_threads(count.max(1));

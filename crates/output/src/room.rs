@@ -14,7 +14,7 @@ pub const MOST_THREADS: usize = 1024;
 
 /// Memory in bytes that work may take: of the machine, of the container, of the process (`ulimit -v`).
 pub fn free_memory() -> f64 {
-    let free = [machine(), container(), process()];
+    let free = [machine(), container(), free_address_space()];
     let least = free.into_iter().flatten().reduce(f64::min);
     USABLE * least.unwrap_or(UNKNOWN)
 }
@@ -91,8 +91,8 @@ fn left(group: &Path, [limit, taken, dropped]: [&str; 3]) -> Option<f64> {
     Some((number(limit)? - (number(taken)? - dropped).max(0.0)).max(0.0))
 }
 
-/// What the process may still take of its address space (`ulimit -v`).
-fn process() -> Option<f64> {
+/// Bytes that the process may still take of its address space, where there is a limit (`ulimit -v`).
+pub fn free_address_space() -> Option<f64> {
     let limit = line_of("/proc/self/limits", "Max address space", 3)?;
     let taken = line_of("/proc/self/status", "VmSize:", 1).unwrap_or(0.0);
     Some((limit - 1024.0 * taken).max(0.0))
