@@ -35,7 +35,7 @@ pub(crate) fn listen() {
     };
     let ear = thread::Builder::new().name(EAR.to_owned());
     let _ = ear.spawn(move || {
-        for signal in signals.forever() {
+        if let Some(signal) = signals.forever().next() {
             STOPPED.store(true, Ordering::SeqCst);
             let note = NOTE.lock().unwrap_or_else(PoisonError::into_inner);
             let kept = note.as_ref().map(|note| note());

@@ -183,7 +183,7 @@ fn what_is_no_file_is_refused_even_to_be_replaced() {
     let pipe = folder.path().join("pipe.h5");
     let made = std::process::Command::new("mkfifo").arg(&pipe).status();
     let long = folder.path().join("n".repeat(300));
-    let own = std::fs::File::create(folder.path().join("own")).unwrap();
+    let own = File::create(folder.path().join("own")).unwrap();
     let open = format!("/proc/self/fd/{}", std::os::fd::AsRawFd::as_raw_fd(&own));
     let cases = [
         (folder.path(), "folder"),

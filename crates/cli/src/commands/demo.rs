@@ -51,7 +51,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let wall_s = start.elapsed().as_secs_f64();
     let found = Numbers::compute().map_err(Failure::in_part)?;
     let numbers = folder.join("numbers.txt");
-    replace(&numbers, found.text())?;
+    replace(&numbers, &found.text())?;
     print(found.short())?;
 
     let results = folder.join("copper-on-steel.h5");
@@ -93,11 +93,11 @@ fn kept(scene: &Scene, outcome: &Outcome, results: PathBuf) -> Result<[PathBuf; 
     write_results(&results, scene, outcome, Existing::Replace)?;
     let (figure, _) = compose(std::slice::from_ref(&results), &Request::default())?;
     let picture = results.with_extension("svg");
-    replace(&picture, to_svg(&figure).map_err(Failure::work)?)?;
+    replace(&picture, &to_svg(&figure).map_err(Failure::work)?)?;
     Ok([results, picture])
 }
 
-fn replace(path: &Path, text: String) -> Result<(), OutputError> {
+fn replace(path: &Path, text: &str) -> Result<(), OutputError> {
     write_whole(path, Existing::Replace, |mut file| {
         file.write_all(text.as_bytes())
     })

@@ -181,8 +181,9 @@ mod tests {
     fn descriptor(path: &Path, own: &File) -> OwnedFd {
         let of = |number: i32| std::fs::read_link(format!("/proc/self/fd/{number}"));
         let path = path.canonicalize().unwrap();
-        let others = (3..own.as_raw_fd()).filter(|&number| of(number).is_ok_and(|to| to == path));
-        let number = others.last().unwrap();
+        let mut others =
+            (3..own.as_raw_fd()).filter(|&number| of(number).is_ok_and(|to| to == path));
+        let number = others.next_back().unwrap();
         // SAFETY: it is open, and forgotten before it is closed.
         #[allow(unsafe_code)]
         unsafe {
