@@ -21,6 +21,7 @@ file = "mine.toml"
 [product.striker]
 velocity_m_s = { from = 0.1, to = 10.0, count = 70000, spacing = "log" }
 """
+SECTION = "[map]\nr_max_m = 0.01\nz_max_m = 0.01\npoints = [9, 7]\nframes = 3\n"
 MATERIALS = '[mine]\nyoungs_modulus_pa = 70e9\npoisson_ratio = 0.22\ndensity_kg_m3 = 2500\nsource = "x"\n'
 
 
@@ -36,6 +37,8 @@ def commands(name):
         write(at("s.toml"), SWEEP)
         write(at("mine.toml"), MATERIALS)
         write(at("i.toml"), SCENE)
+        write(at("map.toml"), SCENE + SECTION)
+        os.mkdir(at("parts"))
 
     def with_table(ratio=None):
         def setup():
@@ -52,6 +55,11 @@ def commands(name):
     def with_results():
         empty()
         well(["impact", at("i.toml"), "-o", at("i.h5")])
+
+    def with_parts():
+        empty()
+        for part in (1, 2):
+            well([*sweep[:2], "--shard", f"{part}/2", "-o", at(f"parts/{part}.h5")])
 
     def with_old(*files):
         def setup():
@@ -70,6 +78,9 @@ def commands(name):
         "extend": Writing(["tabulate", "--nu", "0.25", "-o", table], [table], with_table()),
         "shard": Writing(["tabulate", "--grid", grid, "--shard", "1/1", "-o", at("1.shard")], [at("1.shard")], empty),
         "merge": Writing(["table", "merge", at("1.shard"), at("2.shard"), "-o", table], [table], with_shards),
+        "section": Writing(["impact", at("map.toml"), "-o", at("m.h5")], [at("m.h5")], empty),
+        "part": Writing([*sweep[:2], "--shard", "1/2", "-o", at("1.h5")], [at("1.h5")], empty),
+        "join": Writing(["sweep", "merge", at("parts"), "-o", at("s.h5")], [at("s.h5")], with_parts),
         "sweep": Writing(sweep, both, empty),
         "sweep --force": Writing([*sweep, "--force"], both, with_old("s.h5", "s.csv")),
         "impact": Writing(impact, [at("i.h5")], empty),

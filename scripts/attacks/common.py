@@ -102,6 +102,14 @@ def write(path, text):
     return path
 
 
+def for_all():
+    """Puts the program where every user may run it, and opens the folder of the attacks to them."""
+    global PROGRAM
+    os.makedirs(WORK, exist_ok=True)
+    os.chmod(WORK, 0o755)
+    PROGRAM = shutil.copy(PROGRAM, os.path.join(WORK, "hertzlamb"))
+
+
 def digest(path):
     """SHA-256 of a file, None where there is none."""
     try:

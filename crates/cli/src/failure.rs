@@ -70,7 +70,7 @@ impl Failure {
 
     /// Prints it on standard error, as an object where the command was to print one, and gives the exit code.
     pub(crate) fn report(mut self) -> ExitCode {
-        if wants_json() {
+        if JSON.load(Ordering::Relaxed) {
             (self.about).insert("message".to_owned(), self.sentence.into());
             tell(json!({ "error": self.about }));
         } else {
@@ -125,7 +125,11 @@ fn cut(text: &str) -> String {
 
 /// What is known of an error.
 fn about(culprit: &Culprit<'_>) -> Map<String, Value> {
-    let number = culprit.number.map(Value::from);
+    // JSON has no number that is not finite
+    let number = culprit.number.map(|number| match number.is_finite() {
+        true => Value::from(number),
+        false => Value::from(number.to_string()),
+    });
     let word = culprit.word.as_deref().map(cut).map(Value::from);
     let file = culprit.file.as_deref().map(Path::to_string_lossy);
     let known = [
@@ -142,9 +146,13 @@ fn about(culprit: &Culprit<'_>) -> Map<String, Value> {
     known.collect()
 }
 
-/// Whether the command was to print JSON, told before its arguments are understood.
-pub(crate) fn wants_json() -> bool {
-    std::env::args_os().any(|argument| argument == "--json")
+/// Whether the command was to print JSON, known before its arguments are understood.
+pub(crate) static JSON: AtomicBool = AtomicBool::new(false);
+
+/// An error as an object, of which no more is known.
+pub(crate) fn object(class: &str, message: &str) -> String {
+    let object = json!({ "error": { "class": class, "message": message } });
+    line(object)
 }
 
 /// Whether only errors are told.
@@ -158,15 +166,15 @@ pub(crate) fn say(text: impl Display) {
 }
 
 /// Writes a line on standard error; where nobody takes it, the work goes on all the same.
-pub(crate) fn tell(text: impl Display) {
-    let _ = writeln!(std::io::stderr(), "{}", visible(text));
+fn tell(text: impl Display) {
+    let _ = writeln!(std::io::stderr(), "{}", line(text));
 }
 
-/// Writes a line on standard output; a closed pipe ends the program quietly.
+/// Writes lines on standard output, in which names of files are [`line`]s already; nobody need read them, the pipe may be closed.
 pub(crate) fn print(text: impl Display) -> Result<(), Failure> {
-    match writeln!(std::io::stdout(), "{}", visible(text)) {
+    match writeln!(std::io::stdout(), "{}", visible(text, &['\n', '\t'])) {
         Ok(()) => Ok(()),
-        Err(error) if error.kind() == ErrorKind::BrokenPipe => std::process::exit(0),
+        Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
         Err(error) => Err(Failure::unprintable(error)),
     }
 }
@@ -178,19 +186,27 @@ pub(crate) fn show(json: bool, value: &Value, text: impl Display) -> Result<(), 
 
 /// Lines of a report, each with its name.
 pub(crate) fn lines<T: Display>(named: impl IntoIterator<Item = (&'static str, T)>) -> String {
-    let line = |(name, text)| format!("{name:15}{text}");
+    let line = |(name, text)| format!("{name:15}{}", line(text));
     let lines: Vec<String> = named.into_iter().map(line).collect();
     lines.join("\n")
 }
 
-/// A text as it is, but for control characters, which names of files may have and which terminals obey.
-fn visible(text: impl Display) -> String {
+/// A text in one line, whatever names of files it has: a new line in one of them would look like a message of its own.
+pub(crate) fn line(text: impl Display) -> String {
+    visible(text, &['\t'])
+}
+
+/// A text as it is, but for control characters other than these: names of files may have them, and terminals obey them. They
+/// are escaped as in JSON.
+fn visible(text: impl Display, kept: &[char]) -> String {
     let mut shown = String::new();
     for letter in text.to_string().chars() {
-        if letter.is_control() && !['\n', '\t'].contains(&letter) {
-            shown.extend(letter.escape_default());
-        } else {
-            shown.push(letter);
+        match letter {
+            '\n' if !kept.contains(&letter) => shown += "\\n",
+            _ if letter.is_control() && !kept.contains(&letter) => {
+                shown += &format!("\\u{:04x}", u32::from(letter));
+            }
+            _ => shown.push(letter),
         }
     }
     shown

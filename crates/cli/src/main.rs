@@ -6,6 +6,7 @@ mod failure;
 mod process;
 mod progress;
 mod report;
+mod threads;
 
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use clap_complete::{Shell, generate};
@@ -22,7 +23,7 @@ use std::sync::atomic::Ordering;
     name = "hertzlamb",
     version,
     propagate_version = true,
-    after_help = "Exit codes: 0 done; 1 the work failed; 2 bad input or usage; 75 try the same again later; 101 a fault of the program.\nWith --json, an error is one JSON object on standard error."
+    after_help = "Exit codes: 0 done; 1 the work failed; 2 bad input or usage; 75 try the same again later; 101 a fault of the program; 130, 143 or 129 stopped by Ctrl-C, by SIGTERM or because the terminal closed.\nWith --json, an error is one JSON object on standard error."
 )]
 struct Cli {
     /// Only errors on standard error: no progress, no warnings.
@@ -67,11 +68,19 @@ enum Command {
 }
 
 fn main() -> ExitCode {
+    let json = std::env::args_os().any(|argument| argument == "--json");
+    failure::JSON.store(json, Ordering::Relaxed);
     process::end_in_one_sentence();
     process::listen();
     let cli = parsed();
     failure::QUIET.store(cli.quiet, Ordering::Relaxed);
-    let done = match cli.command {
+    let done = threads::start().and_then(|()| run(cli.command));
+    process::let_signals_end();
+    done.map_or_else(Failure::report, |()| ExitCode::SUCCESS)
+}
+
+fn run(command: Command) -> Result<(), Failure> {
+    match command {
         Command::Impact(arguments) => impact::run(&arguments),
         Command::Sweep(arguments) => sweep::run(&arguments),
         Command::Infer(arguments) => infer::run(&arguments),
@@ -84,8 +93,7 @@ fn main() -> ExitCode {
         Command::Chart(arguments) => chart::run(&arguments),
         Command::Materials(arguments) => materials::run(&arguments),
         Command::Completions { shell } => completions(shell),
-    };
-    done.map_or_else(Failure::report, |()| ExitCode::SUCCESS)
+    }
 }
 
 /// Writes a completion script.
@@ -102,7 +110,12 @@ fn parsed() -> Cli {
     found
         .and_then(|found| Cli::from_arg_matches(&found))
         .unwrap_or_else(|error| {
-            if error.use_stderr() && failure::wants_json() {
+            // a new line in an argument would look like a message of its own
+            let odd = std::env::args_os().any(|argument| {
+                let argument = argument.to_string_lossy();
+                argument.chars().any(char::is_control)
+            });
+            if error.use_stderr() && (odd || failure::JSON.load(Ordering::Relaxed)) {
                 let text = error.to_string();
                 let sentence = text.split("\n\nUsage").next().unwrap_or(&text);
                 let sentence = sentence.trim().trim_start_matches("error: ");

@@ -147,7 +147,9 @@ impl SceneError {
     ) -> Self {
         let first = first.into();
         let sentence = format!("{first} cannot be combined with {second}: {reason}");
-        let mut error = Self::of(sentence, first);
+        // the first of them may stand there with its value
+        let key = first.split_once(" = ").map_or(&*first, |(key, _)| key);
+        let mut error = Self::of(sentence, key);
         error.0.of_numbers = true;
         error
     }

@@ -5,7 +5,8 @@ use hdf5::dataset::{AllocTime, FillTime};
 use hdf5::types::TypeDescriptor;
 use hdf5::{Dataset, Group, H5Type};
 use lookup::labels::unicode;
-pub(crate) use lookup::labels::{array, attach_scales, new_file, reason, scalar, set_scale, text};
+pub(crate) use lookup::labels::{array, attach_scales, scalar, set_scale, text};
+pub(crate) use lookup::new::{new_file, reason};
 
 /// A dataset of one dimension.
 pub(crate) fn vector<T: H5Type>(

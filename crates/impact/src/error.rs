@@ -174,7 +174,14 @@ fn of_contact(error: &ContactError) -> Culprit<'_> {
             culprit.key("velocity_m_s").number(*velocity_m_s)
         }
         ContactError::OutOfRange { quantity, value } => {
-            culprit.key(quantity).number(*value).range("[1e-30, 1e30]")
+            // what follows from several keys is told in words
+            let is_key = !quantity.contains(' ');
+            let culprit = culprit.number(*value).range("[1e-30, 1e30]");
+            if is_key {
+                culprit.key(quantity)
+            } else {
+                culprit
+            }
         }
         _ => culprit,
     }

@@ -28,17 +28,13 @@ const TOGETHER: usize = 512;
 /// Pieces that stay in memory: what describes a dataset is read bit by bit.
 const HELD: usize = 64;
 
-/// Appends its seal to a finished HDF5 file.
+/// Appends its seal to a finished HDF5 file that is open for reading and writing.
 ///
 /// # Errors
 /// What the system says.
-pub fn seal(path: &Path) -> io::Result<()> {
-    let mut file = std::fs::File::options()
-        .read(true)
-        .append(true)
-        .open(path)?;
+pub fn seal(mut file: &std::fs::File) -> io::Result<()> {
     let length = file.metadata()?.len();
-    let mut seal = digests(&file, length)?.into_flattened();
+    let mut seal = digests(file, length)?.into_flattened();
     seal.extend(MAGIC);
     seal.extend(length.to_le_bytes());
     let sum = Sha256::digest(&seal);
@@ -198,7 +194,8 @@ mod tests {
         let path = folder.path().join("good");
         let bytes: Vec<u8> = (0..3 * PIECE + 100).map(|i| (i * i / 7) as u8).collect();
         std::fs::write(&path, bytes).unwrap();
-        seal(&path).unwrap();
+        let open = std::fs::File::options().read(true).write(true).open(&path);
+        seal(&open.unwrap()).unwrap();
         std::fs::read(&path).unwrap()
     }
 

@@ -97,8 +97,8 @@ pub use content::{Between, Content, Origin, Role, Slice, Verification, centres};
 pub use error::{ContentError, LookupError};
 #[cfg(feature = "hdf5")]
 pub use file::{
-    BadTable, TableError, TableFile, check_whole, damaged_patches, holds, labels, read, same_hash,
-    stated_hash, write,
+    BadTable, TableError, TableFile, check_whole, damaged_patches, holds, labels, new, read,
+    same_hash, stated_hash, write,
 };
 pub use hash::{content_hash, settings_id};
 pub use pulse::PulseSum;

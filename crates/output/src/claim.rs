@@ -1,10 +1,11 @@
 //! From a name to the finished file under it.
 
 use crate::error::{Fault, OutputError};
+use crate::handle::{is_at, make};
 use crate::place::{behind, folder};
 use crate::temporary::{Lock, Temporary, sweep};
 use std::fs::File;
-use std::io::{self, ErrorKind, Read};
+use std::io::{self, ErrorKind, Read, Seek};
 use std::path::{Path, PathBuf};
 
 /// What to do with an existing file.
@@ -73,49 +74,64 @@ impl Output {
         Ok(Self { existing, ..self })
     }
 
-    /// Writes the whole content through a closure that is given the name of an empty file, and flushes it.
+    /// Writes the whole content through a closure that is given an empty file, and flushes it.
     ///
     /// # Errors
     /// [`OutputError`]; the final name is untouched.
     pub fn stage<E: Into<Fault>>(
         &self,
-        fill: impl FnOnce(&Path) -> Result<(), E>,
+        fill: impl FnOnce(&File) -> Result<(), E>,
+    ) -> Result<Staged<'_>, OutputError> {
+        self.stage_made(|name| {
+            let file = make(name)?;
+            fill(&file).map_err(Into::into)?;
+            Ok::<_, Fault>(file)
+        })
+    }
+
+    /// The same with a closure that makes the file itself, where nothing has its name yet, and returns its handle.
+    ///
+    /// From then on the handle alone is used: somebody else who may write to the folder can put a link to another file under
+    /// the name at any time.
+    ///
+    /// # Errors
+    /// [`OutputError`]; the final name is untouched.
+    pub fn stage_made<E: Into<Fault>>(
+        &self,
+        make: impl FnOnce(&Path) -> Result<File, E>,
     ) -> Result<Staged<'_>, OutputError> {
         let staged = || -> Result<Staged<'_>, Fault> {
-            let part = Temporary::beside(&self.real)?;
-            fill(&part.path).map_err(Into::into)?;
+            let part = Temporary::beside(&self.real);
+            let file = make(&part.path).map_err(Into::into)?;
             Ok(Staged {
                 output: self,
-                bytes: self.settle(&part.path)?,
+                bytes: self.settle(&file)?,
+                file,
                 part,
             })
         };
         staged().map_err(|fault| OutputError::writing(&self.path, fault))
     }
 
-    /// [`Self::stage`] and [`Staged::commit`]; gives the size of the file.
+    /// [`Self::stage`] and [`Staged::commit`].
     ///
     /// # Errors
     /// [`OutputError`]; the final name is untouched.
     pub fn write<E: Into<Fault>>(
         &self,
-        fill: impl FnOnce(&Path) -> Result<(), E>,
-    ) -> Result<u64, OutputError> {
-        let staged = self.stage(fill)?;
-        let bytes = staged.bytes;
-        staged.commit()?;
-        Ok(bytes)
+        fill: impl FnOnce(&File) -> Result<(), E>,
+    ) -> Result<(), OutputError> {
+        self.stage(fill)?.commit()
     }
 
     /// Gives a finished file the permissions of the one that it replaces, and flushes it.
-    fn settle(&self, part: &Path) -> io::Result<u64> {
-        let file = File::options().read(true).write(true).open(part)?;
+    fn settle(&self, file: &File) -> io::Result<u64> {
         if let Ok(old) = std::fs::metadata(&self.real) {
             #[cfg(unix)]
             {
                 use std::os::unix::fs::MetadataExt;
                 // for the owner alone to do; a file in his folder is his all the same
-                let _ = std::os::unix::fs::fchown(&file, Some(old.uid()), Some(old.gid()));
+                let _ = std::os::unix::fs::fchown(file, Some(old.uid()), Some(old.gid()));
             }
             file.set_permissions(old.permissions())?;
         }
@@ -129,7 +145,9 @@ impl Output {
 pub struct Staged<'a> {
     output: &'a Output,
     part: Temporary,
-    bytes: u64,
+    file: File,
+    /// Its size.
+    pub bytes: u64,
 }
 
 impl Staged<'_> {
@@ -143,13 +161,22 @@ impl Staged<'_> {
         let failed = |error: io::Error| OutputError::writing(path, error);
         refuse(path, real, existing)?;
         if existing == Existing::KeepUnlessSame && real.exists() {
-            let same = same(part, real).map_err(failed)?;
+            let same = same(&self.file, real).map_err(failed)?;
             return same.then_some(()).ok_or(OutputError::Exists(path.clone()));
         }
+        check_place(&self.file, part, path)?;
         std::fs::rename(part, real).map_err(failed)?;
         self.part.forget();
+        check_place(&self.file, real, path)?;
         flush(folder(real)).map_err(failed)
     }
+}
+
+/// Refuses another file under a name of the one that was written for an output: others may write to its folder.
+fn check_place(written: &File, name: &Path, output: &Path) -> Result<(), OutputError> {
+    let what = "somebody else put another file in its place while it was written";
+    let exchanged = || OutputError::writing(output, what);
+    is_at(written, name).then_some(()).ok_or_else(exchanged)
 }
 
 /// Refuses a file that is there and is kept.
@@ -171,10 +198,11 @@ fn flush(folder: &Path) -> io::Result<()> {
 }
 
 /// Whether two files hold the same bytes.
-fn same(one: &Path, other: &Path) -> io::Result<bool> {
-    let (one, other) = (File::open(one)?, File::open(other)?);
+fn same(mut one: &File, other: &Path) -> io::Result<bool> {
+    let other = File::open(other)?;
+    one.rewind()?;
     loop {
-        let (left, right) = (piece(&one)?, piece(&other)?);
+        let (left, right) = (piece(one)?, piece(&other)?);
         if left != right || left.is_empty() {
             return Ok(left == right);
         }
@@ -188,14 +216,14 @@ fn piece(file: &File) -> io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// Writes a file through a closure that is given a name beside the final one.
+/// Writes a file through a closure that is given an empty one, which then gets the name.
 ///
 /// # Errors
 /// [`OutputError`]; the final name is untouched.
 pub fn write_whole<E: Into<Fault>>(
     path: &Path,
     existing: Existing,
-    write: impl FnOnce(&Path) -> Result<(), E>,
+    write: impl FnOnce(&File) -> Result<(), E>,
 ) -> Result<(), OutputError> {
-    Output::claim(path, existing)?.write(write).map(drop)
+    Output::claim(path, existing)?.write(write)
 }

@@ -2,6 +2,8 @@
 
 use crate::claim::{Existing, Output, Staged};
 use crate::error::OutputError;
+use std::fs::File;
+use std::io::Write;
 use std::path::Path;
 
 /// A folder that one run at a time writes into.
@@ -38,14 +40,14 @@ impl Folder {
     /// # Errors
     /// [`OutputError`] with the file that failed.
     pub fn write(&self, files: Vec<(String, Vec<u8>)>) -> Result<(), OutputError> {
-        self.write_by(files, |part, bytes| std::fs::write(part, bytes))
+        self.write_by(files, |mut file, bytes| file.write_all(bytes))
     }
 
     /// The same, with how a file is written.
     fn write_by(
         &self,
         files: Vec<(String, Vec<u8>)>,
-        write: impl Fn(&Path, &[u8]) -> std::io::Result<()>,
+        write: impl Fn(&File, &[u8]) -> std::io::Result<()>,
     ) -> Result<(), OutputError> {
         let mut claimed = Vec::new();
         for (name, bytes) in files {
@@ -55,7 +57,7 @@ impl Folder {
         }
         let mut staged: Vec<Staged<'_>> = Vec::new();
         for (output, bytes) in &claimed {
-            staged.push(output.stage(|part| write(part, bytes))?);
+            staged.push(output.stage(|file| write(file, bytes))?);
         }
         for file in staged {
             file.commit()?;
@@ -109,9 +111,9 @@ mod tests {
         assert!(!inside.join("a.txt").exists());
         // the second of them cannot be written when the first one is
         let failing = vec![file("a.txt"), ("b.txt".to_owned(), Vec::new())];
-        let refused = folder.write_by(failing, |part, bytes| match bytes {
+        let refused = folder.write_by(failing, |mut file, bytes| match bytes {
             [] => Err(std::io::Error::other("no")),
-            bytes => std::fs::write(part, bytes),
+            bytes => file.write_all(bytes),
         });
         assert!(matches!(refused, Err(OutputError::Failed { .. })));
         assert!(!inside.join("a.txt").exists());

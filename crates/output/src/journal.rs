@@ -5,6 +5,7 @@
 //! the journal; what comes after is done anew.
 
 use crate::error::OutputError;
+use crate::handle::without_links;
 use std::fs::{File, OpenOptions};
 use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
@@ -70,10 +71,9 @@ impl Journal {
         if there.as_ref().is_ok_and(|there| !there.is_file()) {
             return Err(strange(&path));
         }
-        let mut file = OpenOptions::new()
-            .read(true)
-            .write(true)
-            .create_new(there.is_err())
+        let mut options = OpenOptions::new();
+        options.read(true).write(true).create_new(there.is_err());
+        let mut file = without_links(&mut options)
             .open(&path)
             .map_err(|error| OutputError::writing(&path, error))?;
         let unreadable =

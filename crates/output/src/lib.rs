@@ -14,8 +14,9 @@
 //! ```
 //! # let folder = std::env::temp_dir().join(format!("hertzlamb-output-{}", std::process::id()));
 //! # std::fs::create_dir_all(&folder).unwrap();
+//! use std::io::Write;
 //! let path = folder.join("numbers.csv");
-//! output::write_whole(&path, output::Existing::Replace, |part| std::fs::write(part, "1,2\n"))?;
+//! output::write_whole(&path, output::Existing::Replace, |mut file| file.write_all(b"1,2\n"))?;
 //! assert_eq!(std::fs::read_to_string(&path).unwrap(), "1,2\n");
 //! # std::fs::remove_dir_all(&folder).unwrap();
 //! # Ok::<(), output::OutputError>(())
@@ -24,6 +25,7 @@
 mod claim;
 mod error;
 mod folder;
+mod handle;
 mod journal;
 mod place;
 mod room;
@@ -36,5 +38,5 @@ pub use journal::{Journal, Record, Records, Title, packed, unpacked};
 pub use place::{
     CSV, Ending, HDF5, PARQUET, ROWS, Role, SHARD, TABLE, apart, behind, folder, is_standard,
 };
-pub use room::{free_disk, free_memory, processor_s};
+pub use room::{MOST_THREADS, free_address_space, free_disk, free_memory, processor_s};
 pub use temporary::abandon;

@@ -1,13 +1,15 @@
 //! Files that are there while a run is, beside the file that it writes: temporaries, and the lock that keeps one run at a
 //! time on one name.
 
+use crate::handle::{is_at, without_links};
 use crate::place::{beside, folder};
 use std::collections::BTreeSet;
-use std::fs::{File, TryLockError};
+use std::fs::{File, TryLockError as Unlocked};
 use std::hash::{BuildHasher, RandomState};
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError, TryLockError};
+use std::time::Duration;
 
 /// The files that this process would leave if it ended now.
 static LIVE: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
@@ -21,10 +23,23 @@ fn live() -> MutexGuard<'static, BTreeSet<PathBuf>> {
     LIVE.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Removes what this process has not finished; for a handler that ends it.
+/// Removes what this process has not finished; for what ends it at any moment, also while this very thread adds to the list.
 pub fn abandon() {
-    for path in std::mem::take(&mut *live()) {
-        let _ = std::fs::remove_file(path);
+    /// Times that the list is looked at, a millisecond apart.
+    const TRIES: usize = 100;
+    for _ in 0..TRIES {
+        let live = match LIVE.try_lock() {
+            Ok(mut live) => std::mem::take(&mut *live),
+            Err(TryLockError::Poisoned(live)) => std::mem::take(&mut *live.into_inner()),
+            Err(TryLockError::WouldBlock) => {
+                std::thread::sleep(Duration::from_millis(1));
+                continue;
+            }
+        };
+        for path in live {
+            let _ = std::fs::remove_file(path);
+        }
+        return;
     }
 }
 
@@ -35,20 +50,10 @@ pub(crate) struct Temporary {
 }
 
 impl Temporary {
-    /// A new, empty file under a random name beside `path`.
-    ///
-    /// It is made where nothing was before: neither a file nor a link of that name is written to.
-    pub(crate) fn beside(path: &Path) -> io::Result<Self> {
-        let name = beside(path, ".", &format!(".{:016x}{SUFFIX}", random()));
+    /// A random name beside `path`, for a file that is about to be made.
+    pub(crate) fn beside(path: &Path) -> Self {
         // before it exists, so that no moment is left at which nobody knows of it
-        let made = Self::known(name);
-        match File::create_new(&made.path) {
-            Ok(_) => Ok(made),
-            Err(error) => {
-                made.forget();
-                Err(error)
-            }
-        }
+        Self::known(beside(path, ".", &format!(".{:016x}{SUFFIX}", random())))
     }
 
     /// A file of this name, which is there or is about to be.
@@ -120,16 +125,14 @@ impl Lock {
                     name.display()
                 )));
             }
-            let file = File::options()
-                .read(true)
-                .append(true)
-                .create(true)
-                .open(&name)?;
+            let mut options = File::options();
+            options.read(true).append(true).create(true);
+            let file = without_links(&mut options).open(&name)?;
             let held = match file.try_lock() {
                 Ok(()) => true,
-                Err(TryLockError::WouldBlock) => return Ok(None),
-                Err(TryLockError::Error(error)) if error.kind() == ErrorKind::Unsupported => false,
-                Err(TryLockError::Error(error)) => return Err(error),
+                Err(Unlocked::WouldBlock) => return Ok(None),
+                Err(Unlocked::Error(error)) if keeps_no_locks(&error) => false,
+                Err(Unlocked::Error(error)) => return Err(error),
             };
             // The run that had the lock may have removed the name after it was opened here.
             if !held || is_at(&file, &name) {
@@ -144,17 +147,11 @@ impl Lock {
     }
 }
 
-/// Whether an open file is the one under this name.
-#[cfg(unix)]
-fn is_at(file: &File, name: &Path) -> bool {
-    use std::os::unix::fs::MetadataExt;
-    match (file.metadata(), std::fs::symlink_metadata(name)) {
-        (Ok(open), Ok(there)) => (open.dev(), open.ino()) == (there.dev(), there.ino()),
-        _ => false,
+/// Whether the file system has no locks, or no service that keeps them (NFS).
+fn keeps_no_locks(error: &io::Error) -> bool {
+    #[cfg(unix)]
+    if rustix::io::Errno::from_io_error(error) == Some(rustix::io::Errno::NOLCK) {
+        return true;
     }
-}
-
-#[cfg(not(unix))]
-fn is_at(_: &File, name: &Path) -> bool {
-    name.exists()
+    error.kind() == ErrorKind::Unsupported
 }

@@ -4,11 +4,12 @@
 
 use fault::{Fault as _, Remedy};
 use output::{CSV, Existing, HDF5, Output, OutputError, apart, write_whole};
-use std::io;
+use std::fs::File;
+use std::io::{self, Write};
 use std::path::Path;
 
-fn new(part: &Path) -> io::Result<()> {
-    std::fs::write(part, "new")
+fn new(mut file: &File) -> io::Result<()> {
+    file.write_all(b"new")
 }
 
 fn names(folder: &Path) -> Vec<String> {
@@ -24,8 +25,8 @@ fn names(folder: &Path) -> Vec<String> {
 fn a_file_is_written_whole_or_not_at_all() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.h5");
-    let full = |part: &Path| {
-        std::fs::write(part, "half")?;
+    let full = |mut file: &File| {
+        file.write_all(b"half")?;
         Err(io::Error::from_raw_os_error(28))
     };
     let refused = write_whole(&path, Existing::Keep, full).unwrap_err();
@@ -33,7 +34,7 @@ fn a_file_is_written_whole_or_not_at_all() {
     assert!(refused.to_string().contains("no space left"), "{refused}");
     assert!(names(folder.path()).is_empty());
 
-    write_whole(&path, Existing::Keep, |part| std::fs::write(part, "old")).unwrap();
+    write_whole(&path, Existing::Keep, |mut file| file.write_all(b"old")).unwrap();
     let refused = write_whole(&path, Existing::Keep, new).unwrap_err();
     assert!(matches!(refused, OutputError::Exists { .. }), "{refused}");
     write_whole(&path, Existing::Replace, full).unwrap_err();
@@ -101,7 +102,7 @@ fn what_was_written_before_a_kill_is_accepted_if_it_is_the_same() {
     ] {
         std::fs::write(&path, old).unwrap();
         let output = Output::claim(&path, Existing::KeepUnlessSame).unwrap();
-        let written = output.write(|part| std::fs::write(part, &long));
+        let written = output.write(|mut file| file.write_all(&long));
         assert_eq!(written.is_ok(), accepted, "{} bytes", old.len());
         assert!(std::fs::read(&path).unwrap() == old);
     }
@@ -137,6 +138,44 @@ fn links_are_written_through_and_permissions_kept() {
     assert!(looped.to_string().contains("link"), "{looped}");
 }
 
+/// Somebody else who may write to the folder puts a link to a private file, or the file itself, in the place of the temporary:
+/// the private file keeps its bytes and its permissions, and the output what it was.
+#[cfg(unix)]
+#[test]
+fn a_file_in_the_place_of_the_temporary_is_left_alone() {
+    use std::os::unix::fs::{PermissionsExt, symlink};
+    let mode = |path: &Path| std::fs::metadata(path).unwrap().permissions().mode() & 0o777;
+    type Exchange = fn(&Path, &Path) -> io::Result<()>;
+    let ways: [Exchange; 2] = [
+        |private, name| symlink(private, name),
+        |private, name| std::fs::hard_link(private, name),
+    ];
+    for exchange in ways {
+        let folder = tempfile::tempdir().unwrap();
+        let (path, private) = (folder.path().join("a.h5"), folder.path().join("private"));
+        std::fs::write(&path, "old").unwrap();
+        std::fs::set_permissions(&path, PermissionsExt::from_mode(0o666)).unwrap();
+        std::fs::write(&private, "private").unwrap();
+        std::fs::set_permissions(&private, PermissionsExt::from_mode(0o600)).unwrap();
+        let output = Output::claim(&path, Existing::Replace).unwrap();
+        let refused = output.write(|mut file| {
+            let hidden = names(folder.path()).into_iter();
+            let part = hidden.into_iter().find(|name| name.ends_with(".part"));
+            let part = folder.path().join(part.unwrap());
+            std::fs::remove_file(&part)?;
+            exchange(&private, &part)?;
+            file.write_all(b"new")
+        });
+        let refused = refused.unwrap_err().to_string();
+        assert!(refused.contains("somebody else"), "{refused}");
+        assert_eq!(std::fs::read(&private).unwrap(), b"private");
+        assert_eq!(mode(&private), 0o600);
+        assert_eq!(std::fs::read(&path).unwrap(), b"old");
+        drop(output);
+        assert_eq!(names(folder.path()), ["a.h5", "private"]);
+    }
+}
+
 #[cfg(unix)]
 #[test]
 fn what_is_no_file_is_refused_even_to_be_replaced() {
@@ -144,7 +183,7 @@ fn what_is_no_file_is_refused_even_to_be_replaced() {
     let pipe = folder.path().join("pipe.h5");
     let made = std::process::Command::new("mkfifo").arg(&pipe).status();
     let long = folder.path().join("n".repeat(300));
-    let own = std::fs::File::create(folder.path().join("own")).unwrap();
+    let own = File::create(folder.path().join("own")).unwrap();
     let open = format!("/proc/self/fd/{}", std::os::fd::AsRawFd::as_raw_fd(&own));
     let cases = [
         (folder.path(), "folder"),

@@ -8,6 +8,7 @@ use crate::rows::Work;
 use lookup::{Accuracy, BadTable, Between, Content, Origin, Slice, Table, Verification, schema};
 use output::{Fault, Output};
 use rayon::prelude::*;
+use std::fs::File;
 use std::path::Path;
 use std::time::{Instant, SystemTime, UNIX_EPOCH};
 
@@ -38,7 +39,9 @@ pub(crate) fn complete(
     started: Instant,
 ) -> Result<Summary, BuildError> {
     let content = assemble(work, rows)?;
-    let bytes = output.write(|part| write_checked(&content, part))?;
+    let staged = output.stage_made(|name| write_checked(&content, name))?;
+    let bytes = staged.bytes;
+    staged.commit()?;
     Ok(Summary {
         id: lookup::settings_id(&content.origin.grid),
         content_sha256: lookup::stated_hash(&output.real)?,
@@ -51,11 +54,12 @@ pub(crate) fn complete(
 }
 
 /// Writes a table and reads it back.
-fn write_checked(content: &Content, part: &Path) -> Result<(), Fault> {
-    let held = lookup::write(part, content).and_then(|()| lookup::holds(part, content));
+fn write_checked(content: &Content, name: &Path) -> Result<File, Fault> {
+    let held = lookup::write(name, content)
+        .and_then(|file| Ok(lookup::holds(name, content)?.then_some(file)));
     let wrong = match held.map_err(|error| error.what) {
-        Ok(true) => return Ok(()),
-        Ok(false) => "it is not read back as it was written".to_owned(),
+        Ok(Some(file)) => return Ok(file),
+        Ok(None) => "it is not read back as it was written".to_owned(),
         // its file is the temporary one, of which nobody should hear
         Err(BadTable::Unwritable(detail)) => detail,
         Err(other) => other.to_string(),

@@ -106,6 +106,7 @@ fn a_build_takes_nothing_that_an_interrupted_extension_left() {
     let mut other = lookup::read(&path).unwrap();
     let kept = std::fs::read(&path).unwrap();
     other.slices[0].remainder[0] += 1e-3;
+    std::fs::remove_file(&path).unwrap();
     lookup::write(&path, &other).unwrap();
     assert!(matches!(
         extend(&path, &higher, &Silent),
@@ -162,6 +163,7 @@ fn a_finished_table_passes_its_check_and_a_wrong_one_is_found() {
     let (cells, depths) = (content.slices[1].cells, content.z.len());
     // Node r[2], z[3], field stress_zz, cell 4.
     content.slices[1].remainder[((2 * depths + 3) * 6 + 4) * cells + 4] += 1e-3;
+    std::fs::remove_file(&path).unwrap();
     lookup::write(&path, &content).unwrap();
     let report = check_table(&path, usize::MAX, 3).unwrap();
     let [bad] = report.bad.as_slice() else {

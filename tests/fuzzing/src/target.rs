@@ -8,6 +8,8 @@ use impact::{Allowance, Forecast, KernelChoice, Load, Reading, simulate_within};
 use lookup::{Content, Smoothness, Table, TableError, TableFile};
 use output::Existing;
 use serde_json::Value;
+use std::fs::File;
+use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 use tabulator::{Grid, Silent};
@@ -295,12 +297,17 @@ pub(crate) fn without_seal(bytes: &[u8]) -> &[u8] {
     before.unwrap_or(bytes)
 }
 
+/// Appends a right seal to a file.
+fn seal(path: &Path) -> io::Result<()> {
+    ledger::seal(&File::options().read(true).write(true).open(path)?)
+}
+
 /// A file whose seal is made right again, so that damage behind it is reached; one without a seal as it is.
 fn resealed(input: &[u8], folder: &Path) -> PathBuf {
     let bytes = without_seal(input);
     let path = file(folder, "x.h5", bytes);
     if bytes.len() < input.len()
-        && let Err(error) = ledger::seal(&path)
+        && let Err(error) = seal(&path)
     {
         eprintln!("{}: {error}", path.display());
     }

@@ -1,7 +1,7 @@
 //! `hertzlamb chart`: speed against accuracy, and where methods fail.
 
 use crate::arguments::Overwrite;
-use crate::failure::{Failure, print};
+use crate::failure::{Failure, line, print};
 use crate::progress::Bar;
 use clap::Args;
 use output::Folder;
@@ -43,7 +43,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     chart.write(&folder).map_err(Failure::in_part)?;
     let report = arguments.output.join("report.md");
     let (rows, pictures) = (chart.records.len(), chart.diagrams.len() + chart.maps.len());
-    let (report, wall_s, machine) = (report.display(), chart.wall_s, &chart.machine);
+    let (report, wall_s, machine) = (line(report.display()), chart.wall_s, &chart.machine);
     print(format!(
         "{report}: {rows} rows, {pictures} pictures, {wall_s:.0} s\n{machine}"
     ))?;

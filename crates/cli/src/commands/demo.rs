@@ -1,7 +1,7 @@
 //! `hertzlamb demo`: the paper's case from kernels to picture, and the waves under a ball.
 
 use crate::arguments::open_table;
-use crate::failure::{Failure, print, say};
+use crate::failure::{Failure, line, print, say};
 use crate::progress::Bar;
 use clap::Args;
 use figure::to_svg;
@@ -9,6 +9,7 @@ use formats::{Existing, OutputError, parse_scene, write_results, write_whole};
 use impact::{Allowance, KernelChoice, Outcome, Scene, simulate, simulate_within};
 use paper::Numbers;
 use plot::{Request, compose};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
@@ -50,7 +51,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let wall_s = start.elapsed().as_secs_f64();
     let found = Numbers::compute().map_err(Failure::in_part)?;
     let numbers = folder.join("numbers.txt");
-    replace(&numbers, found.text())?;
+    replace(&numbers, &found.text())?;
     print(found.short())?;
 
     let results = folder.join("copper-on-steel.h5");
@@ -63,7 +64,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     ));
     let [waves, drawn] = waves(folder)?;
     let files = [&numbers, &results, &picture, &waves, &drawn];
-    let [numbers, results, picture, waves, drawn] = files.map(|path| path.display());
+    let [numbers, results, picture, waves, drawn] = files.map(|path| line(path.display()));
     print(format!(
         "\nall numbers, with reasons  {numbers}\nthe paper's impact         {results}, {picture}\nwaves under a ball         {waves}, {drawn}"
     ))
@@ -92,10 +93,12 @@ fn kept(scene: &Scene, outcome: &Outcome, results: PathBuf) -> Result<[PathBuf; 
     write_results(&results, scene, outcome, Existing::Replace)?;
     let (figure, _) = compose(std::slice::from_ref(&results), &Request::default())?;
     let picture = results.with_extension("svg");
-    replace(&picture, to_svg(&figure).map_err(Failure::work)?)?;
+    replace(&picture, &to_svg(&figure).map_err(Failure::work)?)?;
     Ok([results, picture])
 }
 
-fn replace(path: &Path, text: String) -> Result<(), OutputError> {
-    write_whole(path, Existing::Replace, |part| std::fs::write(part, text))
+fn replace(path: &Path, text: &str) -> Result<(), OutputError> {
+    write_whole(path, Existing::Replace, |mut file| {
+        file.write_all(text.as_bytes())
+    })
 }

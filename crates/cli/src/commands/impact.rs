@@ -7,7 +7,7 @@ use crate::report::{text_report, understood};
 use clap::Args;
 use formats::{check_results, json_report, read_with_inputs, stage_results, stage_results_csv};
 use impact::{Allowance, Forecast, ImpactError, Scene, simulate_within};
-use output::{CSV, Ending, Existing, HDF5, Output, Role, Staged};
+use output::{CSV, Ending, Existing, HDF5, Output, Role, Staged, apart};
 use serde_json::json;
 use std::cell::Cell;
 use std::iter;
@@ -54,7 +54,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     if let Some(output) = complete(arguments, &scene)? {
         return say_complete(output, arguments.json);
     }
-    let [output, csv] = outputs(arguments, inputs)?;
+    let [output, csv] = outputs(arguments, &scene, inputs)?;
     let kernels = arguments.kernels.choice()?;
     let (forecast, progress) = (Cell::new(Forecast::least(&scene)), Bar::after(PATIENCE));
     let allowance = Allowance {
@@ -118,7 +118,7 @@ fn complete<'a>(arguments: &'a Arguments, scene: &Scene) -> Result<Option<&'a Pa
     check_results(output, scene, direct, id.as_deref()).map_err(Failure::work)?;
     match &arguments.csv {
         Some(csv) if !csv.exists() => Err(Failure::work(format!(
-            "{} is whole, but {} is not there: leave --skip-complete out and give --force to compute both",
+            "{} is whole, but {} is not there: leave --skip-complete out to add it",
             output.display(),
             csv.display()
         ))),
@@ -126,17 +126,38 @@ fn complete<'a>(arguments: &'a Arguments, scene: &Scene) -> Result<Option<&'a Pa
     }
 }
 
+/// Whether the first of two outputs is there and whole, and the second is not: a run that was killed between their names, or
+/// could not write the second, has left it so, and the same command goes on.
+fn is_half_done(arguments: &Arguments, scene: &Scene) -> bool {
+    let (Some(output), Some(csv)) = (&arguments.output, &arguments.csv) else {
+        return false;
+    };
+    let one_of_two = !arguments.overwrite.force && output.exists() && !csv.exists();
+    one_of_two
+        && arguments
+            .kernels
+            .allowed()
+            .is_ok_and(|(direct, id)| check_results(output, scene, direct, id.as_deref()).is_ok())
+}
+
 /// The results file and the table as text, where they are asked for.
-fn outputs(arguments: &Arguments, mut read: Vec<Role>) -> Result<[Option<Output>; 2], Failure> {
+fn outputs(
+    arguments: &Arguments,
+    scene: &Scene,
+    mut read: Vec<Role>,
+) -> Result<[Option<Output>; 2], Failure> {
     read.extend(arguments.kernels.input());
+    let existing = match is_half_done(arguments, scene) {
+        true => Existing::KeepUnlessSame,
+        false => arguments.overwrite.existing(),
+    };
     let mut claim = |path: &Option<PathBuf>, ending: Ending| {
         let claimed = path.as_ref().map(|path| {
-            let text = is_text(path);
-            let told = |error| Failure::from(error).hint_if(text, AS_TEXT);
-            let checked = ending.check(path).map_err(told);
-            let claimed = checked.and_then(|()| arguments.overwrite.claim(path, &read));
+            let told = |error| Failure::from(error).hint_if(is_text(path), AS_TEXT);
+            ending.check(path).map_err(told)?;
+            apart(&[path], &read)?;
             read.push(("another output", path.clone()));
-            claimed
+            Output::claim(path, existing).map_err(Failure::from)
         });
         claimed.transpose()
     };

@@ -1,6 +1,6 @@
 //! `hertzlamb materials`: lists and searches the library.
 
-use crate::failure::{Failure, print};
+use crate::failure::{Failure, line, print};
 use clap::Args;
 use contact::{Library, Material};
 use formats::{material_report, read_materials};
@@ -64,5 +64,5 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         return print(format!("{rows:#}"));
     }
     print(HEAD)?;
-    found.into_iter().try_for_each(|m| print(text(m)))
+    found.into_iter().try_for_each(|m| print(line(text(m))))
 }

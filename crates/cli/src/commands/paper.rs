@@ -1,7 +1,7 @@
 //! `hertzlamb paper`: the source paper's numbers and figures beside those of this program.
 
 use crate::arguments::Overwrite;
-use crate::failure::{Failure, print};
+use crate::failure::{Failure, line, print};
 use clap::Args;
 use output::Folder;
 use paper::Redone;
@@ -31,7 +31,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let rows = sections.map(|section| section.rows.len());
     print(format!(
         "{}: {} numbers, {} figures",
-        arguments.output.join("report.md").display(),
+        line(arguments.output.join("report.md").display()),
         rows.sum::<usize>(),
         redone.figures.len()
     ))

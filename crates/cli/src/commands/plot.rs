@@ -1,13 +1,14 @@
 //! `hertzlamb plot`: pictures of what was computed.
 
 use crate::arguments::Overwrite;
-use crate::failure::{Failure, print, say};
+use crate::failure::{Failure, line, print, say};
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 use contact::Choice;
 use figure::{Figure, Scale, to_gif, to_pdf, to_png, to_svg};
 use output::Role;
 use plot::{Kind, Request, animate, compose};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 const EXAMPLES: &str = "Examples:
@@ -149,11 +150,11 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         (bytes, notes)
     };
     let bytes = bytes.map_err(Failure::work)?;
-    output.write(|part| std::fs::write(part, &bytes))?;
+    output.write(|mut file| file.write_all(&bytes))?;
     for note in notes {
         say(format!("note: {note}"));
     }
-    print(arguments.output.display())
+    print(line(arguments.output.display()))
 }
 
 /// Pixels of a PNG for each of its own, unless asked for.

@@ -2,7 +2,7 @@
 
 use crate::arguments::Overwrite;
 use crate::commands::tabulate;
-use crate::failure::{Failure, print, show};
+use crate::failure::{Failure, line, print, show};
 use crate::progress::Bar;
 use clap::{Args, Subcommand};
 use formats::table_report;
@@ -100,7 +100,7 @@ fn info(path: &Path, json: bool) -> Result<(), Failure> {
          z               0 .. {} r0, {} nodes\n\
          time            cells of {} r0/c1, {cells} of them, then a tail\n\
          interpolation   {} points\n{}",
-        path.display(),
+        line(path.display()),
         value["bytes"].as_f64().unwrap_or(0.0) / 1e6,
         table.id(),
         content.origin.format_version,
@@ -139,7 +139,7 @@ fn verify(path: &Path, sample: usize, seed: Option<u64>, json: bool) -> Result<(
         let text = format!(
             "{file}: complete, checksum right, {nodes} nodes of seed {seed} computed again, largest difference {largest:.1e}"
         );
-        return show(json, &value, text);
+        return show(json, &value, line(text));
     }
     if json {
         print(value)?;
@@ -172,6 +172,7 @@ fn diff(first: &Path, second: &Path, json: bool) -> Result<(), Failure> {
     if found.is_empty() {
         return show(json, &value, "the tables hold the same");
     }
+    let found: Vec<String> = found.iter().map(line).collect();
     show(json, &value, found.join("\n"))?;
     let (first, second) = (first.display(), second.display());
     Err(Failure::work(format!("{first} and {second} differ")))
@@ -191,5 +192,5 @@ fn join(shards: &[PathBuf], output: &Path, existing: Existing, json: bool) -> Re
         "bytes": summary.bytes,
     });
     let text = format!("{file}: {points} points, {megabytes:.1} MB, id {id}");
-    show(json, &value, text)
+    show(json, &value, line(text))
 }

@@ -1,7 +1,7 @@
 //! `hertzlamb tabulate`: builds a kernel table.
 
 use crate::arguments::{MemoryLimit, Overwrite, say_complete};
-use crate::failure::{Failure, lines, say, show};
+use crate::failure::{Failure, line, lines, say, show};
 use crate::process;
 use crate::progress::Bar;
 use clap::Args;
@@ -150,7 +150,7 @@ fn tabulate(arguments: &Arguments, output: &Path) -> Result<(), Failure> {
         let file = output.display().to_string();
         let text = format!("{file}: {blocks} blocks; join all shards with hertzlamb table merge");
         let value = json!({ "file": file, "blocks": blocks });
-        return show(arguments.json, &value, text);
+        return show(arguments.json, &value, line(text));
     }
     if arguments.skip_complete && output.exists() {
         // also removes what a killed run has left beside it
@@ -247,8 +247,10 @@ fn tell(grid: &Grid, output: &Path, json: bool, summary: &Summary) -> Result<(),
     });
     let megabytes = summary.bytes as f64 / 1e6;
     let errors = errors_in_words(accuracy);
-    let text =
-        format!("{file}: {points} points, {megabytes:.1} MB, {wall_s:.1} s, id {id}\n{errors}");
+    let text = format!(
+        "{}: {points} points, {megabytes:.1} MB, {wall_s:.1} s, id {id}\n{errors}",
+        line(&file)
+    );
     show(json, &value, text)
 }
 

@@ -70,7 +70,7 @@ pub enum InferError {
     },
     /// A measure that no contact has that yields.
     #[error(
-        "{measure} = {value} is outside [{:.4e}, {:.4e}], what a contact has that yields", limits[0], limits[1]
+        "{measure} = {} is outside [{:.4e}, {:.4e}], the range of contacts that yield", fault::number(*value), limits[0], limits[1]
     )]
     Outside {
         /// What was measured.

@@ -30,20 +30,19 @@ pub fn stage_results<'a>(
     scene: &Scene,
     outcome: &Outcome,
 ) -> Result<Staged<'a>, OutputError> {
-    output.stage(|part| {
-        let written = write_file(part, scene, outcome);
-        written.map_err(|error| Fault::from(reason(&error)))?;
-        ledger::seal(part).map_err(Fault::from)
+    output.stage_made(|name| {
+        new_file(name, |file, _| {
+            fill(file, scene, outcome).map_err(|error| Fault::from(reason(&error)))
+        })
     })
 }
 
-fn write_file(path: &Path, scene: &Scene, outcome: &Outcome) -> Result<(), hdf5::Error> {
-    let file = new_file().create(path)?;
-    write_attributes(&file, scene, outcome)?;
+fn fill(file: &File, scene: &Scene, outcome: &Outcome) -> Result<(), hdf5::Error> {
+    write_attributes(file, scene, outcome)?;
     let series = &outcome.series;
-    let time = scale(&file, &schema::SERIES[0], &series.time_s)?;
+    let time = scale(file, &schema::SERIES[0], &series.time_s)?;
     for (described, samples) in schema::samples(series).skip(1) {
-        let dataset = vector(&file, described, samples)?;
+        let dataset = vector(file, described, samples)?;
         if described.0 == schema::FORCE {
             for (name, value) in treatment(scene) {
                 value.map_or(Ok(()), |value| scalar(&dataset, name, value))?;
@@ -52,16 +51,15 @@ fn write_file(path: &Path, scene: &Scene, outcome: &Outcome) -> Result<(), hdf5:
         attach_scales(&dataset, &[&time])?;
     }
     if let Some(energy) = &series.energy {
-        write_energy(&file, energy, &series.time_s)?;
+        write_energy(file, energy, &series.time_s)?;
     }
     if let Some(fields) = &outcome.probes {
-        write_probes(&file, fields, &series.time_s, scene)?;
+        write_probes(file, fields, &series.time_s, scene)?;
     }
     if let Some(section) = &outcome.section {
-        write_section(&file, section)?;
+        write_section(file, section)?;
     }
-    file.flush()?;
-    file.close()
+    Ok(())
 }
 
 fn write_energy(file: &File, energy: &EnergySeries, time_s: &[f64]) -> Result<(), hdf5::Error> {
@@ -145,8 +143,8 @@ pub fn stage_results_csv<'a>(
     scene: &Scene,
     outcome: &Outcome,
 ) -> Result<Staged<'a>, OutputError> {
-    output.stage(|part| {
-        let mut file = BufWriter::new(std::fs::File::create(part)?);
+    output.stage(|file| {
+        let mut file = BufWriter::new(file);
         for (i, probe) in (1..).zip(&scene.probes) {
             let (r_m, z_m) = (probe.r_m, probe.z_m);
             writeln!(file, "# probe{i}: r = {r_m} m, z = {z_m} m")?;

@@ -1,33 +1,12 @@
-//! What writing HDF5 needs in every file of the workspace: its format, attributes, dimension scales, reasons of errors.
+//! What writing HDF5 needs in every file of the workspace: attributes, dimension scales.
 //!
 //! Dimension scales are the one piece of the HDF5 interface that no Rust crate offers.
 
 use hdf5::types::VarLenUnicode;
-use hdf5::{Dataset, FileBuilder, H5Type, Location};
+use hdf5::{Dataset, H5Type, Location};
 use hdf5_sys::h5i::hid_t;
 use std::borrow::Borrow;
 use std::ffi::{CString, c_char, c_int, c_uint};
-
-/// A file to be written, in the format that every version of the library reads, whatever the linked one prefers.
-///
-/// Version 2 of the library would write groups and superblocks of a later format, which its versions before 1.8 do not know.
-pub fn new_file() -> FileBuilder {
-    let mut file = FileBuilder::new();
-    file.with_fapl(|access| access.libver_earliest());
-    file
-}
-
-/// What the system said, if it did, else the first line of what the library says.
-pub fn reason(error: &hdf5::Error) -> String {
-    let (stack, said) = (error.stack(), error.to_string());
-    let mut frames = stack.iter().flat_map(|stack| stack.iter());
-    let system = frames.find_map(|frame| {
-        let (_, message) = frame.desc().split_once("error message = '")?;
-        Some(message.split_once('\'')?.0)
-    });
-    let first = || said.lines().next().unwrap_or_default();
-    system.unwrap_or_else(first).to_owned()
-}
 
 /// A text as files hold it; a NUL, which they cannot hold, becomes a blank.
 ///

@@ -4,6 +4,7 @@ mod chunks;
 mod damage;
 mod error;
 pub mod labels;
+pub mod new;
 mod open;
 mod read;
 mod source;

@@ -2,7 +2,8 @@
 
 use super::chunks::write_chunks;
 use super::error::{BadTable, TableError};
-use super::labels::{array, attach_scales, new_file, reason, scalar, set_scale, text};
+use super::labels::{array, attach_scales, scalar, set_scale, text};
+use super::new::{new_file, reason};
 use crate::accuracy::Quantiles;
 use crate::content::{Content, FIELDS, Slice, Verification};
 use crate::hash::{content_hash, settings_id};
@@ -17,29 +18,27 @@ const DEFLATE: u8 = 2;
 /// Nodes in r and in z that share a chunk, all their times and fields with them.
 const PATCH: usize = 8;
 
-/// Writes `content` to `path`, replacing what is there, and seals it.
+/// Writes `content` to `path`, where nothing is yet, and seals it; returns the handle of the file.
 ///
 /// The bytes depend on the content and the creation time alone.
 ///
 /// # Errors
 /// [`BadTable::Unwritable`] with what the system or the HDF5 library says.
-pub fn write(path: &Path, content: &Content) -> Result<(), TableError> {
-    let failed = |detail: String| BadTable::Unwritable(detail).of(path);
-    write_file(path, content).map_err(|error| failed(reason(&error)))?;
-    ledger::seal(path).map_err(|error| failed(error.to_string()))
+pub fn write(path: &Path, content: &Content) -> Result<std::fs::File, TableError> {
+    let fill = |file: &File, _: &_| fill(file, content).map_err(|error| reason(&error));
+    new_file(path, fill).map_err(|detail| BadTable::Unwritable(detail).of(path))
 }
 
-fn write_file(path: &Path, content: &Content) -> Result<(), hdf5::Error> {
-    let file = new_file().create(path)?;
-    write_attributes(&file, content)?;
-    let scale = |name, values: &[f64]| make_scale(&file, name, values);
+fn fill(file: &File, content: &Content) -> Result<(), hdf5::Error> {
+    write_attributes(file, content)?;
+    let scale = |name, values: &[f64]| make_scale(file, name, values);
     let [probe_r, probe_z] = content.probes();
     let probe_r = scale(schema::PROBE_R, &probe_r)?;
     let probe_z = scale(schema::PROBE_Z, &probe_z)?;
     let pulse = scale(schema::PULSE_LENGTH, &content.pulse_lengths)?;
     let names =
         schema::FIELD_NAMES.map(|name| FixedAscii::<16>::from_ascii(name).unwrap_or_default());
-    let field = make_scale(&file, schema::FIELD, &names)?;
+    let field = make_scale(file, schema::FIELD, &names)?;
     let r = scale(schema::R, &content.r)?;
     let z = scale(schema::Z, &content.z)?;
     let nodes = content.r.len() * content.z.len();
@@ -63,8 +62,7 @@ fn write_file(path: &Path, content: &Content) -> Result<(), hdf5::Error> {
         let scales = [&between_r, &between_z, &pulse, &field];
         write_verification(&group, &place.verification, &scales)?;
     }
-    file.flush()?;
-    file.close()
+    Ok(())
 }
 
 /// Writes a slice over scales that all share: r, z, field and term, and r, z, pulse and field of the probes.

@@ -102,6 +102,7 @@ fn numbers_that_cannot_be_right_are_named() {
     // Slices of different sizes, read for a ratio between them.
     let mut bad = sliced();
     bad.slices[4].tail.truncate(7 * 15 * 12 * 6);
+    std::fs::remove_file(&path).unwrap();
     write(&path, &bad).unwrap();
     let error = TableFile::open(&path)
         .unwrap()

@@ -7,6 +7,8 @@ use std::path::PathBuf;
 
 pub(crate) fn written(folder: &tempfile::TempDir) -> PathBuf {
     let path = folder.path().join("table.h5");
+    // of an earlier call
+    let _ = std::fs::remove_file(&path);
     write(&path, &content()).unwrap();
     path
 }

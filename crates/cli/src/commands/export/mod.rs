@@ -15,6 +15,7 @@ use impact::Run;
 use law::{Code, Laws};
 use output::CSV;
 use serde_json::json;
+use std::io::Write;
 use std::path::PathBuf;
 
 const EXAMPLES: &str = "Examples:
@@ -93,7 +94,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         }
         Format::Table => table::table(&case, velocities, rows.unwrap_or(41))?,
     };
-    claimed.write(|part| std::fs::write(part, &text))?;
+    claimed.write(|mut file| file.write_all(text.as_bytes()))?;
     for warning in &case.run.warnings {
         say(format!("warning: {warning}"));
     }

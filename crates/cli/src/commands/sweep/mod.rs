@@ -204,14 +204,14 @@ fn compute(arguments: &Run, sweep: &Path, output: &Path) -> Result<(), Failure> 
     outputs.write(&spec, &kept)?;
     let took_s = [start.elapsed().as_secs_f64(), computing_s];
     let (value, text) = report(arguments, &spec, &outputs, &tally, took_s, kept.resumed);
-    let done = if outputs.print {
-        say(text);
-        print_rows(&spec, &kept)
+    // where the rows or the report cannot be printed, the same command goes on with what is kept
+    if outputs.print {
+        text.lines().for_each(say);
+        print_rows(&spec, &kept)?;
     } else {
-        show(arguments.json, &value, text)
-    };
+        show(arguments.json, &value, text)?;
+    }
     kept.remove();
-    done?;
     tally.verdict(arguments, spec.selected().len())
 }
 

@@ -19,8 +19,8 @@ pub fn stage_csv<'a>(
     spec: &Spec,
     blocks: &(impl Blocks + ?Sized),
 ) -> Result<Staged<'a>, OutputError> {
-    output.stage(|part| {
-        let mut file = BufWriter::new(std::fs::File::create(part)?);
+    output.stage(|file| {
+        let mut file = BufWriter::new(file);
         print_csv(&mut file, spec, blocks)?;
         file.flush()
     })

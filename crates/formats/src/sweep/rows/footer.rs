@@ -59,7 +59,8 @@ impl Footer {
     /// # Errors
     /// What is wrong with it, in a few words.
     pub(crate) fn read(path: &Path) -> Result<Option<(Self, Part)>, String> {
-        let (bytes, length) = footer_of(path).map_err(|error| error.to_string())?;
+        let found = File::open(path).and_then(|file| footer_in(&file));
+        let (bytes, length) = found.map_err(|error| error.to_string())?;
         let Some(bytes) = bytes else {
             return Err("it has no end: it was cut short".to_owned());
         };
@@ -86,7 +87,7 @@ impl Footer {
     /// All of the footer, as Parquet has it.
     #[cfg(feature = "parquet")]
     pub(crate) fn bytes(path: &Path) -> io::Result<Vec<u8>> {
-        Ok(footer_of(path)?.0.unwrap_or_default())
+        Ok(footer_in(&File::open(path)?)?.0.unwrap_or_default())
     }
 
     fn part(&self, path: &Path) -> Option<Part> {
@@ -114,9 +115,9 @@ impl Footer {
 }
 
 /// The footer without its length and magic number, if there is one, and the length of the file.
-pub(super) fn footer_of(path: &Path) -> io::Result<(Option<Vec<u8>>, u64)> {
-    let mut file = File::open(path)?;
+pub(super) fn footer_in(mut file: &File) -> io::Result<(Option<Vec<u8>>, u64)> {
     let length = file.metadata()?.len();
+    file.rewind()?;
     let (mut head, mut tail) = ([0; 4], [0; TAIL as usize]);
     if length < 4 + TAIL {
         return Ok((None, length));

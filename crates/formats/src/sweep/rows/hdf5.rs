@@ -22,9 +22,10 @@ use hdf5::{Dataset, Group, Hyperslab, SliceOrIndex};
 use output::{Fault, Output, OutputError, Staged};
 use std::collections::HashMap;
 use std::fs::File;
-use std::io::{Seek, SeekFrom, Write};
+use std::io;
+#[cfg(not(unix))]
+use std::io::{Seek, Write};
 use std::ops::Range;
-use std::path::Path;
 
 /// Reasons of failures that a file has at most: drawn numbers may make each its own, and all are in memory together.
 const MOST_REASONS: usize = 100_000;
@@ -45,23 +46,21 @@ pub(crate) fn stage_hdf5<'a>(
     sources: Option<&[(String, Range<usize>)]>,
     blocks: &(impl Blocks + ?Sized),
 ) -> Result<Staged<'a>, OutputError> {
-    output.stage(|path| {
-        let told = |error: hdf5::Error| Fault::from(reason(&error));
-        let file = new_file().create(path).map_err(told)?;
-        let reserved = begin(&file, spec, sources).map_err(told)?;
-        let (failed, reasons) = fill(path, spec, &reserved, blocks)?;
-        finish(file, failed, &reasons).map_err(told)?;
-        ledger::seal(path).map_err(Fault::from)
+    output.stage_made(|name| {
+        new_file(name, |library, file| {
+            let told = |error: hdf5::Error| Fault::from(reason(&error));
+            let reserved = begin(library, spec, sources).map_err(told)?;
+            let (failed, reasons) = fill(file, spec, &reserved, blocks)?;
+            finish(library, failed, &reasons).map_err(told)
+        })
     })
 }
 
 /// What is known once all rows are written.
-fn finish(file: hdf5::File, failed: usize, reasons: &[String]) -> Result<(), hdf5::Error> {
-    scalar(&file, schema::FAILED, failed as u64)?;
-    let reasons = texts(&file, &schema::FAILURES, reasons)?;
-    set_scale(&reasons, schema::FAILURES.0)?;
-    file.flush()?;
-    file.close()
+fn finish(file: &hdf5::File, failed: usize, reasons: &[String]) -> Result<(), hdf5::Error> {
+    scalar(file, schema::FAILED, failed as u64)?;
+    let reasons = texts(file, &schema::FAILURES, reasons)?;
+    set_scale(&reasons, schema::FAILURES.0)
 }
 
 /// Bytes that a row takes in a part, and in the journal while it is computed.
@@ -160,15 +159,14 @@ fn begin<'a>(
     Ok(reserved)
 }
 
-/// Writes all rows into the file at `path`, which the library has open: it writes to other places of it. Gives the
-/// number of failed rows, and the distinct reasons in the order in which they come.
+/// Writes all rows into a file that the library has open: it writes to other places of it, and to them by their places alone.
+/// Gives the number of failed rows, and the distinct reasons in the order in which they come.
 fn fill(
-    path: &Path,
+    file: &File,
     spec: &Spec,
     reserved: &[Reserved<'_>],
     blocks: &(impl Blocks + ?Sized),
 ) -> Result<(usize, Vec<String>), Fault> {
-    let mut file = File::options().write(true).open(path)?;
     let (mut reasons, mut known) = (Vec::new(), HashMap::new());
     let failed = each_of(spec, blocks, &mut |block| {
         for (_, reason) in &block.failures {
@@ -186,12 +184,23 @@ fn fill(
             let Some(place) = place else { continue };
             let (bytes, width) = bytes(what.cells(spec, block, 0..block.len())?, &known);
             let before = (block.start - spec.selected().start) * width;
-            file.seek(SeekFrom::Start(place + before as u64))?;
-            file.write_all(&bytes)?;
+            write_at(file, place + before as u64, &bytes)?;
         }
         Ok(())
     })?;
     Ok((failed, reasons))
+}
+
+/// Writes bytes at a place; where the library writes next is not changed by it.
+fn write_at(file: &File, place: u64, bytes: &[u8]) -> io::Result<()> {
+    #[cfg(unix)]
+    return std::os::unix::fs::FileExt::write_all_at(file, bytes, place);
+    #[cfg(not(unix))]
+    {
+        let mut file = file;
+        file.seek(io::SeekFrom::Start(place))?;
+        file.write_all(bytes)
+    }
 }
 
 /// The bytes of some cells, and of one of them; reasons are told by their numbers.

@@ -2,7 +2,7 @@
 
 use super::block::{Block, Blocks};
 use super::columns::{Cells, Column, What, columns, each_of};
-use super::footer::{DIGITS, FORMAT_VERSION, Footer, TAIL, footer_of, seal_in, sum_without};
+use super::footer::{DIGITS, FORMAT_VERSION, Footer, TAIL, footer_in, seal_in, sum_without};
 use crate::sweep::axes::Values;
 use crate::sweep::fields::Precision;
 use crate::sweep::schema::{FILE_TYPE, part};
@@ -25,7 +25,6 @@ use serde_json::json;
 use sha2::{Digest, Sha256};
 use std::fs::File;
 use std::io::{self, BufWriter, Seek, SeekFrom, Write};
-use std::path::Path;
 use std::sync::Arc;
 
 /// Rows of a group.
@@ -45,9 +44,9 @@ pub(super) fn stage_parquet<'a>(
     spec: &Spec,
     blocks: &(impl Blocks + ?Sized),
 ) -> Result<Staged<'a>, OutputError> {
-    output.stage(|path| {
+    output.stage(|made| {
         let columns = columns(spec);
-        let file = BufWriter::with_capacity(1 << 20, File::create(path)?);
+        let file = BufWriter::with_capacity(1 << 20, made);
         let schema = schema(spec, &columns).map_err(fault)?;
         let properties = Arc::new(properties(&columns).map_err(fault)?);
         let mut writer = SerializedFileWriter::new(file, schema, properties).map_err(fault)?;
@@ -81,7 +80,7 @@ pub(super) fn stage_parquet<'a>(
         let text = serde_json::to_string(&footer).map_err(|error| error.to_string())?;
         writer.append_key_value_metadata(KeyValue::new("hertzlamb".to_owned(), text));
         writer.close().map_err(fault)?;
-        seal(path).map_err(Fault::from)
+        seal(made).map_err(Fault::from)
     })
 }
 
@@ -96,7 +95,7 @@ fn words_of(column: &Column<'_>) -> Vec<ByteArray> {
 
 /// Writes a group of rows; gives the SHA-256 of its bytes.
 fn write_group(
-    writer: &mut SerializedFileWriter<BufWriter<File>>,
+    writer: &mut SerializedFileWriter<BufWriter<&File>>,
     spec: &Spec,
     columns: &[Column<'_>],
     words: &[Vec<ByteArray>],
@@ -149,12 +148,11 @@ fn footer(spec: &Spec, columns: &[Column<'_>], failed: usize) -> Footer {
 }
 
 /// Seals the footer of a file that is written.
-fn seal(path: &Path) -> io::Result<()> {
-    let (bytes, length) = footer_of(path)?;
+fn seal(mut file: &File) -> io::Result<()> {
+    let (bytes, length) = footer_in(file)?;
     let placed = bytes.and_then(|bytes| Some((seal_in(&bytes)?, bytes)));
     let (digits, bytes) = placed.ok_or_else(|| io::Error::other("its footer has no seal"))?;
     let place = length - TAIL - bytes.len() as u64 + digits.start as u64;
-    let mut file = File::options().write(true).open(path)?;
     file.seek(SeekFrom::Start(place))?;
     file.write_all(sum_without(&bytes, &digits).as_bytes())
 }
