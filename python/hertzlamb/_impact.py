@@ -241,11 +241,13 @@ class Impact:
     cone_crack_onset: float
     """Largest force over that of a cone crack by Auerbach's law; NaN where no toughness is known."""
     yield_pressure_pa: float
-    """Mean pressure that the yielding contact does not exceed; of jackson_green the one at which it yields in Pa; NaN without a plasticity."""
+    """Mean pressure that the yielding contact does not exceed; of jackson_green the one at which it yields under the surface in Pa; NaN without a plasticity."""
     yield_velocity_m_s: float
-    """Velocity of approach at which yield begins in m/s; NaN without a plasticity."""
+    """Velocity of approach from which the law of flow differs from elasticity in m/s; NaN without a plasticity."""
     velocity_over_yield: float
-    """Velocity of approach over that at which yield begins; NaN without a plasticity."""
+    """Velocity of approach over the one from which the law of flow differs from elasticity; NaN without a plasticity."""
+    velocity_over_trusted: float
+    """Velocity of approach over the largest one for which the law of flow is trusted; NaN for laws without such a limit."""
     plastic_work_j: float
     """Work of the plastic flow in J; NaN without a plasticity."""
     peak_indentation_m: float
@@ -496,7 +498,9 @@ class Inferred(NamedTuple):
     low: float | None
     """The least that the error of the measure allows; None where no contact that yields has that."""
     high: float | None
-    """The most."""
+    """The most; None, too, where the rebound is elastic: any higher yield pressure has it."""
+    elastic: bool
+    """Whether the measure is that of an elastic contact, within its error or that of the results."""
     velocity_over_yield: float
     yield_velocity_m_s: float
     restitution: float
@@ -533,7 +537,7 @@ def infer(
     Returns
     -------
     Inferred
-        The value with the band that the error makes of it, equal to those of ``hertzlamb infer`` to the last bit.
+        The value with its interval by the error of the measure, equal to those of ``hertzlamb infer`` to the last bit.
 
     Raises
     ------

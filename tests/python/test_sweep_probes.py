@@ -92,7 +92,7 @@ def test_columns_have_names_units_and_meanings(tmp_path):
     assert "at probe 2" in found["probe_2_displacement_z_error"][1]
     assert len([name for name in found if name.startswith("probe_")]) == 1 + 2 * 7 * 3
     with h5py.File(tmp_path / "s.h5") as file:
-        assert file.attrs["format_version"] == "1.6"
+        assert file.attrs["format_version"] == "1.7"
         assert 'kernel = "direct"' in file.attrs["sweep"]
     head, *lines = (tmp_path / "s.csv").read_text().splitlines()
     place = head.split(",").index("probe_1_stress_zz_peak")

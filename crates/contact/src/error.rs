@@ -72,6 +72,16 @@ pub enum ContactError {
         "the yielding contact could not be followed: its yield_pressure_pa or yield strength is too far from the pressure of the contact"
     )]
     NotFollowed,
+    /// A fit that gives nothing back of so deep an indentation.
+    #[error(
+        "velocity_m_s = {velocity_m_s:.4e} leaves a dent as deep as the indentation by plasticity = \"jackson_green\", which is trusted up to {trusted_m_s:.4e} m/s: use \"thornton\" or \"recovery\", a lower velocity or a higher yield strength"
+    )]
+    NoRebound {
+        /// Velocity of approach in m/s.
+        velocity_m_s: f64,
+        /// The largest for which the law is trusted, in m/s.
+        trusted_m_s: f64,
+    },
     /// A number that floating-point arithmetic does not hold.
     #[error(
         "the {quantity} comes out as {value:e}: the numbers of the scene are beyond what floating-point arithmetic holds; check their units"

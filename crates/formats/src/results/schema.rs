@@ -7,7 +7,7 @@ use impact::{EnergySeries, ProbeFields, Series};
 /// Value of the attribute `file_type`.
 pub const FILE_TYPE: &str = "hertzlamb results";
 /// Version of the format: the first number changes when a reader of the old one would fail.
-pub const FORMAT_VERSION: &str = "1.8";
+pub const FORMAT_VERSION: &str = "1.9";
 /// Datasets in the root, with unit and description.
 pub const SERIES: [(&str, &str, &str); 5] = labels! {
     "time", "s", "time since the first touch";

@@ -3,7 +3,7 @@
 /// Value of the attribute `file_type`.
 pub const FILE_TYPE: &str = "hertzlamb sweep";
 /// Version of the format: the first number changes when a reader of the old one would fail.
-pub const FORMAT_VERSION: &str = "1.6";
+pub const FORMAT_VERSION: &str = "1.7";
 
 /// Section of the stored sweep that says where its fields have their kernels from.
 pub const FIELDS: &str = "fields";
@@ -44,7 +44,7 @@ pub const SHA256: &str = "sweep_sha256";
 /// Number attribute of the root: rows.
 pub const ROWS: &str = "rows";
 /// Results that are counted over all rows where they are above one, whatever is written.
-pub const COUNTED: [&str; 2] = ["yield_onset", "cone_crack_onset"];
+pub const COUNTED: [&str; 3] = ["yield_onset", "cone_crack_onset", "velocity_over_trusted"];
 /// Number attribute of the root: rows that failed.
 pub const FAILED: &str = "failed";
 /// Attribute of the models: their names.
@@ -55,7 +55,7 @@ pub mod part {
     /// Value of the attribute `file_type`.
     pub const FILE_TYPE: &str = "hertzlamb sweep part";
     /// Version of the format: the first number changes when a reader of the old one would fail.
-    pub const FORMAT_VERSION: &str = "1.2";
+    pub const FORMAT_VERSION: &str = "1.3";
 
     /// Text attribute of the root, beside those of a sweep: I/N of the I-th of N shards, nothing for other rows.
     pub const SHARD: &str = "shard";
