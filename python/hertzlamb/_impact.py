@@ -503,6 +503,8 @@ class Inferred(NamedTuple):
     """Whether the measure is that of an elastic contact, within its error or that of the results."""
     velocity_over_yield: float
     yield_velocity_m_s: float
+    velocity_over_trusted: float | None
+    """Velocity over the largest one for which the law is trusted; None for laws without such a limit."""
     restitution: float
     contact_time_s: float
     peak_force_n: float

@@ -5,13 +5,16 @@ use thiserror::Error;
 
 /// A contact that has no results.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
 pub enum ContactError {
     /// The march failed.
     #[error(transparent)]
     March(#[from] MarchError),
     /// An approach that no wave of the surface outruns.
     #[error(
-        "the approach at velocity_m_s = {velocity_m_s:.4e} is not below the {limit_m_s:.4e} m/s of the half-space's Rayleigh wave, and contact laws are for slower ones: check the velocity, or the height of the fall, and the target's constants"
+        "the approach at velocity_m_s = {} is not below the {} m/s of the half-space's Rayleigh wave, and contact laws are for slower ones: check the velocity, or the height of the fall, and the target's constants",
+        fault::rounded(*velocity_m_s),
+        fault::rounded(*limit_m_s)
     )]
     TooFast {
         /// Velocity of approach in m/s.
@@ -20,7 +23,7 @@ pub enum ContactError {
         limit_m_s: f64,
     },
     /// A number that no body has, and whose powers would leave the range of numbers.
-    #[error("{quantity} = {value:e} is outside [1e-30, 1e30]")]
+    #[error("{quantity} = {} is outside [1e-30, 1e30]", fault::number(*value))]
     OutOfRange {
         /// The quantity, with its unit.
         quantity: &'static str,
@@ -74,7 +77,9 @@ pub enum ContactError {
     NotFollowed,
     /// A fit that gives nothing back of so deep an indentation.
     #[error(
-        "velocity_m_s = {velocity_m_s:.4e} leaves a dent as deep as the indentation by plasticity = \"jackson_green\", which is trusted up to {trusted_m_s:.4e} m/s: use \"thornton\" or \"recovery\", a lower velocity or a higher yield strength"
+        "velocity_m_s = {} leaves a dent as deep as the indentation by plasticity = \"jackson_green\", which is trusted up to {} m/s: use \"thornton\" or \"recovery\", a lower velocity or a higher yield strength",
+        fault::rounded(*velocity_m_s),
+        fault::rounded(*trusted_m_s)
     )]
     NoRebound {
         /// Velocity of approach in m/s.
@@ -94,7 +99,8 @@ pub enum ContactError {
     },
     /// A step that no march can have.
     #[error(
-        "step_s = {step_s:e} is outside [1e-9, 1000] times Hertz's contact time, {hertz_s:.3e} s"
+        "step_s = {} is outside [1e-9, 1000] times Hertz's contact time, {hertz_s:.3e} s",
+        fault::number(*step_s)
     )]
     Step {
         /// The step in s.
@@ -116,6 +122,7 @@ pub enum ContactError {
 
 /// Why a march could not be carried through.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
 pub enum MarchError {
     /// The step is too coarse to see the contact.
     #[error(
@@ -187,6 +194,17 @@ pub enum MarchError {
         target_share: f64,
         /// tau.
         wave_time: f64,
+    },
+    /// More work than a contact is worth.
+    #[error(
+        "the growing contact needs too much work at a relative tolerance of {}: it was followed for {time:.4} collision times of about 3; use a larger tolerance or model \"area_dashpot\"",
+        fault::number(*tolerance)
+    )]
+    TooMuchWork {
+        /// Time in collision units.
+        time: f64,
+        /// Tolerance of its pieces.
+        tolerance: f64,
     },
     /// The results do not meet the tolerance by their estimates.
     #[error(

@@ -14,6 +14,7 @@ pub const MOST_ERROR: f64 = 0.5;
 
 /// Scalar results of a contact in SI units.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Results {
     /// Largest force in N.
     pub peak_force_n: f64,
@@ -59,6 +60,7 @@ pub struct Results {
 
 /// What flows in a contact, in SI units; all none where no law of flow is asked for.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[non_exhaustive]
 pub struct Plastic {
     /// Mean pressure that is not exceeded, or at which the fit's contact yields, in Pa.
     pub yield_pressure_pa: Option<f64>,

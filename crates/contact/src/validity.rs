@@ -211,8 +211,9 @@ fn of_the_flow(
     if let Some(over) = over.filter(|&over| over > 1.0) {
         let (velocity, law) = (collision.velocity_m_s, settings.plasticity.name());
         found.push(format!(
-            "velocity_m_s = {velocity:.4e} is {over:.3} times the {:.4e} m/s up to which plasticity = \"{law}\" is trusted: restitution and indentation may be far off, which the error estimate does not contain; use \"thornton\" or \"recovery\", or a lower velocity",
-            velocity / over
+            "velocity_m_s = {} is {over:.1} times the {} m/s up to which plasticity = \"{law}\" is trusted: restitution and indentation may be far off, which the error estimate does not contain; use \"thornton\" or \"recovery\", or a lower velocity",
+            fault::rounded(velocity),
+            fault::rounded(velocity / over)
         ));
     }
 }

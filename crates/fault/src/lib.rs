@@ -163,6 +163,15 @@ pub fn number(value: f64) -> String {
     }
 }
 
+/// A number that was computed, with four digits.
+///
+/// ```
+/// assert_eq!([1.0, 0.022_414_4, 3.0e-9].map(fault::rounded), ["1", "0.02241", "3e-9"]);
+/// ```
+pub fn rounded(value: f64) -> String {
+    number(format!("{value:.3e}").parse().unwrap_or(value))
+}
+
 /// A sentence alone.
 impl<T: AsRef<str> + Debug + Display> Fault for T {
     fn culprit(&self) -> Culprit<'_> {

@@ -117,6 +117,7 @@ pub fn infer(
         "elastic": found.elastic,
         "velocity_over_yield": results.plastic.velocity_over_yield,
         "yield_velocity_m_s": results.plastic.yield_velocity_m_s,
+        "velocity_over_trusted": results.plastic.velocity_over_trusted,
         "restitution": results.restitution,
         "contact_time_s": results.contact_time_s,
         "peak_force_n": results.peak_force_n,

@@ -55,7 +55,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let (name, values) =
         given.unwrap_or_else(|| ("bounces", arguments.bounces.clone().unwrap_or_default()));
     let (found, report) = formats::infer(&scene, (name, &values), arguments.error, unknown)?;
-    let (name, results) = (unknown.name(), &found.results);
+    let results = &found.results;
     let in_units = |x| si(x, unknown.unit());
     let end = |end: Option<f64>, none: &str| end.map_or(none.to_owned(), in_units);
     let [low, high] = found.band;
@@ -64,7 +64,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let over = results.plastic.velocity_over_yield.unwrap_or(1.0);
     let yields = si(results.plastic.yield_velocity_m_s.unwrap_or(0.0), "m/s");
     let mut text = vec![
-        (name, format!("{value} ({low} to {high})")),
+        (unknown.words(), format!("{value} ({low} to {high})")),
         (
             "yield",
             format!("from {yields} on, {over:.4} times that here"),
@@ -76,6 +76,15 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     if found.elastic {
         let told = "the measure is that of an elastic contact: any higher yield pressure has it";
         text.push(("note", told.to_owned()));
+    }
+    if let Some(over) = results
+        .plastic
+        .velocity_over_trusted
+        .filter(|&over| over > 1.0)
+    {
+        let law = scene.settings.plasticity.name();
+        let told = format!("{over:.1} times as fast as plasticity = \"{law}\" is trusted");
+        text.push(("note", told));
     }
     show(arguments.json, &report, lines(text))
 }

@@ -48,6 +48,14 @@ impl Unknown {
             Self::Velocity => "m/s",
         }
     }
+
+    /// What it is in words.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::YieldPressure => "yield pressure",
+            Self::Velocity => "velocity",
+        }
+    }
 }
 
 /// What was found.
@@ -105,7 +113,7 @@ pub enum InferError {
 fn reach(most: f64) -> String {
     format!(
         "from its yield velocity to {} times it: check the unit of the measure and the scene",
-        fault::number(most)
+        fault::rounded(most)
     )
 }
 

@@ -46,7 +46,7 @@ pub fn read_record(path: &Path, reading: Reading) -> Result<ForceRecord, SceneEr
             RecordError::NotAscending {
                 time_s, before_s, ..
             } => not_ascending(name, time_s, before_s),
-            RecordError::NotFinite { .. } => error.to_string(),
+            other => other.to_string(),
         })
     })?;
     record.file = Some(path.to_owned());
