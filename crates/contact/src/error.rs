@@ -195,17 +195,6 @@ pub enum MarchError {
         /// tau.
         wave_time: f64,
     },
-    /// More work than a contact is worth.
-    #[error(
-        "the growing contact needs too much work at a relative tolerance of {}: it was followed for {time:.4} collision times of about 3; use a larger tolerance or model \"area_dashpot\"",
-        fault::number(*tolerance)
-    )]
-    TooMuchWork {
-        /// Time in collision units.
-        time: f64,
-        /// Tolerance of its pieces.
-        tolerance: f64,
-    },
     /// The results do not meet the tolerance by their estimates.
     #[error(
         "relative tolerance {tolerance:e} is not reached: the error is estimated as {estimate:e}"

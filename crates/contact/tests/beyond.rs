@@ -3,9 +3,9 @@
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 
 use contact::{
-    Accuracy, Collision, ContactError, Exact, GrowingContact, HalfSpace, MarchError, Material,
-    Measure, Model, Plasticity, PunchWaves, Results, Settings, Solver, Striker, Unknown, infer,
-    march_growing, solve_growing, warnings,
+    Collision, ContactError, Exact, GrowingContact, HalfSpace, MarchError, Material, Measure,
+    Model, Plasticity, PunchWaves, Results, Settings, Solver, Striker, Unknown, infer,
+    march_growing, warnings,
 };
 use halfspace::Medium;
 use std::time::{Duration, Instant};
@@ -158,41 +158,24 @@ fn an_elastic_rebound_has_a_least_pressure_and_no_largest() {
 }
 
 #[test]
-fn work_that_does_not_end_is_given_up() {
-    let waves = PunchWaves::new(&Medium::new(0.29).unwrap());
-    let begun = Instant::now();
-    for (target_share, wave_time) in [(2e-7, 1e-6), (1e-5, 3e-5), (0.9999, 1e-5)] {
-        let contact = GrowingContact {
-            waves: &waves,
-            target_share,
-            wave_time,
-        };
-        let found = solve_growing(&contact, &Accuracy::of_contact(3e-11, Some(1e-9)));
-        println!(
-            "{target_share} {wave_time}: {:?} {:?}",
-            found.map(|one| one.pieces()),
-            begun.elapsed()
-        );
-    }
-    // a soft ball that flows on steel, far more closely than rounding allows
+fn a_tolerance_that_no_march_reaches_is_given_up_in_seconds() {
+    // a soft ball that flows on steel, more closely than rounding allows
     let block = HalfSpace::new(Material::named("steel").unwrap()).unwrap();
     let ball = Striker::ball(Material::elastic(5e4, 0.3, 7800.0).unwrap(), 0.004).unwrap();
-    for tolerance in [1e-9, 3e-9] {
+    let begun = Instant::now();
+    for tolerance in [1e-9, 3e-9, 1e-8] {
         let settings = Settings {
             model: Model::Growing,
             plasticity: Plasticity::Thornton,
-            yield_pressure_pa: Some(1e4),
+            yield_pressure_pa: Some(1e6),
             tolerance,
             ..Settings::default()
         };
         let found = Solver::new(&Exact).solve(&Collision::new(&block, &ball, 0.7), &settings);
-        println!(
-            "{tolerance}: {:?} {:?}",
-            found.map(|one| one.error),
-            begun.elapsed()
-        );
+        let told = found.map(|one| one.error);
+        println!("{tolerance}: {told:?} after {:?}", begun.elapsed());
     }
-    assert!(begun.elapsed() < Duration::from_secs(120));
+    assert!(begun.elapsed() < Duration::from_secs(60));
 }
 
 #[test]

@@ -153,11 +153,7 @@ fn of_contact(error: &ContactError) -> Culprit<'_> {
     let culprit = Culprit::of(Class::Impact);
     match error {
         ContactError::March(
-            M::NoSolution { .. }
-            | M::TooLong { .. }
-            | M::TooMuchWork { .. }
-            | M::NotConverged { .. }
-            | M::Unstable { .. },
+            M::NoSolution { .. } | M::TooLong { .. } | M::NotConverged { .. } | M::Unstable { .. },
         ) => culprit.unmendable(),
         ContactError::TooFast { velocity_m_s, .. }
         | ContactError::NoRebound { velocity_m_s, .. } => {

@@ -112,7 +112,14 @@ impl Impact {
         Collision::new(&self.half_space, &self.striker, self.velocity_m_s)
     }
 
-    /// Solves the contact.
+    /// Solves the contact, with the force at every instant and the warnings.
+    ///
+    /// The history takes most of the time where the model has a closed form.
+    /// For the results alone use [`Solver::solve`](contact::Solver::solve), for many impacts
+    /// [`sweep::collide`](crate::sweep::collide), which shares what they have in common.
+    ///
+    /// # Errors
+    /// [`ContactError`].
     pub fn solve(&self) -> Result<Run, ContactError> {
         let settings = &self.settings;
         let collision = self.collision();

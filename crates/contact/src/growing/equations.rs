@@ -31,8 +31,6 @@ pub(crate) struct March<'a> {
     pub(crate) law: Law,
     /// Of the rule over the waves.
     pub(crate) level: usize,
-    /// Products of nodes and waves of all pieces that were tried.
-    pub(crate) work: usize,
     /// Largest radius.
     pub(crate) widest: f64,
     /// int p (v - u') dt.

@@ -26,12 +26,6 @@ const MOST: usize = 1500;
 /// Radius over the largest from which on the radius is the variable.
 const SWITCH: f64 = 0.75;
 
-/// Work of a contact at most: products of nodes and waves over all pieces that are tried.
-///
-/// Contacts that are followed take 3e4 at a tolerance of 1e-4 and up to 2e6 at 1e-10; a unit takes about 1 us.
-/// `tests/growing.rs` (`work_that_does_not_end_is_given_up`) fails where it is not kept.
-const MOST_WORK: usize = 10_000_000;
-
 /// Slope of the indentation below which the time to the expected end is the variable.
 const LATE: f64 = 0.5;
 
@@ -64,7 +58,6 @@ impl<'a> March<'a> {
             state: State::TOUCH,
             law: Law::HERTZ,
             level: 2,
-            work: 0,
             widest: 0.0,
             dissipated: 0.0,
             errors: Errors::default(),
@@ -101,11 +94,7 @@ impl<'a> March<'a> {
                 known,
                 given,
             };
-            let waves = self.contact.waves.rule(self.level).len();
-            let work = self.nodes.degree * waves.max(1);
-            let solution = equations.solve(guess);
-            self.work += work;
-            let solution = solution?;
+            let solution = equations.solve(guess)?;
             // of the force where the radius is sought
             let weight = match known {
                 Independent::Time => 3.0 * solution.widest * solution.widest,
@@ -126,12 +115,6 @@ impl<'a> March<'a> {
 
     /// Why it cannot go on.
     pub(crate) fn lost(&self) -> MarchError {
-        if self.work > MOST_WORK {
-            return MarchError::TooMuchWork {
-                time: self.state.time,
-                tolerance: self.accuracy,
-            };
-        }
         MarchError::NotFollowed {
             time: self.state.time,
             tolerance: self.accuracy,
@@ -245,9 +228,6 @@ impl<'a> March<'a> {
     ) -> Result<bool, MarchError> {
         let mut ends = false;
         for _ in 0..most {
-            if self.work > MOST_WORK {
-                break;
-            }
             let Some((given, guess, last)) = piece(self, &mut length) else {
                 return Ok(false);
             };
@@ -360,9 +340,6 @@ impl<'a> March<'a> {
         let (phi, wave_time) = (self.contact.target_share, self.contact.wave_time);
         let bare = (self.accuracy / (0.01 * phi * wave_time)).max(0.3 * wave_time);
         for _ in 0..MOST_AT_END {
-            if self.work > MOST_WORK {
-                break;
-            }
             let from = self.state.radius;
             let rate = self.law.branch.at(from).depth_slope / -self.state.slope;
             let left = rate * from / power;

@@ -28,7 +28,7 @@ const SPLITS: [usize; 3] = [4, 2, 2];
 
 /// Products that a cell of the memory takes as long as: its weight is two relaxations, at the radius of its moment.
 ///
-/// `tests/growing.rs` (`a_step_too_fine_is_refused_before_the_march`) fails where it is too small.
+/// `tests/beyond.rs` (`a_step_too_fine_is_refused_before_the_march`) fails where it is too small.
 const CELL: usize = 64;
 
 /// Iterations of a step at most; each gains two digits or more.

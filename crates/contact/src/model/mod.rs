@@ -133,6 +133,8 @@ impl StaticShare {
 }
 
 /// How a contact is computed.
+///
+/// Fields may be added: name those that you set and end with `..Settings::default()`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
     /// Radius of the loaded disc in m, if it is fixed.

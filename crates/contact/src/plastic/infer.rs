@@ -142,7 +142,7 @@ impl Fault for InferError {
 
 /// Velocity of approach over that of yield, at most: the restitution of `thornton` is 0.006 there.
 ///
-/// `tests/plastic.rs` (`every_rebound_is_inferred_that_an_impact_gives`) goes near it.
+/// `tests/beyond.rs` (`every_rebound_is_inferred_that_an_impact_gives`) goes near it.
 const MOST: f64 = 1e9;
 
 /// Bisections of the logarithm of that ratio, where the law ends before it: to a thousandth.

@@ -48,14 +48,7 @@ impl Yielding {
         };
         // a stiff striker's last instants may need finer pieces
         let [first, second, last] = PIECE;
-        let mut found = tried(first);
-        for part in [second, last] {
-            match found {
-                Ok(_) | Err(MarchError::TooMuchWork { .. }) => break,
-                Err(_) => found = tried(part),
-            }
-        }
-        found
+        (tried(first).or_else(|_| tried(second))).or_else(|_| tried(last))
     }
 }
 

@@ -40,7 +40,7 @@ pub(crate) enum FlowLaw {
 ///
 /// Up to here the restitution by the energy of the law is within 2.5 % of the formula that its authors fitted to their
 /// finite elements, for yield strengths up to 0.01 of the effective modulus; at 2000 it is 10 to 50 % off, and the formula
-/// ends at 1000. `tests/plastic.rs` (`the_fit_is_warned_of_where_it_leaves_its_authors_restitution`) fails otherwise.
+/// ends at 1000. `tests/beyond.rs` (`the_fit_is_warned_of_where_it_leaves_its_authors_restitution`) fails otherwise.
 const TRUSTED: f64 = 500.0;
 
 /// A contact that may yield, in collision units.
