@@ -500,7 +500,7 @@ class Inferred(NamedTuple):
     high: float | None
     """The most; None, too, where the rebound is elastic: any higher yield pressure has it."""
     elastic: bool
-    """Whether the measure is that of an elastic contact, within its error or that of the results."""
+    """Whether the measure is that of an elastic contact, within its error or the tolerance of the results."""
     velocity_over_yield: float
     yield_velocity_m_s: float
     velocity_over_trusted: float | None

@@ -66,8 +66,8 @@ pub struct Inferred {
     /// The unknown with the measure less and more its error, ascending; an end is missing where no contact that yields has
     /// such a measure.
     pub band: [Option<f64>; 2],
-    /// Whether the measure is that of an elastic contact, within its error or that of the results: any yield pressure from
-    /// the lower end on has it, and the interval has no upper end.
+    /// Whether the measure is that of an elastic contact, within its error or the tolerance of the results: any yield
+    /// pressure from the lower end on has it, and the interval has no upper end.
     pub elastic: bool,
     /// Results with that value.
     pub results: Results,
@@ -177,6 +177,22 @@ impl Varied<'_> {
         Ok((results, measured))
     }
 
+    /// The largest velocity over that of yield: where the law, or a velocity that any contact law serves, ends.
+    fn most(&self, by_ratio: impl Fn(f64) -> f64) -> f64 {
+        if self.at(by_ratio(MOST)).is_ok() {
+            return MOST;
+        }
+        let [mut near, mut far] = [0.0, MOST.ln()];
+        for _ in 0..BISECTIONS {
+            let middle = 0.5 * (near + far);
+            match self.at(by_ratio(middle.exp())) {
+                Ok(_) => near = middle,
+                Err(_) => far = middle,
+            }
+        }
+        near.exp()
+    }
+
     /// The unknown as a function of the velocity over that of yield, s, which goes with V and with p_y^-2.5.
     fn by_ratio(&self) -> Result<impl Fn(f64) -> f64, ContactError> {
         let unknown = self.unknown;
@@ -229,19 +245,7 @@ pub fn infer(
     };
     let by_ratio = varied.by_ratio()?;
     let at = |x: f64| varied.at(x);
-    let mut most = MOST;
-    if at(by_ratio(most)).is_err() {
-        // where the law, or a velocity that any contact law serves, ends
-        let [mut near, mut far] = [0.0, most.ln()];
-        for _ in 0..BISECTIONS {
-            let middle = 0.5 * (near + far);
-            match at(by_ratio(middle.exp())) {
-                Ok(_) => near = middle,
-                Err(_) => far = middle,
-            }
-        }
-        most = near.exp();
-    }
+    let most = varied.most(&by_ratio);
     let bracket = [1.0, most].map(&by_ratio);
     let (onset, end) = (at(bracket[0])?, at(bracket[1])?.1);
     let ends = [onset.1, end];
@@ -263,7 +267,8 @@ pub fn infer(
     };
     // how far a measure is beyond that of an elastic contact, away from those that yield
     let beyond = |value: f64| (value - ends[0]) * (ends[0] - ends[1]).signum();
-    let slack = error.max(onset.0.relative_error_estimate * ends[0]);
+    let relative = settings.tolerance.max(onset.0.relative_error_estimate);
+    let slack = error.max(relative * ends[0]);
     let elastic = unknown == Unknown::YieldPressure && beyond(value).abs() <= slack;
     let inside = |value: f64| match elastic && beyond(value) > 0.0 {
         true => ends[0],
