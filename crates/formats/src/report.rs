@@ -130,13 +130,12 @@ const LONGEST_BOUNCE_S: f64 = 10.0;
 
 /// A sentence about times between bounces that no ball has, as those given in ms.
 fn doubt_of_bounces(first: f64, second: f64) -> Option<String> {
-    let written = |scale: f64| {
-        [first, second]
-            .map(|time| fault::number(scale * time))
-            .join(",")
+    let written = |per_s: f64| {
+        let times = [first, second].map(|time| fault::number(time / per_s));
+        times.join(",")
     };
     let change = match first <= 1e3 * LONGEST_BOUNCE_S {
-        true => format!("; if they are in ms, give {}", written(1e-3)),
+        true => format!("; if they are in ms, give {}", written(1e3)),
         false => String::new(),
     };
     (first > LONGEST_BOUNCE_S && first.is_finite()).then(|| {
