@@ -1,4 +1,4 @@
-"""Structure of the Rust code: no circle of imports, few files in a folder, short functions.
+"""Structure of the Rust code: one version of Rust, no circle of imports, few files in a folder, short functions.
 
 Usage: check-structure.py [CRATE...], from the root of the repository.
 Tables of data (files named *_data.rs) may be longer.
@@ -127,6 +127,8 @@ def main(wanted):
     for folder in crates:
         if wanted and folder.name not in wanted:
             continue
+        if "\nrust-version.workspace = true\n" not in (folder / "Cargo.toml").read_text():
+            faults.append(f"{folder.name}: its version of Rust is not that of the workspace")
         known = modules(folder / "src")
         for circle in circles(known):
             names = [str(known[module].relative_to(ROOT)) for module in circle]

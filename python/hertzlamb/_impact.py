@@ -251,11 +251,13 @@ class Impact:
     cone_crack_onset: float
     """Largest force over that of a cone crack by Auerbach's law; NaN where no toughness is known."""
     yield_pressure_pa: float
-    """Mean pressure that the yielding contact does not exceed; of jackson_green the one at which it yields in Pa; NaN without a plasticity."""
+    """Mean pressure that the yielding contact does not exceed; of jackson_green the one at which it yields under the surface in Pa; NaN without a plasticity."""
     yield_velocity_m_s: float
-    """Velocity of approach at which yield begins in m/s; NaN without a plasticity."""
+    """Velocity of approach from which the law of flow differs from elasticity in m/s; NaN without a plasticity."""
     velocity_over_yield: float
-    """Velocity of approach over that at which yield begins; NaN without a plasticity."""
+    """Velocity of approach over the one from which the law of flow differs from elasticity; NaN without a plasticity."""
+    velocity_over_trusted: float
+    """Velocity of approach over the largest one for which the law of flow is trusted; NaN for laws without such a limit."""
     plastic_work_j: float
     """Work of the plastic flow in J; NaN without a plasticity."""
     peak_indentation_m: float
@@ -516,10 +518,14 @@ class Inferred(NamedTuple):
     """Lower bound from the error of the measure; None if no yielding contact gives such a value."""
     high: float | None
     """Upper bound from the error of the measure; None if there is none, as for an impact that stays elastic."""
+    elastic: bool
+    """Whether the measure is that of an elastic contact, within its error or the tolerance of the results."""
     velocity_over_yield: float
     """Velocity of approach over that at which yield begins."""
     yield_velocity_m_s: float
     """Velocity of approach in m/s at which yield begins."""
+    velocity_over_trusted: float | None
+    """Velocity of approach over the largest one for which the law is trusted; None for laws without such a limit."""
     restitution: float
     """Velocity of departure over velocity of approach."""
     contact_time_s: float

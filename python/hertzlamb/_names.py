@@ -39,6 +39,7 @@ class OfRows:
     yield_pressure_pa: Floats
     yield_velocity_m_s: Floats
     velocity_over_yield: Floats
+    velocity_over_trusted: Floats
     plastic_work_j: Floats
     peak_indentation_m: Floats
     residual_indentation_m: Floats

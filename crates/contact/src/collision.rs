@@ -11,8 +11,8 @@ use crate::growing::waves::{GrowingContact, PunchWaves};
 use crate::law::hertz::CONTACT_TIME;
 use crate::model::{Plasticity, Settings, StaticShare};
 use crate::names::Choice;
-use crate::plastic::Yielding;
-use crate::plastic::branch::Fit;
+use crate::plastic::branch::{FITTED, Fit};
+use crate::plastic::{FlowLaw, Yielding};
 use crate::units::{CollisionUnits, KernelUnits};
 use halfspace::Medium;
 use std::f64::consts::PI;
@@ -131,26 +131,37 @@ impl Collision {
     /// [`ContactError::NoStrength`] where nothing says when it yields.
     pub fn yielding(&self, settings: &Settings) -> Result<Option<Yielding>, ContactError> {
         let law = settings.plasticity;
-        if law == Plasticity::None {
-            return Ok(None);
-        }
         let missing = ContactError::NoStrength { law: law.name() };
         let known = self.strengths.iter().filter_map(Strength::yields);
-        let (yield_pressure_pa, fit) = if law == Plasticity::JacksonGreen {
-            let shaped = known.map(|(strength, nu)| (strength, 1.295 * (0.736 * nu).exp()));
-            let softer = |a: (f64, f64), b: (f64, f64)| if b.0 * b.1 < a.0 * a.1 { b } else { a };
-            let (strength, shape) = shaped.reduce(softer).ok_or(missing)?;
-            // the mean of Hertz's pressure whose maximum is C S_y
-            (2.0 / 3.0 * shape * strength, Some((strength, shape)))
-        } else {
-            let softest = known.map(|(strength, _)| strength).reduce(f64::min);
-            let taken = softest.map(|strength| CONSTRAINT * strength);
-            (settings.yield_pressure_pa.or(taken).ok_or(missing)?, None)
+        // indentation at which the maximum of Hertz's pressure is this one
+        let depth_of = |maximum: f64| {
+            let angle = 0.5 * PI * maximum / self.effective_modulus_pa;
+            angle * angle * self.tip_radius_m / self.units().length_m
         };
-        // Hertz's pressure has this maximum at the yield velocity
-        let maximum = fit.map_or(yield_pressure_pa, |(strength, shape)| strength * shape);
-        let angle = 0.5 * PI * maximum / self.effective_modulus_pa;
-        let depth = angle * angle * self.tip_radius_m / self.units().length_m;
+        let cut = |law| {
+            let softest = known.clone().map(|(strength, _)| strength).reduce(f64::min);
+            let taken = softest.map(|strength| CONSTRAINT * strength);
+            let pressure_pa = settings.yield_pressure_pa.or(taken)?;
+            Some((pressure_pa, depth_of(pressure_pa), law))
+        };
+        let fitted = || {
+            let shaped = known.clone();
+            let shaped = shaped.map(|(strength, nu)| (strength, 1.295 * (0.736 * nu).exp()));
+            let softer = |a: (f64, f64), b: (f64, f64)| if b.0 * b.1 < a.0 * a.1 { b } else { a };
+            let (strength, shape) = shaped.reduce(softer)?;
+            let critical = depth_of(strength * shape);
+            let fit = Fit::new(critical, shape, strength / self.effective_modulus_pa);
+            // the mean of Hertz's pressure whose maximum is C S_y
+            let pressure_pa = 2.0 / 3.0 * shape * strength;
+            Some((pressure_pa, FITTED * critical, FlowLaw::Fit(fit)))
+        };
+        let found = match law {
+            Plasticity::None => return Ok(None),
+            Plasticity::Thornton => cut(FlowLaw::Thornton),
+            Plasticity::Recovery => cut(FlowLaw::Recovery),
+            Plasticity::JacksonGreen => fitted(),
+        };
+        let (yield_pressure_pa, depth, law) = found.ok_or(missing)?;
         if depth.is_nan() || depth <= 0.0 {
             return Err(ContactError::NotFinite {
                 quantity: "yield depth",
@@ -161,9 +172,6 @@ impl Collision {
             law,
             yield_pressure_pa,
             depth,
-            fit: fit.map(|(strength, shape)| {
-                Fit::new(depth, shape, strength / self.effective_modulus_pa)
-            }),
         }))
     }
 

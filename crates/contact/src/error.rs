@@ -5,13 +5,16 @@ use thiserror::Error;
 
 /// A contact that has no results.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
 pub enum ContactError {
     /// The march failed.
     #[error(transparent)]
     March(#[from] MarchError),
     /// An approach that no wave of the surface outruns.
     #[error(
-        "the approach at velocity_m_s = {velocity_m_s:.4e} is not below the {limit_m_s:.4e} m/s of the half-space's Rayleigh wave, and contact laws are for slower ones: check the velocity, or the height of the fall, and the target's constants"
+        "the approach at velocity_m_s = {} is not below the {} m/s of the half-space's Rayleigh wave, and contact laws are for slower ones: check the velocity, or the height of the fall, and the target's constants",
+        fault::rounded(*velocity_m_s),
+        fault::rounded(*limit_m_s)
     )]
     TooFast {
         /// Velocity of approach in m/s.
@@ -20,7 +23,7 @@ pub enum ContactError {
         limit_m_s: f64,
     },
     /// A number that no body has, and whose powers would leave the range of numbers.
-    #[error("{quantity} = {value:e} is outside [1e-30, 1e30]")]
+    #[error("{quantity} = {} is outside [1e-30, 1e30]", fault::number(*value))]
     OutOfRange {
         /// The quantity, with its unit.
         quantity: &'static str,
@@ -72,6 +75,18 @@ pub enum ContactError {
         "the yielding contact could not be followed: its yield_pressure_pa or yield strength is too far from the pressure of the contact"
     )]
     NotFollowed,
+    /// A fit that gives nothing back of so deep an indentation.
+    #[error(
+        "velocity_m_s = {} leaves a dent as deep as the indentation by plasticity = \"jackson_green\", which is trusted up to {} m/s: use \"thornton\" or \"recovery\", a lower velocity or a higher yield strength",
+        fault::rounded(*velocity_m_s),
+        fault::rounded(*trusted_m_s)
+    )]
+    NoRebound {
+        /// Velocity of approach in m/s.
+        velocity_m_s: f64,
+        /// The largest for which the law is trusted, in m/s.
+        trusted_m_s: f64,
+    },
     /// A number that floating-point arithmetic does not hold.
     #[error(
         "the {quantity} comes out as {value:e}: the numbers of the scene are beyond what floating-point arithmetic holds; check their units"
@@ -84,7 +99,8 @@ pub enum ContactError {
     },
     /// A step that no march can have.
     #[error(
-        "step_s = {step_s:e} is outside [1e-9, 1000] times Hertz's contact time, {hertz_s:.3e} s"
+        "step_s = {} is outside [1e-9, 1000] times Hertz's contact time, {hertz_s:.3e} s",
+        fault::number(*step_s)
     )]
     Step {
         /// The step in s.
@@ -106,6 +122,7 @@ pub enum ContactError {
 
 /// Why a march could not be carried through.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
 pub enum MarchError {
     /// The step is too coarse to see the contact.
     #[error(

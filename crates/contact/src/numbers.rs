@@ -6,7 +6,7 @@
 /// output of another one is never taken for this one's. It is raised by hand with every change that alters a result by
 /// more than the rounding of double precision, in this crate or in `halfspace`; a test compares results of every model
 /// with those that were written down for it.
-pub const NUMBERS_REVISION: u32 = 7;
+pub const NUMBERS_REVISION: u32 = 8;
 
 #[cfg(test)]
 mod tests {

@@ -27,11 +27,11 @@ use crate::energy;
 use crate::growing::solve_growing;
 use crate::growing::waves::GrowingContact;
 use crate::model::choose::{Family, Plan, disc_of};
-use crate::model::{Plasticity, Rung, Scheme, Settings, StaticShare};
+use crate::model::{Rung, Scheme, Settings, StaticShare};
 use crate::numeric::series::Series;
-use crate::plastic::Yielding;
 use crate::plastic::branch::{FITTED, Fit};
 use crate::plastic::quick::quick;
+use crate::plastic::{FlowLaw, Yielding};
 use crate::responses::Responses;
 use crate::summary::{Summary, relative};
 use halfspace::Deflection;
@@ -115,7 +115,11 @@ impl Place {
 
     /// Of a contact on Jackson and Green's fit with a dashpot.
     pub(crate) fn of_fit(plan: &Plan, yielding: &Yielding, settings: &Settings) -> Option<Self> {
-        let fit = yielding.fit?;
+        let fit = match yielding.law {
+            FlowLaw::Fit(fit) => fit,
+            // in closed form
+            FlowLaw::Thornton | FlowLaw::Recovery => return None,
+        };
         if plan.model.row().0 != Rung::AreaDashpot {
             return None;
         }
@@ -263,13 +267,12 @@ impl Cell {
                 return Some((summary, summary.loss, solved.estimates.contact()));
             }
             Family::Yielding => {
-                let depth = (1.0 + first * first).powf(-0.4) / FITTED;
+                let depth = (1.0 + first * first).powf(-0.4);
                 let [shape, strain] = fixed;
                 let yielding = Yielding {
-                    law: Plasticity::JacksonGreen,
+                    law: FlowLaw::Fit(Fit::new(depth / FITTED, shape, strain)),
                     yield_pressure_pa: f64::NAN,
                     depth,
-                    fit: Some(Fit::new(depth, shape, strain)),
                 };
                 let (summary, flow) = quick(&yielding, second)?;
                 return Some((summary, flow.radiated, 0.0));

@@ -14,6 +14,7 @@ pub const MOST_ERROR: f64 = 0.5;
 
 /// Scalar results of a contact in SI units.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Results {
     /// Largest force in N.
     pub peak_force_n: f64,
@@ -59,13 +60,16 @@ pub struct Results {
 
 /// What flows in a contact, in SI units; all none where no law of flow is asked for.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[non_exhaustive]
 pub struct Plastic {
     /// Mean pressure that is not exceeded, or at which the fit's contact yields, in Pa.
     pub yield_pressure_pa: Option<f64>,
-    /// Velocity of approach in m/s at which yield begins.
+    /// Velocity of approach in m/s from which the law of flow differs from elasticity.
     pub yield_velocity_m_s: Option<f64>,
     /// Velocity of approach over that.
     pub velocity_over_yield: Option<f64>,
+    /// Velocity of approach over the largest one for which the law of flow is trusted; none of a law without such a limit.
+    pub velocity_over_trusted: Option<f64>,
     /// Work of the plastic flow in J.
     pub plastic_work_j: Option<f64>,
     /// Largest indentation in m.
@@ -90,6 +94,7 @@ impl Plastic {
             yield_pressure_pa: Some(yielding.yield_pressure_pa),
             yield_velocity_m_s: Some(collision.velocity_m_s / ratio),
             velocity_over_yield: Some(ratio),
+            velocity_over_trusted: yielding.trusted_ratio(),
             plastic_work_j: Some(part(|flow| flow.plastic_work, collision.energy_j())),
             peak_indentation_m: Some(flow.map_or(elastic, |f| f.peak_indentation) * length_m),
             residual_indentation_m: Some(part(|flow| flow.residual_indentation, length_m)),

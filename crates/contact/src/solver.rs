@@ -247,6 +247,14 @@ impl<'a, S: Responses> Solver<'a, S> {
         mut plan: Plan,
         asked: &Accuracy,
     ) -> Result<Option<Solved>, ContactError> {
+        if let Some(over) = yielding.trusted_ratio().filter(|_| !yielding.rebounds()) {
+            let velocity_m_s = collision.velocity_m_s;
+            let trusted_m_s = velocity_m_s / over;
+            return Err(ContactError::NoRebound {
+                velocity_m_s,
+                trusted_m_s,
+            });
+        }
         if plan.model.row().0 == Rung::FullMemory {
             let waves = self.waves(collision.target_poisson_ratio)?;
             let contact = collision.growing_contact(&waves);

@@ -9,6 +9,7 @@ use crate::collision::Collision;
 use crate::disc::CENTRE_COUPLING;
 use crate::model::choose::{Plan, fixed_disc_m};
 use crate::model::{Model, Settings, StaticShare};
+use crate::names::Choice;
 use crate::results::Results;
 use halfspace::Deflection;
 use std::f64::consts::PI;
@@ -132,6 +133,7 @@ pub fn warnings(
         }
     }
     of_the_materials(collision, results, &mut found);
+    of_the_flow(collision, settings, results, &mut found);
     let contact_time_s = results.contact_time_s;
     let material = &striker.material;
     if let (Some(length), Some(density)) = (striker.length_m, material.density_kg_m3) {
@@ -195,6 +197,23 @@ fn of_the_materials(collision: &Collision, results: &Results, found: &mut Vec<St
         found.push(format!(
             "the mean contact stress {stress:.4e} Pa is {}: the impact is not elastic unless the strength under so short a load is that high",
             borne.join("; ")
+        ));
+    }
+}
+
+fn of_the_flow(
+    collision: &Collision,
+    settings: &Settings,
+    results: &Results,
+    found: &mut Vec<String>,
+) {
+    let over = results.plastic.velocity_over_trusted;
+    if let Some(over) = over.filter(|&over| over > 1.0) {
+        let (velocity, law) = (collision.velocity_m_s, settings.plasticity.name());
+        found.push(format!(
+            "velocity_m_s = {} is {over:.1} times the {} m/s up to which plasticity = \"{law}\" is trusted: restitution and indentation may be far off, which the error estimate does not contain; use \"thornton\" or \"recovery\", or a lower velocity",
+            fault::rounded(velocity),
+            fault::rounded(velocity / over)
         ));
     }
 }

@@ -41,15 +41,20 @@ fn solve(collision: &Collision, model: Model) -> Result<[f64; 9], ContactError> 
 fn an_approach_as_fast_as_rayleighs_wave_is_refused_by_every_model() {
     let ball = ball_on_block();
     for &model in Model::ALL {
-        for velocity_m_s in [1e160, f64::MAX, 1e4, 3.1e3] {
+        let fast = [
+            (1e160, "1e160"),
+            (f64::MAX, "1.798e308"),
+            (1e4, "10000"),
+            (3.1e3, "3100"),
+        ];
+        for (velocity_m_s, written) in fast {
             let fast = Collision {
                 velocity_m_s,
                 ..ball
             };
             let text = solve(&fast, model).unwrap_err().to_string();
             assert!(
-                text.contains(&format!("velocity_m_s = {velocity_m_s:.4e}"))
-                    && text.contains("e3 m/s"),
+                text.contains(&format!("velocity_m_s = {written} is")) && text.contains("2972 m/s"),
                 "{model:?}: {text}"
             );
         }

@@ -317,10 +317,8 @@ fn below_yield_it_is_the_elastic_contact_to_the_last_bit() {
     ] {
         let [one, other] =
             [settings, elastic].map(|s| solved(&collision, &Settings { model, ..s }).1);
-        let bare = Results {
-            plastic: other.plastic,
-            ..one
-        };
+        let mut bare = one;
+        bare.plastic = other.plastic;
         assert_eq!(bare, other);
     }
     let (fast, settings) = at(100.0);
@@ -328,14 +326,9 @@ fn below_yield_it_is_the_elastic_contact_to_the_last_bit() {
         yield_pressure_pa: Some(1e15),
         ..settings
     };
-    let [one, other] = [hard, elastic].map(|s| solved(&fast, &s).1);
-    assert_eq!(
-        Results {
-            plastic: other.plastic,
-            ..one
-        },
-        other
-    );
+    let [mut one, other] = [hard, elastic].map(|s| solved(&fast, &s).1);
+    one.plastic = other.plastic;
+    assert_eq!(one, other);
 }
 
 #[test]
@@ -392,13 +385,12 @@ fn rows_of_jackson_and_green() {
     for line in JACKSON_GREEN.lines().skip(1) {
         let v: Vec<f64> = line.split(',').map(|x| x.parse().unwrap()).collect();
         let [strain, nu, ratio, lag, e, time, deepest, force] = std::array::from_fn(|i| v[i]);
-        let given =
-            |youngs_modulus_pa: f64, poisson_ratio: f64, yield_strength_pa: Option<f64>| Material {
-                youngs_modulus_pa,
-                poisson_ratio,
-                yield_strength_pa,
-                ..Material::named("steel").unwrap()
-            };
+        let given = |youngs_modulus_pa: f64, poisson_ratio: f64, yield_strength_pa: Option<f64>| {
+            let mut made = Material::named("steel").unwrap();
+            (made.youngs_modulus_pa, made.poisson_ratio) = (youngs_modulus_pa, poisson_ratio);
+            made.yield_strength_pa = yield_strength_pa;
+            made
+        };
         let modulus = 1e11;
         let soft = given(modulus * (1.0 - nu * nu), nu, Some(strain * modulus));
         let ball = Striker::ball(given(1e30, 0.0, None), 0.01).unwrap();
@@ -413,7 +405,9 @@ fn rows_of_jackson_and_green() {
             ..Settings::default()
         };
         let once = Collision::new(&block, &ball, 1.0);
-        let critical = 1.0 / once.yielding(&settings).unwrap().unwrap().velocity_ratio();
+        // the law leaves Hertz's at 1.9 times the indentation at which the material yields under the surface
+        let leaves = 1.0 / once.yielding(&settings).unwrap().unwrap().velocity_ratio();
+        let critical = leaves / 1.9_f64.powf(1.25);
         let mut collision = Collision::new(&block, &ball, ratio * critical);
         let units = Collision::new(&block, &ball, critical).units();
         // the lag in units of the critical velocity goes with V^0.6

@@ -163,6 +163,20 @@ pub fn number(value: f64) -> String {
     }
 }
 
+/// A number that was computed, with four digits.
+///
+/// ```
+/// assert_eq!([1.0, 0.022_414_4, 3.0e-9].map(fault::rounded), ["1", "0.02241", "3e-9"]);
+/// ```
+pub fn rounded(value: f64) -> String {
+    let text = format!("{value:.3e}");
+    match text.parse::<f64>() {
+        Ok(rounded) if rounded.is_finite() => number(rounded),
+        // rounded up beyond the largest number
+        Ok(_) | Err(_) => text,
+    }
+}
+
 /// A sentence alone.
 impl<T: AsRef<str> + Debug + Display> Fault for T {
     fn culprit(&self) -> Culprit<'_> {

@@ -64,7 +64,7 @@ macro_rules! quantities {
 
 /// All of them, in the order of files and reports: name, kind, unit, field of a contact's results and, where it has
 /// one, of a record's, and meaning.
-pub const QUANTITIES: [Quantity; 30] = quantities! {
+pub const QUANTITIES: [Quantity; 31] = quantities! {
     peak_force_n: Real "N" of peak_force_n, peak_force_n => "largest contact force";
     peak_force_time_s: Real "s" of peak_force_time_s, peak_force_time_s => "when it is reached";
     contact_time_s: Real "s" of contact_time_s, duration_s => "duration of the first contact; of a force record, from its onset to where the force ends";
@@ -84,9 +84,10 @@ pub const QUANTITIES: [Quantity; 30] = quantities! {
     pressure_over_yield: Real "1" of loading.pressure_over_yield => "mean_pressure_pa over the lower of both yield strengths";
     pressure_over_tensile: Real "1" of loading.pressure_over_tensile => "mean_pressure_pa over the lower of both tensile strengths, Kmax of the paper";
     cone_crack_onset: Real "1" of loading.cone_crack_onset => "largest force over that at which a cone crack is expected in the first body, by Auerbach's law";
-    yield_pressure_pa: Real "Pa" of plastic.yield_pressure_pa => "mean pressure that the yielding contact does not exceed; of jackson_green the one at which it yields";
-    yield_velocity_m_s: Real "m/s" of plastic.yield_velocity_m_s => "velocity of approach at which yield begins";
-    velocity_over_yield: Real "1" of plastic.velocity_over_yield => "velocity of approach over that at which yield begins";
+    yield_pressure_pa: Real "Pa" of plastic.yield_pressure_pa => "mean pressure that the yielding contact does not exceed; of jackson_green the one at which it yields under the surface";
+    yield_velocity_m_s: Real "m/s" of plastic.yield_velocity_m_s => "velocity of approach from which the law of flow differs from elasticity";
+    velocity_over_yield: Real "1" of plastic.velocity_over_yield => "velocity of approach over the one from which the law of flow differs from elasticity";
+    velocity_over_trusted: Real "1" of plastic.velocity_over_trusted => "velocity of approach over the largest one for which the law of flow is trusted; none of laws without such a limit";
     plastic_work_j: Real "J" of plastic.plastic_work_j => "work of the plastic flow";
     peak_indentation_m: Real "m" of plastic.peak_indentation_m => "largest indentation";
     residual_indentation_m: Real "m" of plastic.residual_indentation_m => "indentation that stays";

@@ -83,6 +83,9 @@ pub fn infer(
         (Some(measure), &[value]) => (measure, value),
         // the second time over the first is the restitution of the bounce between, whose velocity follows from the first
         (None, &[first, second]) => {
+            if let Some(doubt) = doubt_of_bounces(first, second) {
+                return refused(doubt);
+            }
             velocity_m_s = 0.5 * GRAVITY_M_S2 * first;
             error *= (1.0 + (second / first).powi(2)).sqrt() / first;
             (Measure::Restitution, second / first)
@@ -92,7 +95,9 @@ pub fn infer(
     let positive = |x: f64| x > 0.0 && x.is_finite();
     if !(positive(value) && positive(velocity_m_s) && error >= 0.0 && error.is_finite()) {
         return refused(format!(
-            "{name} = {value} with an error of {error} is outside (0, inf) and [0, inf)"
+            "{name} = {} with an error of {} is outside (0, inf) and [0, inf)",
+            fault::number(value),
+            fault::number(error)
         ));
     }
     let collision = Collision::new(&scene.target, &strike.striker, velocity_m_s);
@@ -109,13 +114,37 @@ pub fn infer(
         "value": found.value,
         "low": low,
         "high": high,
+        "elastic": found.elastic,
         "velocity_over_yield": results.plastic.velocity_over_yield,
         "yield_velocity_m_s": results.plastic.yield_velocity_m_s,
+        "velocity_over_trusted": results.plastic.velocity_over_trusted,
         "restitution": results.restitution,
         "contact_time_s": results.contact_time_s,
         "peak_force_n": results.peak_force_n,
     });
     Ok((found, report))
+}
+
+/// Time between two bounces in s at most: 10 s are a fall from 123 m.
+const LONGEST_BOUNCE_S: f64 = 10.0;
+
+/// A sentence about times between bounces that no ball has, as those given in ms.
+fn doubt_of_bounces(first: f64, second: f64) -> Option<String> {
+    let written = |per_s: f64| {
+        let times = [first, second].map(|time| fault::number(time / per_s));
+        times.join(",")
+    };
+    let change = match first <= 1e3 * LONGEST_BOUNCE_S {
+        true => format!("; if they are in ms, give {}", written(1e3)),
+        false => String::new(),
+    };
+    (first > LONGEST_BOUNCE_S && first.is_finite()).then(|| {
+        format!(
+            "bounces = {} is outside (0, {LONGEST_BOUNCE_S}] s: the first is a fall from {:.0} m{change}",
+            written(1.0),
+            GRAVITY_M_S2 * first * first / 8.0
+        )
+    })
 }
 
 /// All that is reported of a scene, with the time that it took in s.

@@ -70,6 +70,7 @@ pub(crate) fn check_hertz(profile: Profile, function: &'static str) -> Result<()
 ///
 /// The message names the argument or the function, the value received and what is allowed.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
 pub enum DomainError {
     /// A number outside its range; NaN is outside every range.
     #[error("{argument} = {} is outside {range}", fault::number(*value))]

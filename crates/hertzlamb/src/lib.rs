@@ -22,20 +22,28 @@
 //! | [`tabulator`] | making kernel tables |
 //! | [`formats`] | scenes, materials, records, results and sweeps as files |
 //!
+//! `formats`, `tabulator` and the files of `lookup` come with the default feature `hdf5`; without it no C library is needed, and
+//! the rest builds for `wasm32-unknown-unknown`.
+//!
 //! The programs in `examples/` show the force alone, a point inside, a table made and used, a sweep in memory, and
 //! a force that was measured.
 #![cfg_attr(doctest, doc = include_str!("../README.md"))]
 #![warn(missing_docs)]
 
-pub use {contact, formats, halfspace, impact, lookup, tabulator};
+pub use {contact, halfspace, impact, lookup};
+#[cfg(feature = "hdf5")]
+pub use {formats, tabulator};
 
 /// What most programs need.
 pub mod prelude {
     pub use contact::{Choice, HalfSpace, Library, Material, Model, Results, Settings, Striker};
+    #[cfg(feature = "hdf5")]
     pub use formats::{parse_scene, read_scene, write_results};
     pub use halfspace::Field;
     pub use impact::{
         Excitation, ForceRecord, Impact, KernelChoice, KernelSource, Run, Scene, simulate,
     };
-    pub use lookup::{Table, TableFile};
+    pub use lookup::Table;
+    #[cfg(feature = "hdf5")]
+    pub use lookup::TableFile;
 }

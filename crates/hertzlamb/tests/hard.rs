@@ -25,12 +25,7 @@ const STEEL_ON_STEEL: Hard = Hard {
 };
 
 fn material((youngs_modulus_pa, poisson_ratio): (f64, f64), density_kg_m3: f64) -> Material {
-    Material {
-        youngs_modulus_pa,
-        poisson_ratio,
-        density_kg_m3: Some(density_kg_m3),
-        ..Material::named("steel").unwrap()
-    }
+    Material::elastic(youngs_modulus_pa, poisson_ratio, density_kg_m3).unwrap()
 }
 
 fn attempt(hard: &Hard, settings: Settings) -> Result<f64, String> {

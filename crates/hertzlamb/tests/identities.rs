@@ -35,11 +35,9 @@ fn strike(scale: &Scale, settings: Settings) -> Impact {
         density,
         modulus,
     } = *scale;
-    let material = |youngs_modulus_pa: f64, poisson_ratio: f64| Material {
-        youngs_modulus_pa: youngs_modulus_pa * modulus,
-        poisson_ratio,
-        density_kg_m3: Some(2700.0 * density),
-        ..Material::named("steel").unwrap()
+    let material = |youngs_modulus_pa: f64, poisson_ratio: f64| {
+        let scaled = youngs_modulus_pa * modulus;
+        Material::elastic(scaled, poisson_ratio, 2700.0 * density).unwrap()
     };
     let striker = Striker::new(
         material(110e9, 0.31),
@@ -155,12 +153,7 @@ fn growing_tends_to_the_radiation_law() {
 #[test]
 fn the_radiation_law_in_si_units() {
     // 1 - e^2 = 3.80583978 (J/(mu c2)) K^(6/5) m^(-1/5) V0^(3/5), J(0.3) = 0.13722707
-    let steel = Material {
-        youngs_modulus_pa: 2.08e11,
-        poisson_ratio: 0.3,
-        density_kg_m3: Some(7800.0),
-        ..Material::named("steel").unwrap()
-    };
+    let steel = Material::elastic(2.08e11, 0.3, 7800.0).unwrap();
     let ball = Striker::new(steel.clone(), 0.004_084, 0.005).unwrap();
     let mut ball_drop = Impact::new(HalfSpace::new(steel).unwrap(), ball, 0.7);
     ball_drop.settings = model(Model::Radiation);

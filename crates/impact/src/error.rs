@@ -8,6 +8,7 @@ use thiserror::Error;
 
 /// Why a scene could not be computed.
 #[derive(Debug, Error)]
+#[non_exhaustive]
 pub enum ImpactError {
     /// The contact failed.
     #[error(transparent)]
@@ -170,7 +171,8 @@ fn of_contact(error: &ContactError) -> Culprit<'_> {
         ContactError::March(
             M::NoSolution { .. } | M::TooLong { .. } | M::NotConverged { .. } | M::Unstable { .. },
         ) => culprit.unmendable(),
-        ContactError::TooFast { velocity_m_s, .. } => {
+        ContactError::TooFast { velocity_m_s, .. }
+        | ContactError::NoRebound { velocity_m_s, .. } => {
             culprit.key("velocity_m_s").number(*velocity_m_s)
         }
         ContactError::OutOfRange { quantity, value } => {

@@ -4,7 +4,8 @@ use crate::error::ImpactError;
 use crate::excitation::{Excitation, Run};
 use crate::kernels::KernelSource;
 use crate::scene::Scene;
-use contact::StaticShare;
+use contact::law::hertz::CONTACT_TIME;
+use contact::{Collision, StaticShare};
 use halfspace::Deflection;
 
 /// Samples of the output at most.
@@ -35,6 +36,33 @@ impl Wanted {
             frames: scene.section.as_ref().map(|section| section.frames),
             farthest_m: (scene.points() > 0).then(|| scene.farthest_m()),
         }
+    }
+
+    /// Refuses a step of the output that is too fine for whatever comes of a contact, before that is solved.
+    ///
+    /// A contact lasts longer than half of Hertz's, and waves travel no faster to the farthest point than Rayleigh's.
+    ///
+    /// # Errors
+    /// [`ImpactError::TooManySamples`].
+    pub(crate) fn check_step(
+        &self,
+        collision: &Collision,
+        rayleigh_m_s: f64,
+    ) -> Result<(), ImpactError> {
+        let Some(step_s) = self.step_s else {
+            return Ok(());
+        };
+        let contact_s = 0.5 * CONTACT_TIME * collision.units().time_s;
+        let least_s = || contact_s + self.farthest_m.unwrap_or(0.0) / rayleigh_m_s;
+        let samples = self.duration_s.unwrap_or_else(least_s) / step_s;
+        if samples > MOST_SAMPLES as f64 {
+            return Err(ImpactError::TooManySamples {
+                samples,
+                step_s,
+                limit: MOST_SAMPLES,
+            });
+        }
+        Ok(())
     }
 
     /// Samples that will be needed, before the step is rounded.

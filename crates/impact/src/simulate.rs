@@ -17,6 +17,7 @@ use crate::outcome::{Cause, FieldsUsed, Outcome, RecordResults, Series, StrikerS
 use crate::record::ForceRecord;
 use crate::scene::{Load, Scene, Strike};
 use contact::{Model, Scheme, StaticShare};
+use halfspace::Medium;
 
 /// Contact radii within which the fields are not those of a yielding block.
 const CLOSE: f64 = 2.0;
@@ -57,6 +58,9 @@ fn of_strike(
         velocity_m_s: strike.velocity_m_s,
         settings: scene.settings,
     };
+    let medium = Medium::new(scene.target.material().poisson_ratio)?;
+    let rayleigh_m_s = medium.rayleigh_speed() * scene.target.longitudinal_speed_m_s();
+    Wanted::of(scene).check_step(&impact.collision(), rayleigh_m_s)?;
     let run =
         impact.solve().map_err(
             |error| match contact::doubts(&scene.target, &strike.striker) {

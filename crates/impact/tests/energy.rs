@@ -11,12 +11,7 @@ use std::f64::consts::PI;
 use std::path::Path;
 
 fn material(youngs_modulus_pa: f64, poisson_ratio: f64) -> Material {
-    Material {
-        youngs_modulus_pa,
-        poisson_ratio,
-        density_kg_m3: Some(2700.0),
-        ..Material::named("steel").unwrap()
-    }
+    Material::elastic(youngs_modulus_pa, poisson_ratio, 2700.0).unwrap()
 }
 
 fn scene(load: Load, target: Material, settings: Settings) -> Scene {

@@ -5,6 +5,7 @@ use std::io::{self, ErrorKind};
 
 /// A file that could not be read; none of these names the file, whoever asked for it does.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum HdfError {
     /// The system says no.
     #[error("{0}")]

@@ -6,6 +6,7 @@ use thiserror::Error;
 
 /// Numbers that are no table; a file's error ([`TableError`](crate::TableError)) adds the path.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
 pub enum ContentError {
     /// A list has another length than the axes demand, or a value may not be there: where and what is allowed.
     #[error("{0}")]
@@ -27,6 +28,7 @@ pub(crate) fn value(item: &str, value: f64, range: &str) -> ContentError {
 
 /// A question that a table cannot answer.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
 pub enum LookupError {
     /// The point lies outside the table.
     #[error("{axis} = {value} is outside the table's range [{}, {}]", .limits[0], .limits[1])]

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 /// A file that could not be written, or is not to be.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum OutputError {
     /// The name is that of another format, of an input, of another output or of a file that is none of the program's.
     #[error("{} {}", .0.display(), .1)]

@@ -52,10 +52,8 @@ pub(crate) fn anvil() -> Result<HalfSpace, AnyError> {
 
 /// The paper's model of the impact, with copper of a Young's modulus and a radius r0 that is the tip's and the disc's.
 pub fn coupled(copper_pa: f64, radius_m: f64) -> Result<Impact, AnyError> {
-    let copper = Material {
-        youngs_modulus_pa: copper_pa,
-        ..Material::named("copper")?
-    };
+    let mut copper = Material::named("copper")?;
+    copper.youngs_modulus_pa = copper_pa;
     let rod = Striker::new(copper, MASS_KG, radius_m)?;
     let mut impact = Impact::new(anvil()?, rod, VELOCITY_M_S).to_tolerance(TOLERANCE);
     impact.settings.model = Model::Wave;

@@ -11,6 +11,7 @@ use thiserror::Error;
 
 /// A picture that cannot be composed, told in one sentence.
 #[derive(Debug, Error)]
+#[non_exhaustive]
 pub enum PlotError {
     /// A file cannot be read.
     #[error(transparent)]

@@ -9,6 +9,7 @@ use thiserror::Error;
 
 /// A table could not be built.
 #[derive(Debug, Error)]
+#[non_exhaustive]
 pub enum BuildError {
     /// Settings that are no grid, outside their ranges or less than a table has, files that cannot be read, shards that make no
     /// table.

@@ -31,6 +31,7 @@ OF_FLOW = [
     "yield_pressure_pa",
     "yield_velocity_m_s",
     "velocity_over_yield",
+    "velocity_over_trusted",
     "plastic_work_j",
     "peak_indentation_m",
     "residual_indentation_m",

@@ -1,6 +1,7 @@
 //! `hertzlamb infer`: yield pressure or velocity from a rebound.
 
-use crate::failure::{Failure, show};
+use crate::failure::{Failure, lines, show};
+use crate::report::si;
 use clap::builder::PossibleValuesParser;
 use clap::{ArgGroup, Args};
 use contact::{Choice, Measure, Unknown};
@@ -53,18 +54,37 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let given = one.find_map(|(measure, value)| Some((measure.name(), vec![value?])));
     let (name, values) =
         given.unwrap_or_else(|| ("bounces", arguments.bounces.clone().unwrap_or_default()));
-    let (found, value) = formats::infer(&scene, (name, &values), arguments.error, unknown)?;
-    let (name, results) = (unknown.name(), &found.results);
-    let end = |end: Option<f64>, none: &str| end.map_or(none.to_owned(), |x| format!("{x:.4e}"));
+    let (found, report) = formats::infer(&scene, (name, &values), arguments.error, unknown)?;
+    let results = &found.results;
+    let in_units = |x| si(x, unknown.unit());
+    let end = |end: Option<f64>, none: &str| end.map_or(none.to_owned(), in_units);
     let [low, high] = found.band;
     let (low, high) = (end(low, "no lower bound"), end(high, "no upper bound"));
-    let text = format!(
-        "{name}  {:.6e}  ({low} to {high})\nvelocity over that of yield  {:.4}\nrestitution  {:.4}\ncontact time  {:.4e} s\npeak force  {:.4e} N",
-        found.value,
-        results.plastic.velocity_over_yield.unwrap_or(1.0),
-        results.restitution,
-        results.contact_time_s,
-        results.peak_force_n,
-    );
-    show(arguments.json, &value, text)
+    let value = in_units(found.value);
+    let over = results.plastic.velocity_over_yield.unwrap_or(1.0);
+    let yields = si(results.plastic.yield_velocity_m_s.unwrap_or(0.0), "m/s");
+    let mut text = vec![
+        (unknown.words(), format!("{value} ({low} to {high})")),
+        (
+            "yield",
+            format!("from {yields} on, {over:.4} times that here"),
+        ),
+        ("restitution", format!("{:.6}", results.restitution)),
+        ("contact time", si(results.contact_time_s, "s")),
+        ("peak force", si(results.peak_force_n, "N")),
+    ];
+    if found.elastic {
+        let told = "the measure is that of an elastic contact: any higher yield pressure has it";
+        text.push(("note", told.to_owned()));
+    }
+    if let Some(over) = results
+        .plastic
+        .velocity_over_trusted
+        .filter(|&over| over > 1.0)
+    {
+        let law = scene.settings.plasticity.name();
+        let told = format!("{over:.1} times as fast as plasticity = \"{law}\" is trusted");
+        text.push(("note", told));
+    }
+    show(arguments.json, &report, lines(text))
 }

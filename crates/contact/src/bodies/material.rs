@@ -4,7 +4,15 @@ use halfspace::{DomainError, check};
 use thiserror::Error;
 
 /// An isotropic elastic material in SI units.
+///
+/// ```
+/// use contact::Material;
+/// let mut alloy = Material::elastic(71e9, 0.33, 2780.0)?;
+/// alloy.yield_strength_pa = Some(3.2e8);
+/// # Ok::<(), contact::BodyError>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Material {
     /// Its name in the library, or "given" when a scene spells out the numbers.
     pub name: String,
@@ -27,6 +35,38 @@ pub struct Material {
 }
 
 impl Material {
+    /// Of Young's modulus in Pa, Poisson's ratio and a density in kg/m^3; what it bears can be set afterwards.
+    ///
+    /// # Errors
+    /// [`BodyError::OutOfRange`].
+    pub fn elastic(
+        youngs_modulus_pa: f64,
+        poisson_ratio: f64,
+        density_kg_m3: f64,
+    ) -> Result<Self, BodyError> {
+        let made = Self {
+            density_kg_m3: Some(density_kg_m3),
+            ..Self::given(youngs_modulus_pa, poisson_ratio)
+        };
+        made.check().map(|()| made)
+    }
+
+    /// Of Young's modulus in Pa and Poisson's ratio alone, as enough for a contact without waves and [`check`](Self::check)ed
+    /// by nobody.
+    pub fn given(youngs_modulus_pa: f64, poisson_ratio: f64) -> Self {
+        Self {
+            name: "given".to_owned(),
+            youngs_modulus_pa,
+            poisson_ratio,
+            density_kg_m3: None,
+            yield_strength_pa: None,
+            tensile_strength_pa: None,
+            fracture_toughness_pa_sqrt_m: None,
+            group: String::new(),
+            source: String::new(),
+        }
+    }
+
     /// Whether the numbers are in their ranges.
     ///
     /// # Errors
@@ -93,6 +133,7 @@ pub fn from_wave_speeds(longitudinal_m_s: f64, shear_m_s: f64, density_kg_m3: f6
 
 /// A body that cannot be made.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
 pub enum BodyError {
     /// A material without a density where waves or a mass need one.
     #[error("the material {material} has no density, which {purpose} needs")]

@@ -46,7 +46,9 @@ impl Strength {
     pub(crate) fn cone_crack_force_n(&self, [radius_m, modulus_pa]: [f64; 2]) -> Option<f64> {
         const AUERBACH: f64 = 8600.0;
         let toughness = self.fracture_toughness_pa_sqrt_m?;
-        Some(AUERBACH * radius_m * toughness * toughness / modulus_pa)
+        let force_n = AUERBACH * radius_m * toughness * toughness / modulus_pa;
+        // a toughness whose square is no number bears nothing that could be compared
+        Some(force_n).filter(|&force_n| force_n > 0.0)
     }
 }
 

@@ -104,9 +104,9 @@ impl History {
 /// A contact lasts at least this part of Hertz's.
 const SHORTEST: f64 = 0.5;
 
-/// Steps of a march, and products of steps and cells of the memory, at most.
+/// Steps of a march, and products of steps and cells of the memory, at most: one takes 1 to 2 ns, a march 2 s at most.
 const STEPS: usize = 400_000;
-const WORK: usize = 4_000_000_000;
+const WORK: usize = 1_000_000_000;
 
 /// Cells of a memory at a step, both in collision units.
 ///

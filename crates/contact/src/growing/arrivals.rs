@@ -91,7 +91,9 @@ pub(crate) fn departures(
         let next = delays[k..].iter().take(LANES);
         let held = next
             .take_while(|&&delay| index == 0 || arrives(index, delay) <= arrival)
-            .count();
+            .count()
+            // an arrival that is not a number is held by no piece
+            .max(1);
         let ([time, radius], latest) = match pieces.get(index) {
             Some(piece) => ([&piece.time, &piece.radius], 1.0),
             None => (own, place),

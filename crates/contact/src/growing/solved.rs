@@ -3,10 +3,9 @@
 use crate::growing::arrivals::Piece;
 use crate::growing::equations::{Errors, March};
 use crate::growing::nodes::{LARGEST, Nodes};
-use crate::model::Plasticity;
 use crate::numeric::quadrature::{GAUSS_8, find_root, gauss, rising_root};
 use crate::plastic::branch::{Branch, nested};
-use crate::plastic::{Flow, Yielding};
+use crate::plastic::{Flow, FlowLaw, Yielding};
 use crate::summary::{Estimates, Instant, SMALL_LOSS, Summary};
 use crate::units::INVERSE_MASS;
 
@@ -170,7 +169,12 @@ impl SolvedContact {
     pub fn pressures(&self, time: f64) -> Option<[[f64; 4]; 2]> {
         /// Radii apart, over the radius, between which rates are differences.
         const APART: f64 = 1e-5;
-        let flow = (self.flow.as_ref()).filter(|one| one.yielding.law == Plasticity::Recovery)?;
+        let flow = self.flow.as_ref()?;
+        match flow.yielding.law {
+            FlowLaw::Recovery => {}
+            // what is left of the one has no force, the other's is not known
+            FlowLaw::Thornton | FlowLaw::Fit(_) => return None,
+        }
         let (piece, place) = self.place(time)?;
         let [radius, slope, _] = piece.radius.jet(place);
         let (edge, turned) = (flow.yielding.edge(), self.turned(time));

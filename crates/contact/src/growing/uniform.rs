@@ -26,6 +26,11 @@ use std::ops::Range;
 /// Cells in which the force's curvature and the radius's change are followed more finely.
 const SPLITS: [usize; 3] = [4, 2, 2];
 
+/// Products that a cell of the memory takes as long as: its weight is two relaxations, at the radius of its moment.
+///
+/// `tests/beyond.rs` (`a_step_too_fine_is_refused_before_the_march`) fails where it is too small.
+const CELL: usize = 64;
+
 /// Iterations of a step at most; each gains two digits or more.
 const ITERATIONS: usize = 30;
 
@@ -35,7 +40,7 @@ const ITERATIONS: usize = 30;
 /// [`MarchError::TooLong`] when the work is out of bounds.
 pub fn march_growing(contact: &GrowingContact<'_>, step: f64) -> Result<History, MarchError> {
     let memory = contact.waves.memory * contact.wave_time;
-    let cells = (memory / step).min(1e9) as usize * 8;
+    let cells = (memory / step).min(1e9) as usize * CELL;
     affordable(least_steps(step), cells, memory)?;
     let mut striker = StrikerMotion::new(step, 0.0, &starting_roots(step, 0.0));
     let inertia = striker.newest_weight();

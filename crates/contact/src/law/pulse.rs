@@ -18,7 +18,8 @@ use crate::numeric::quadrature::peak;
 use crate::summary::Summary;
 use crate::units::INVERSE_MASS;
 
-/// Samples of a contact with a force law and the results that they have to give.
+/// Samples of a contact with a force law and the results that they have to give, [`MOST_STEPS`] at most: a smaller step
+/// is made as long as that.
 ///
 /// `force` may be negative where the contact would be in tension: there it ends.
 /// Peak force, its time, contact time, impulse and displacement are those of `results` to 1e-6.
@@ -30,6 +31,7 @@ pub(crate) fn pulse(
     results: &Summary,
     step: f64,
 ) -> History {
+    let step = step.max(results.contact_time / MOST_STEPS as f64);
     let mut course = Course::new(&force, depth, step.min(results.contact_time / LEAST_STEPS));
     course.fit(results);
     let mut last_instants: Option<[f64; 2]> = None;
@@ -37,12 +39,9 @@ pub(crate) fn pulse(
     let mut state = [0.0, 1.0];
     let (mut place, mut before, mut known) = (0.0, 0.0, (0.0, 0.0));
     let (mut d, mut v) = (0.0, 1.0);
-    loop {
+    while history.force.len() as f64 * step < results.contact_time {
         let n = history.force.len();
         let time = n as f64 * step;
-        if time >= results.contact_time {
-            break;
-        }
         let mut at = |time: f64| {
             if let Some([size, power]) = last_instants {
                 return size * (results.contact_time - time).max(0.0).powf(power);

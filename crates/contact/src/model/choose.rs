@@ -198,11 +198,8 @@ pub(crate) fn plan(
     };
     let auto = settings.model == Model::Auto && settings.scheme == Scheme::Implicit;
     let mut chosen = auto.then(|| groups.choose(&accuracy(settings)));
-    if yields
-        && settings.plasticity == Plasticity::JacksonGreen
-        && matches!(chosen, Some((Rung::FullMemory, _)))
+    if yields && !settings.plasticity.has_memory() && matches!(chosen, Some((Rung::FullMemory, _)))
     {
-        // the fit jumps where it leaves Hertz's law: it has no memory
         let (rung, [left_out, _]) = groups.without_memory();
         chosen = Some((rung, left_out));
     }
@@ -223,7 +220,7 @@ impl Plan {
     pub fn coupling(&self) -> f64 {
         match self.model.row() {
             (Rung::QuasiStatic | Rung::Radiation, true) => self.groups.coupling,
-            _ => 0.0,
+            (Rung::AreaDashpot | Rung::FullMemory, _) | (_, false) => 0.0,
         }
     }
 
@@ -231,7 +228,7 @@ impl Plan {
     pub(crate) fn damping(&self) -> f64 {
         match self.model.row() {
             (Rung::Radiation, _) => self.groups.lag,
-            _ => 0.0,
+            (Rung::QuasiStatic | Rung::AreaDashpot | Rung::FullMemory, _) => 0.0,
         }
     }
 
@@ -272,11 +269,13 @@ impl Plan {
     /// Why this model, in words.
     pub fn reason(&self, settings: &Settings) -> String {
         let yields = match (settings.plasticity, settings.yield_pressure_pa) {
-            (_, Some(_)) => "the contact yields at the yield_pressure_pa given",
-            (Plasticity::JacksonGreen, None) => {
-                "the contact yields by the fit for the yield strength"
+            (Plasticity::JacksonGreen, _) => "the contact yields by the fit for the yield strength",
+            (Plasticity::None | Plasticity::Thornton | Plasticity::Recovery, Some(_)) => {
+                "the contact yields at the yield_pressure_pa given"
             }
-            (_, None) => "the contact yields at 2.8 times the lower yield strength",
+            (Plasticity::None | Plasticity::Thornton | Plasticity::Recovery, None) => {
+                "the contact yields at 2.8 times the lower yield strength"
+            }
         };
         let family = match self.groups.family {
             Family::Growing => "no disc_radius_m: the contact follows the load",
@@ -305,7 +304,7 @@ impl Plan {
         let (radiating, [second, loss]) = self.groups.without_memory();
         let rung = match radiating {
             Rung::AreaDashpot => "the area dashpot",
-            _ => "its first order",
+            Rung::QuasiStatic | Rung::Radiation | Rung::FullMemory => "its first order",
         };
         match (chosen, accuracy.loss) {
             (Rung::QuasiStatic, _) => {

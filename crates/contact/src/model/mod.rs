@@ -86,6 +86,32 @@ choice! {
     }
 }
 
+impl Plasticity {
+    /// Whether a body flows at all.
+    pub fn yields(self) -> bool {
+        match self {
+            Self::None => false,
+            Self::Thornton | Self::Recovery | Self::JacksonGreen => true,
+        }
+    }
+
+    /// Whether the pressure of the flow can be given; otherwise it follows from the yield strength.
+    pub fn has_pressure(self) -> bool {
+        match self {
+            Self::Thornton | Self::Recovery => true,
+            Self::None | Self::JacksonGreen => false,
+        }
+    }
+
+    /// Whether the law can be followed with the memory of the half-space: a law that jumps cannot.
+    pub fn has_memory(self) -> bool {
+        match self {
+            Self::None | Self::Thornton | Self::Recovery => true,
+            Self::JacksonGreen => false,
+        }
+    }
+}
+
 choice! {
     /// Which part of the half-space's deflection is added to Hertz's indentation.
     #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -107,6 +133,8 @@ impl StaticShare {
 }
 
 /// How a contact is computed.
+///
+/// Fields may be added: name those that you set and end with `..Settings::default()`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
     /// Radius of the loaded disc in m, if it is fixed.
@@ -173,13 +201,12 @@ impl Settings {
         let explicit = self.scheme == Scheme::Explicit;
         let dynamic = self.static_share == StaticShare::Dynamic;
         let marched = matches!(model, Model::Wave | Model::Auto);
-        let takes_pressure = matches!(law, Plasticity::Thornton | Plasticity::Recovery);
         let pressure = self.yield_pressure_pa.is_some();
-        let yields = law != Plasticity::None;
+        let yields = law.yields();
         let is_elastic = match model.row() {
             (Rung::QuasiStatic | Rung::AreaDashpot, on_disc) => on_disc,
             (Rung::FullMemory, true) => model != Model::Auto,
-            (Rung::FullMemory, false) => law == Plasticity::JacksonGreen,
+            (Rung::FullMemory, false) => !law.has_memory(),
             (Rung::Radiation, _) => true,
         };
         let without = yields && (is_elastic || explicit);
@@ -187,7 +214,10 @@ impl Settings {
             (explicit && dynamic, Conflict::ExplicitDynamic),
             (explicit && !marched, Conflict::ExplicitModel(model)),
             (model == Model::Growing && disc, Conflict::GrowingDisc),
-            (pressure && !takes_pressure, Conflict::PlasticPressure(law)),
+            (
+                pressure && !law.has_pressure(),
+                Conflict::PlasticPressure(law),
+            ),
             (yields && disc, Conflict::PlasticDisc),
             (without, Conflict::PlasticModel(law, model)),
         ];

@@ -347,6 +347,11 @@ impl Fit {
         [force * unit * self.critical, slope * unit]
     }
 
+    /// Indentation from which on nothing is given back: the depth that is left reaches it where 1.02 (1 - x^-0.54) is one.
+    pub(crate) fn deepest(&self) -> f64 {
+        self.critical * (6.9 * (1.0_f64 - 1.0 / 1.02).powf(-1.0 / 0.54) - 5.9)
+    }
+
     /// Depth that is left after an indentation.
     pub(crate) fn left(&self, depth: f64) -> f64 {
         let w = depth / self.critical;

@@ -1,11 +1,14 @@
 //! Yield pressure or velocity from what was measured of a contact that yields.
 //!
-//! The unknown is bracketed between the onset of yield and far beyond, and the bracket halved in its logarithm.
-//! The band is what the measure's error makes of it; what the law leaves out is not in it.
+//! The unknown is bracketed between the onset of yield and as far beyond as the law goes, and the bracket halved in its
+//! logarithm.
+//! The interval reflects the error of the measure only, not the error of the law.
+//! An elastic contact has the same measure whatever the yield pressure, as long as it is high enough: there the interval has no
+//! upper end.
 
 use crate::collision::Collision;
 use crate::error::ContactError;
-use crate::model::{Plasticity, Settings};
+use crate::model::Settings;
 use crate::names::{Choice, choice};
 use crate::responses::Exact;
 use crate::results::Results;
@@ -37,20 +40,42 @@ choice! {
     }
 }
 
+impl Unknown {
+    /// Its unit.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::YieldPressure => "Pa",
+            Self::Velocity => "m/s",
+        }
+    }
+
+    /// What it is in words.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::YieldPressure => "yield pressure",
+            Self::Velocity => "velocity",
+        }
+    }
+}
+
 /// What was found.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Inferred {
     /// The unknown.
     pub value: f64,
-    /// What the error of the measure makes of it, ascending; an end is missing where no contact that yields has such a
-    /// measure.
+    /// The unknown with the measure less and more its error, ascending; an end is missing where no contact that yields has
+    /// such a measure.
     pub band: [Option<f64>; 2],
+    /// Whether the measure is that of an elastic contact, within its error or the tolerance of the results: any yield
+    /// pressure from the lower end on has it, and the interval has no upper end.
+    pub elastic: bool,
     /// Results with that value.
     pub results: Results,
 }
 
 /// Why nothing was found.
 #[derive(Debug, Error)]
+#[non_exhaustive]
 pub enum InferError {
     /// The contact failed.
     #[error(transparent)]
@@ -60,7 +85,7 @@ pub enum InferError {
     Given(String),
     /// No law of flow with that unknown.
     #[error(
-        "plasticity = \"{law}\" has no {unknown} to be found: take \"thornton\" or \"recovery\", for velocity_m_s also \"jackson_green\""
+        "plasticity = \"{law}\" has no {unknown} to be found: use \"thornton\" or \"recovery\", for velocity_m_s also \"jackson_green\""
     )]
     NoLaw {
         /// Name of the law.
@@ -70,7 +95,7 @@ pub enum InferError {
     },
     /// A measure that no contact has that yields.
     #[error(
-        "{measure} = {} is outside [{:.4e}, {:.4e}], the range of contacts that yield", fault::number(*value), limits[0], limits[1]
+        "{measure} = {} is outside [{:.4e}, {:.4e}], the range of contacts that yield by this law, {}", fault::number(*value), limits[0], limits[1], reach(*most)
     )]
     Outside {
         /// What was measured.
@@ -79,7 +104,17 @@ pub enum InferError {
         value: f64,
         /// The smallest and the largest.
         limits: [f64; 2],
+        /// Velocity of approach over that of yield at the other end of the range.
+        most: f64,
     },
+}
+
+/// The range of velocities over that of yield, in words.
+fn reach(most: f64) -> String {
+    format!(
+        "from its yield velocity to {} times it: check the unit of the measure and the scene",
+        fault::rounded(most)
+    )
 }
 
 impl Fault for InferError {
@@ -96,6 +131,7 @@ impl Fault for InferError {
                 measure,
                 value,
                 limits,
+                ..
             } => Culprit {
                 limits: Some(*limits),
                 ..culprit.key(measure).number(*value)
@@ -104,13 +140,82 @@ impl Fault for InferError {
     }
 }
 
-/// Velocity of approach over that of yield, at most.
-const MOST: f64 = 1000.0;
+/// Velocity of approach over that of yield, at most: the restitution of `thornton` is 0.006 there.
+///
+/// `tests/beyond.rs` (`every_rebound_is_inferred_that_an_impact_gives`) goes near it.
+const MOST: f64 = 1e9;
 
-/// Halvings of the bracket: to 1e-11 of the unknown.
+/// Bisections of the logarithm of that ratio, where the law ends before it: to a thousandth.
+const BISECTIONS: usize = 15;
+
+/// Halvings of the bracket: to 2e-11 of the unknown.
 const HALVINGS: usize = 40;
 
-/// The yield pressure or the velocity of a contact that gives a measured value, with the band of its absolute error.
+/// A contact that varies with one unknown.
+struct Varied<'a> {
+    collision: &'a Collision,
+    settings: &'a Settings,
+    unknown: Unknown,
+    measure: Measure,
+}
+
+impl Varied<'_> {
+    /// The contact with a value of the unknown, and its measure.
+    fn at(&self, x: f64) -> Result<(Results, f64), ContactError> {
+        let (mut collision, mut settings) = (*self.collision, *self.settings);
+        match self.unknown {
+            Unknown::YieldPressure => settings.yield_pressure_pa = Some(x),
+            Unknown::Velocity => collision.velocity_m_s = x,
+        }
+        let solved = Solver::new(&Exact).solve(&collision, &settings)?;
+        let results = Results::new(&collision, &settings, &solved).checked()?;
+        let measured = match self.measure {
+            Measure::Restitution => results.restitution,
+            Measure::ContactTime => results.contact_time_s,
+            Measure::PeakForce => results.peak_force_n,
+        };
+        Ok((results, measured))
+    }
+
+    /// The largest velocity over that of yield: where the law, or a velocity that any contact law serves, ends.
+    fn most(&self, by_ratio: impl Fn(f64) -> f64) -> f64 {
+        if self.at(by_ratio(MOST)).is_ok() {
+            return MOST;
+        }
+        let [mut near, mut far] = [0.0, MOST.ln()];
+        for _ in 0..BISECTIONS {
+            let middle = 0.5 * (near + far);
+            match self.at(by_ratio(middle.exp())) {
+                Ok(_) => near = middle,
+                Err(_) => far = middle,
+            }
+        }
+        near.exp()
+    }
+
+    /// The unknown as a function of the velocity over that of yield, s, which goes with V and with p_y^-2.5.
+    fn by_ratio(&self) -> Result<impl Fn(f64) -> f64, ContactError> {
+        let unknown = self.unknown;
+        let start = match unknown {
+            Unknown::YieldPressure => self.settings.yield_pressure_pa.unwrap_or(1e9),
+            Unknown::Velocity => self.collision.velocity_m_s,
+        };
+        let (mut collision, mut settings) = (*self.collision, *self.settings);
+        match unknown {
+            Unknown::YieldPressure => settings.yield_pressure_pa = Some(start),
+            Unknown::Velocity => collision.velocity_m_s = start,
+        }
+        collision.check()?;
+        let yielding = collision.yielding(&settings)?;
+        let ratio = yielding.map_or(1.0, |yielding| yielding.velocity_ratio());
+        Ok(move |s: f64| match unknown {
+            Unknown::YieldPressure => start * (ratio / s).powf(0.4),
+            Unknown::Velocity => start * s / ratio,
+        })
+    }
+}
+
+/// The yield pressure or the velocity of a contact that gives a measured value, with the interval of its absolute error.
 ///
 /// What is not sought is that of the collision and its settings.
 ///
@@ -123,44 +228,27 @@ pub fn infer(
     measure: Measure,
     [value, error]: [f64; 2],
 ) -> Result<Inferred, InferError> {
-    let (law, by_velocity) = (settings.plasticity, unknown == Unknown::Velocity);
-    if law == Plasticity::None || law == Plasticity::JacksonGreen && !by_velocity {
+    let law = settings.plasticity;
+    let is_had = match unknown {
+        Unknown::YieldPressure => law.has_pressure(),
+        Unknown::Velocity => law.yields(),
+    };
+    if !is_had {
         let (law, unknown) = (law.name(), unknown.name());
         return Err(InferError::NoLaw { law, unknown });
     }
-    // the contact with a value of the unknown, and what is measured of it
-    let at = |x: f64| -> Result<(Results, f64), ContactError> {
-        let (mut collision, mut settings) = (*collision, *settings);
-        match unknown {
-            Unknown::YieldPressure => settings.yield_pressure_pa = Some(x),
-            Unknown::Velocity => collision.velocity_m_s = x,
-        }
-        let solved = Solver::new(&Exact).solve(&collision, &settings)?;
-        let results = Results::new(&collision, &settings, &solved).checked()?;
-        let measured = match measure {
-            Measure::Restitution => results.restitution,
-            Measure::ContactTime => results.contact_time_s,
-            Measure::PeakForce => results.peak_force_n,
-        };
-        Ok((results, measured))
+    let varied = Varied {
+        collision,
+        settings,
+        unknown,
+        measure,
     };
-    let start = match unknown {
-        Unknown::YieldPressure => settings.yield_pressure_pa.unwrap_or(1e9),
-        Unknown::Velocity => collision.velocity_m_s,
-    };
-    // s goes with V and with p_y^-2.5
-    let ratio = at(start)?.0.plastic.velocity_over_yield.unwrap_or(1.0);
-    let at_ratio = |s: f64| match unknown {
-        Unknown::YieldPressure => start * (ratio / s).powf(0.4),
-        Unknown::Velocity => start * s / ratio,
-    };
-    let mut most = MOST;
-    while most > 1.01 && at(at_ratio(most)).is_err() {
-        // a velocity that no contact law serves
-        most = most.sqrt();
-    }
-    let bracket = [1.0, most].map(at_ratio);
-    let ends = [at(bracket[0])?.1, at(bracket[1])?.1];
+    let by_ratio = varied.by_ratio()?;
+    let at = |x: f64| varied.at(x);
+    let most = varied.most(&by_ratio);
+    let bracket = [1.0, most].map(&by_ratio);
+    let (onset, end) = (at(bracket[0])?, at(bracket[1])?.1);
+    let ends = [onset.1, end];
     // nothing outside the bracket
     let halved = |value: f64| -> Result<Option<f64>, ContactError> {
         if (value - ends[0]) * (value - ends[1]) > 0.0 {
@@ -177,19 +265,31 @@ pub fn infer(
         }
         Ok(Some((0.5 * (near + far)).exp()))
     };
-    let found = halved(value)?.ok_or(InferError::Outside {
+    // how far a measure is beyond that of an elastic contact, away from those that yield
+    let beyond = |value: f64| (value - ends[0]) * (ends[0] - ends[1]).signum();
+    let relative = settings.tolerance.max(onset.0.relative_error_estimate);
+    let slack = error.max(relative * ends[0]);
+    let elastic = unknown == Unknown::YieldPressure && beyond(value).abs() <= slack;
+    let inside = |value: f64| match elastic && beyond(value) > 0.0 {
+        true => ends[0],
+        false => value,
+    };
+    let found = halved(inside(value))?.ok_or(InferError::Outside {
         measure: measure.name(),
         value,
         limits: [ends[0].min(ends[1]), ends[0].max(ends[1])],
+        most,
     })?;
-    let mut band = [halved(value - error)?, halved(value + error)?];
+    let mut band = [value - error, value + error].map(|value| halved(inside(value)));
     // rising with the measure, or falling
     if (ends[1] > ends[0]) != (bracket[1] > bracket[0]) {
         band.reverse();
     }
+    let [low, high] = band;
     Ok(Inferred {
         value: found,
-        band,
+        band: [low?, high?.filter(|_| !elastic)],
+        elastic,
         results: at(found)?.0,
     })
 }

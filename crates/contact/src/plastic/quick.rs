@@ -12,8 +12,8 @@
 use crate::growing::equations::March;
 use crate::growing::nodes::Nodes;
 use crate::numeric::series::Series;
-use crate::plastic::branch::{Branch, FITTED, Fit};
-use crate::plastic::{Flow, Yielding};
+use crate::plastic::branch::{Branch, Fit};
+use crate::plastic::{Flow, FlowLaw, Yielding};
 use crate::summary::Summary;
 use crate::units::INVERSE_MASS;
 use std::f64::consts::FRAC_PI_2;
@@ -32,12 +32,15 @@ const COLUMNS: usize = 5;
 pub(crate) fn quick(yielding: &Yielding, lag: f64) -> Option<(Summary, Flow)> {
     let edge = yielding.edge();
     let (v0, t0, lost) = rise(edge, lag)?;
-    let ([depth, time, flowing], [peak_force, peak_force_time]) = match yielding.fit {
-        None => turned_on_line(edge, lag, v0)?,
-        Some(fit) => turned_on_fit(&fit, lag, v0),
+    let ([depth, time, flowing], [peak_force, peak_force_time]) = match yielding.law {
+        FlowLaw::Thornton | FlowLaw::Recovery => turned_on_line(edge, lag, v0)?,
+        FlowLaw::Fit(fit) => turned_on_fit(&fit, yielding.depth, lag, v0),
     };
     let top = depth.sqrt();
     let (back, from) = yielding.unloading(top);
+    if from.is_nan() || from <= 0.0 {
+        return None;
+    }
     let own_lag = lag * from * from.sqrt();
     let fifth = from.powi(5);
     let ([speed, duration, pulled, stored], by) = match back {
@@ -48,9 +51,9 @@ pub(crate) fn quick(yielding: &Yielding, lag: f64) -> Option<(Summary, Flow)> {
     };
     let (v, stored) = (by * speed * fifth.sqrt(), by * by * stored * fifth);
     let spent = lost + flowing + 2.0 * INVERSE_MASS * stored;
-    let plastic_work = match yielding.fit {
-        None => 2.0 * INVERSE_MASS * (yielding.work(top) - stored),
-        Some(_) => 1.0 - spent,
+    let plastic_work = match yielding.law {
+        FlowLaw::Thornton | FlowLaw::Recovery => 2.0 * INVERSE_MASS * (yielding.work(top) - stored),
+        FlowLaw::Fit(_) => 1.0 - spent,
     };
     Some((
         Summary {
@@ -94,9 +97,8 @@ fn turned_on_line(edge: f64, lag: f64, v0: f64) -> Option<([f64; 3], [f64; 2])> 
     Some((turned, [peak_force, peak_force_time]))
 }
 
-/// The same on the fit, from a velocity where it leaves Hertz's law.
-fn turned_on_fit(fit: &Fit, lag: f64, v0: f64) -> ([f64; 3], [f64; 2]) {
-    let depth = FITTED * fit.critical;
+/// The same on the fit, from the indentation where it leaves Hertz's law and the velocity there.
+fn turned_on_fit(fit: &Fit, depth: f64, lag: f64, v0: f64) -> ([f64; 3], [f64; 2]) {
     let energy = v0 * v0 + depth.powf(2.5);
     let speed = energy.sqrt();
     let pressed = |depth: f64, v: f64| {
@@ -112,7 +114,8 @@ fn turned_on_fit(fit: &Fit, lag: f64, v0: f64) -> ([f64; 3], [f64; 2]) {
         let risen = time * speed * cosine;
         [risen, time, 2.0 * INVERSE_MASS * damped * risen]
     };
-    let from = (v0 / speed).acos().ln();
+    // no difference of near numbers: however small, the angle is no zero, whose logarithm would take steps without end
+    let from = depth.powf(1.25).atan2(v0).ln();
     let steps = ((FRAC_PI_2.ln() - from) / LONGEST).ceil();
     let step = (FRAC_PI_2.ln() - from) / steps;
     let turned = (0..steps as usize).fold([depth, 0.0, 0.0], |state, i| {

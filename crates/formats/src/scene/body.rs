@@ -40,12 +40,11 @@ pub fn parse_materials(text: &str) -> Result<Library, SceneError> {
         let allowed = keys_of("body").map(|key| key.name);
         section.allow(allowed.chain(["group", "source"]))?;
         let source = section.needed_text("source", "say where the numbers come from")?;
-        Ok(Material {
-            name: section.name.to_owned(),
-            group: section.text("group")?.unwrap_or("other").to_owned(),
-            source: source.to_owned(),
-            ..elastic(&section, None)?
-        })
+        let mut material = elastic(&section, None)?;
+        material.name = section.name.to_owned();
+        material.group = section.text("group")?.unwrap_or("other").to_owned();
+        material.source = source.to_owned();
+        Ok(material)
     });
     own.collect()
 }
@@ -61,16 +60,10 @@ pub(super) fn body(section: &Section<'_>, library: &Library) -> Result<Material,
 ///
 /// E and nu may be given by both wave speeds and the density instead.
 fn elastic(section: &Section<'_>, base: Option<&Material>) -> Result<Material, SceneError> {
-    let mut material = base.cloned().unwrap_or(Material {
-        name: "given".to_owned(),
-        youngs_modulus_pa: f64::NAN,
-        poisson_ratio: f64::NAN,
-        density_kg_m3: None,
-        yield_strength_pa: None,
-        tensile_strength_pa: None,
-        fracture_toughness_pa_sqrt_m: None,
-        group: String::new(),
-        source: "the scene".to_owned(),
+    let mut material = base.cloned().unwrap_or_else(|| {
+        let mut given = Material::given(f64::NAN, f64::NAN);
+        given.source = "the scene".to_owned();
+        given
     });
     for key in keys_of("body") {
         let number = section.number(key.name)?;

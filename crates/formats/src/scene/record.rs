@@ -101,9 +101,7 @@ fn record_of(
             RecordError::NotAscending {
                 time_s, before_s, ..
             } => not_ascending(name, time_s, before_s),
-            RecordError::NotFinite { .. }
-            | RecordError::AtOnce { .. }
-            | RecordError::Jumps { .. } => error.to_string(),
+            other => other.to_string(),
         })
     })?;
     let onset_s = reading.onset_s;

@@ -9,6 +9,7 @@ use thiserror::Error;
 
 /// A sweep that could not be run, or parts that cannot be joined.
 #[derive(Debug, Error)]
+#[non_exhaustive]
 pub enum SweepError {
     /// The sweep or its base scene is wrong, or a part, or a folder of them, cannot be read or is not what is needed.
     #[error(transparent)]

@@ -44,7 +44,7 @@ pub const SHA256: &str = "sweep_sha256";
 /// Number attribute of the root: rows.
 pub const ROWS: &str = "rows";
 /// Results that are counted over all rows where they are above one, whatever is written.
-pub const COUNTED: [&str; 2] = ["yield_onset", "cone_crack_onset"];
+pub const COUNTED: [&str; 3] = ["yield_onset", "cone_crack_onset", "velocity_over_trusted"];
 /// Number attribute of the root: rows that failed.
 pub const FAILED: &str = "failed";
 /// Attribute of the models: their names.

@@ -55,18 +55,9 @@ fn rows() -> Vec<Row> {
 /// Hertz's own contact that lasts `duration` A/c1, in a half-space where A = c1 = mu = P = 1.
 pub(crate) fn contact(poisson_ratio: f64, duration: f64) -> Excitation {
     let density = 2.0 * (1.0 - poisson_ratio) / (1.0 - 2.0 * poisson_ratio);
-    let half_space = HalfSpace::new(Material {
-        name: "unit".to_owned(),
-        youngs_modulus_pa: 2.0 * (1.0 + poisson_ratio),
-        poisson_ratio,
-        density_kg_m3: Some(density),
-        yield_strength_pa: None,
-        tensile_strength_pa: None,
-        fracture_toughness_pa_sqrt_m: None,
-        group: String::new(),
-        source: String::new(),
-    })
-    .unwrap();
+    let modulus = 2.0 * (1.0 + poisson_ratio);
+    let unit = Material::elastic(modulus, poisson_ratio, density).unwrap();
+    let half_space = HalfSpace::new(unit).unwrap();
     assert!((half_space.longitudinal_speed_m_s() - 1.0).abs() < 1e-12);
     let radius = PressureRadius::Following {
         largest_m: 1.0,

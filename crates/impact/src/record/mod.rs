@@ -68,6 +68,7 @@ pub struct Treated {
 
 /// Samples that are no force history; they count from 0.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
+#[non_exhaustive]
 pub enum RecordError {
     /// Times and forces differ in number, or there are fewer than two.
     #[error("there are {times} times and {forces} forces; as many of each are needed, at least 2")]

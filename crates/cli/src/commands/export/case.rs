@@ -136,11 +136,17 @@ impl Case {
         // Hertz's pressure goes with v^(2/5)
         let onset = results.loading.yield_onset.map(|over| v * over.powf(-2.5));
         Some(match results.plastic.yield_velocity_m_s {
-            Some(onset) => format!(
-                "yield: begins at {} by the plasticity \"{}\"; below it the contact is elastic",
-                short(onset, "m/s"),
-                law.name()
-            ),
+            Some(onset) => {
+                let over = results.plastic.velocity_over_trusted;
+                let trusted =
+                    over.map(|over| format!("; trusted up to {}", short(v / over, "m/s")));
+                format!(
+                    "yield: begins at {} by the plasticity \"{}\"; below it the contact is elastic{}",
+                    short(onset, "m/s"),
+                    law.name(),
+                    trusted.unwrap_or_default()
+                )
+            }
             None => format!(
                 "yield: begins under the surface at {}, and from there on the elastic restitution is an upper bound; set contact.plasticity",
                 short(onset?, "m/s")

@@ -34,7 +34,9 @@ pub(super) fn table(case: &Case, velocities: Option<&[f64]>, rows: u32) -> Resul
     text += "velocity_m_s";
     let kinds: &[(&str, bool)] = match case.impact.settings.plasticity {
         Plasticity::None => &[("elastic", true)],
-        _ => &[("elastic", true), ("plastic", false)],
+        Plasticity::Thornton | Plasticity::Recovery | Plasticity::JacksonGreen => {
+            &[("elastic", true), ("plastic", false)]
+        }
     };
     for (kind, _) in kinds {
         text.extend(named(&case.run).map(|(name, _)| format!(",{kind}_{name}")));

@@ -224,7 +224,7 @@ fn report(
     [wall_s, computing_s]: [f64; 2],
     resumed: usize,
 ) -> (Value, String) {
-    let [yielding, cracking] = tally.beyond;
+    let [yielding, cracking, untrusted] = tally.beyond;
     let (rows, failed) = (spec.selected().len(), tally.failed);
     let output = outputs.results.path.display().to_string();
     let mut value = json!({
@@ -238,6 +238,7 @@ fn report(
         "failed": failed,
         "yielding": yielding,
         "cracking": cracking,
+        "untrusted": untrusted,
         "wall_s": wall_s,
         "computing_s": computing_s,
     });
@@ -261,6 +262,12 @@ fn report(
             "{yielding} yield (yield_onset above 1), {cracking} may crack (cone_crack_onset above 1)"
         );
         text.push(("not elastic", beyond));
+    }
+    if untrusted > 0 {
+        let faster = format!(
+            "{untrusted} faster than plasticity = \"jackson_green\" is trusted (velocity_over_trusted above 1): use \"thornton\" or \"recovery\" there"
+        );
+        text.push(("untrusted", faster));
     }
     if spec.has_probes() {
         let count = tally.looked_up;
@@ -430,8 +437,8 @@ fn print_rows(spec: &Spec, blocks: &impl Blocks) -> Result<(), Failure> {
 struct Tally {
     failed: usize,
     first: Option<(usize, String)>,
-    /// Scenes in which a ratio to what the bodies bear is above 1: those that yield, and those that may crack.
-    beyond: [usize; 2],
+    /// Scenes with one of [`COUNTED`] above 1: those that yield, that may crack, and whose law of flow is not trusted.
+    beyond: [usize; 3],
     /// Rows whose fields were looked up.
     looked_up: usize,
 }

@@ -14,7 +14,7 @@ use std::ops::Range;
 use std::path::Path;
 
 /// Version of the format: the first number changes when a reader of the old one would fail.
-pub const FORMAT_VERSION: &str = "1.2";
+pub const FORMAT_VERSION: &str = "1.3";
 
 /// How the file begins and ends.
 pub(crate) const MAGIC: &[u8; 4] = b"PAR1";
