@@ -302,7 +302,7 @@ fn gaps_overlaps_and_strangers_are_not_merged() {
         here,
         "sweep s.toml --rows 0:120001 -o x.h5",
         2,
-        "of a sweep of 120000",
+        "the end of the rows = 120001 is outside [0, 120000], the rows of the sweep",
     );
     assert!(!here.join("all.h5").exists() && !here.join("x.h5").exists());
 }

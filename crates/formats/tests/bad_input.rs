@@ -124,7 +124,11 @@ const BAD: [(&str, &str, &[&str]); 34] = [
         &["probe[1].z_m = inf", "[0, inf)"],
     ),
     ("z_m = 0.002\n", "", &["probe[1].z_m is missing"]),
-    ("[[probe]]", "[probe]", &["probe", "[[..]]"]),
+    (
+        "[[probe]]",
+        "[probe]",
+        &["probe", "write [[probe]] for [probe]"],
+    ),
     ("[target]", "[traget]", &["traget", "did you mean target?"]),
     (
         "material = \"steel\"",

@@ -102,16 +102,25 @@ fn every_dataset_is_described_and_every_description_is_written() {
         );
     }
     assert_eq!(StoredImpact::open(&other).unwrap().series, outcome.series);
-    let scene = parse_scene(include_str!("../../../scenes/plastic-drop.toml"), &scenes).unwrap();
-    let outcome = simulate(&scene, &KernelChoice::Direct).unwrap();
-    write_results(&other, &scene, &outcome, Existing::Replace).unwrap();
+    let plastic = include_str!("../../../scenes/plastic-drop.toml");
+    let fitted = plastic.replace("\"thornton\"", "\"jackson_green\"");
+    assert_ne!(plastic, fitted);
+    let write = |text: &str, path: &Path| {
+        let scene = parse_scene(text, &scenes).unwrap();
+        let outcome = simulate(&scene, &KernelChoice::Direct).unwrap();
+        write_results(path, &scene, &outcome, Existing::Replace).unwrap();
+    };
+    write(plastic, &other);
+    let third = other.with_file_name("fitted.h5");
+    write(&fitted, &third);
+    let fitted = hdf5::File::open(&third).unwrap();
     let dented = hdf5::File::open(&other).unwrap();
     let yielding = described_datasets(&dented);
     assert!(yielding.contains(OF_FLOW) && !striker.contains(OF_FLOW));
     let mut written: BTreeSet<String> = striker.union(&record).cloned().collect();
     written.extend(yielding);
     assert_eq!(written, listed("## Datasets", "## Attributes"));
-    let names = [&file, &dented].map(|file| file.attr_names().unwrap());
+    let names = [&file, &dented, &fitted].map(|file| file.attr_names().unwrap());
     let attributes: BTreeSet<String> = names.into_iter().flatten().collect();
     assert_eq!(attributes, listed("## Attributes", ""));
     for quantity in &QUANTITIES {

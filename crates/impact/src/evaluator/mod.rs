@@ -7,10 +7,12 @@
 //! R, the remainder of the kernel at the point, is known as a function of time before anything is summed: as a trace, or as
 //! the cells of a table. Read in this order: [`forcing`] says what F is, [`discs`] which discs stand for a load whose
 //! radius varies, [`convolve`] and [`projection`] sum over cells, [`ends`] integrates where cells do not serve, and
-//! [`past`] where discs do not; [`sum`] puts these together for a point.
+//! [`past`] where discs do not, in [`windows`] among others; [`sum`] puts these together for a point.
 //!
 //! Theory: `docs/theory.md` (T24, T55, T60, T61).
 
+#[cfg(test)]
+mod close_tests;
 pub mod convolve;
 pub(crate) mod discs;
 mod ends;
@@ -22,6 +24,7 @@ mod rate_tests;
 pub(crate) mod sum;
 #[cfg(test)]
 mod tests;
+mod windows;
 
 pub(crate) use past::Past;
 

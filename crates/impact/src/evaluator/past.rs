@@ -18,7 +18,7 @@ use super::forcing::Reading;
 use crate::error::ImpactError;
 use crate::excitation::{Excitation, PressureRadius};
 use crate::record::stretch::largest;
-use halfspace::{Kernel, Profile, Six, gauss, leja_nodes, leja_series, weights_off_axis};
+use halfspace::{Estimate, Kernel, Profile, Six, gauss, leja_nodes, leja_series, weights_off_axis};
 use std::f64::consts::PI;
 use std::ops::Range;
 use std::sync::LazyLock;
@@ -43,6 +43,9 @@ static INTEGRALS: LazyLock<[f64; MOST]> = LazyLock::new(|| {
         terms.sum()
     })
 });
+
+/// Places of the Rayleigh waves from the nearest and the farthest edge among the kinds of fronts.
+const RAYLEIGH: [usize; 2] = [4, 5];
 
 /// Kinds of fronts, and the edge of the contact; of both pressures that stand for its own.
 const KINDS: usize = 11;
@@ -108,7 +111,7 @@ impl<'a> Past<'a> {
         for i in 0..PARTS {
             let span_s = [graded(i), graded(i + 1)];
             let waves = self.between(&allowed, place_m, time_s, span_s, Reading::Force)?;
-            for (sum, waves) in sum.iter_mut().zip(waves) {
+            for (sum, waves) in sum.iter_mut().zip(waves.value) {
                 *sum += waves;
             }
         }
@@ -227,23 +230,30 @@ impl<'a> Past<'a> {
         time_s: f64,
         [from_s, to_s]: [f64; 2],
         reading: Reading,
-    ) -> Result<Six, ImpactError> {
+    ) -> Result<Estimate, ImpactError> {
         let last_s = time_s.min(self.excitation.end_s());
         let from_s = from_s.clamp(0.0, last_s);
         let span_s = [from_s, to_s.clamp(from_s, last_s)];
         let mut sum = self.integral(allowed, place_m, time_s, span_s, reading)?;
         if reading == Reading::Rate {
             for (past_s, sign) in span_s.into_iter().zip([-1.0, 1.0]) {
-                self.add(place_m, [time_s, past_s], sign, Reading::Force, &mut sum)?;
+                self.add(
+                    place_m,
+                    [time_s, past_s],
+                    sign,
+                    Reading::Force,
+                    &mut sum.value,
+                )?;
             }
         }
         Ok(sum)
     }
 
-    /// The integral over some of the past by series whose last terms are within what is allowed.
+    /// The integral over some of the past by series whose last terms are within what is allowed, and what these may leave.
     ///
     /// Near the axis of a punch, where fronts from opposite edges meet and it has no kernel of its own, fields are r to
-    /// their parity times a function of r^2, which their values at a few larger radii continue.
+    /// their parity times a function of r^2, which their values at a few larger radii continue; their error is at least the
+    /// difference to a continuation without the farthest.
     fn integral(
         &self,
         allowed: &Six,
@@ -251,19 +261,31 @@ impl<'a> Past<'a> {
         time_s: f64,
         span_s: [f64; 2],
         reading: Reading,
-    ) -> Result<Six, ImpactError> {
+    ) -> Result<Estimate, ImpactError> {
         /// Radii below this fraction of the distance from the largest edge are continued.
         const NEAR: f64 = 0.031;
         let step_m = NEAR * z_m.hypot(self.excitation.units().disc_radius_m);
-        if r_m >= step_m || matches!(self.excitation.radius(), PressureRadius::Fixed(_)) {
+        let follows = matches!(self.excitation.radius(), PressureRadius::Following { .. });
+        if r_m >= step_m || !follows {
             return self.off_axis(allowed, [r_m, z_m], time_s, span_s, reading);
         }
         let radii: Vec<f64> = (1..=self.radii).map(|i| step_m * i as f64).collect();
-        let mut sum = Six::default();
+        let fewer = &radii[..self.radii - 1];
+        let (mut sum, mut without) = (Estimate::default(), Six::default());
         for (i, &radius) in radii.iter().enumerate() {
             let found = self.off_axis(allowed, [radius, z_m], time_s, span_s, reading)?;
             let weights = weights_off_axis(r_m, &radii, i);
-            sum = std::array::from_fn(|f| sum[f] + weights[f] * found[f]);
+            for (f, weight) in weights.into_iter().enumerate() {
+                sum.value[f] += weight * found.value[f];
+                sum.error[f] += (weight * found.error[f]).abs();
+            }
+            if i < fewer.len() {
+                let weights = weights_off_axis(r_m, fewer, i);
+                without = std::array::from_fn(|f| without[f] + weights[f] * found.value[f]);
+            }
+        }
+        for (f, without) in without.into_iter().enumerate() {
+            sum.error[f] += (sum.value[f] - without).abs();
         }
         Ok(sum)
     }
@@ -275,12 +297,12 @@ impl<'a> Past<'a> {
         time_s: f64,
         span_s: [f64; 2],
         reading: Reading,
-    ) -> Result<Six, ImpactError> {
+    ) -> Result<Estimate, ImpactError> {
         let cuts = self.cuts(place_m, time_s, span_s);
         // between two cuts, and how often they may be halved
         let pairs = cuts.windows(2).map(|pair| ([pair[0], pair[1]], HALVINGS));
         let mut panels: Vec<_> = pairs.rev().collect();
-        let mut sum = Six::default();
+        let mut sum = Estimate::default();
         'panels: while let Some((pair, halvings)) = panels.pop() {
             let [from_s, to_s] = pair;
             let (mut values, mut series) = (Vec::new(), Vec::new());
@@ -309,8 +331,13 @@ impl<'a> Past<'a> {
                     continue 'panels;
                 }
             }
-            for (term, integral) in series.iter().zip(&*INTEGRALS) {
-                sum = std::array::from_fn(|f| sum[f] + integral * term[f]);
+            let last = &series[series.len() - 2..];
+            for f in 0..6 {
+                let terms = series.iter().zip(&*INTEGRALS);
+                sum.value[f] += terms
+                    .map(|(term, integral)| integral * term[f])
+                    .sum::<f64>();
+                sum.error[f] += last.iter().map(|term| term[f].abs()).sum::<f64>();
             }
         }
         Ok(sum)
@@ -411,7 +438,13 @@ impl<'a> Past<'a> {
                 tried.sort_by(|a, b| a.0.total_cmp(&b.0));
                 for pair in tried.windows(2) {
                     if (pair[0].1 < 0.0) != (pair[1].1 < 0.0) {
-                        cuts.push(self.crossing(place_m, time_s, [pair[0], pair[1]], family));
+                        let at_s = self.crossing(place_m, time_s, [pair[0], pair[1]], family);
+                        cuts.push(at_s);
+                        if RAYLEIGH.contains(&(family % KINDS)) {
+                            let beside = self.beside_rayleigh(place_m, time_s);
+                            let both = beside.iter().flat_map(|s| [at_s - s, at_s + s]);
+                            cuts.extend(both.filter(|s| from_s < *s && *s < until_s));
+                        }
                     }
                 }
             }
@@ -428,6 +461,24 @@ impl<'a> Past<'a> {
         let shortest = 1e-12 * until_s;
         cuts.dedup_by(|later, earlier| *later - *earlier < shortest);
         cuts
+    }
+
+    /// Distances in s from a Rayleigh wave at which a span is cut just below the surface: there it passes in a time of the order
+    /// of the depth, which nodes that are as far apart as the other fronts do not see.
+    fn beside_rayleigh(&self, [r_m, z_m]: [f64; 2], time_s: f64) -> Vec<f64> {
+        /// Depth over the distance from the farthest edge below which that is so, and the factor between two cuts.
+        const SHALLOW: f64 = 0.05;
+        const APART: f64 = 8.0;
+        let (units, medium) = (self.excitation.units(), self.excitation.medium());
+        if z_m == 0.0 || z_m > SHALLOW * (r_m + units.disc_radius_m) {
+            return Vec::new();
+        }
+        let slowness = [medium.rayleigh_speed(), medium.kappa()].map(|c| 1.0 / (c * c));
+        let passing = z_m * (slowness[0] - slowness[1]).sqrt() / units.longitudinal_speed_m_s;
+        let grow = |s: &f64| Some(APART * s);
+        std::iter::successors(Some(passing), grow)
+            .take_while(|s| APART * s < time_s)
+            .collect()
     }
 
     /// Times in s that each kind of front takes from a disc of a radius in m.

@@ -5,6 +5,7 @@ use super::discs::{COARSEST, Discs};
 use super::ends::open;
 use super::forcing::{DiscForce, DiscForces, Forcing, Rough};
 use super::past::Past;
+use super::windows::Windows;
 use crate::error::ImpactError;
 use crate::excitation::{Excitation, PressureRadius};
 use crate::fields::quantity::Derivative;
@@ -28,6 +29,7 @@ pub(crate) struct Sum<'a> {
     left: [Vec<f64>; 6],
     /// What the cells may leave.
     rough: [Vec<f64>; 6],
+
     /// Samples whose zones are integrated.
     integrated: Vec<bool>,
     /// Samples in which the discs may leave more than the tolerance.
@@ -123,25 +125,22 @@ impl<'a> Sum<'a> {
         Ok(sum)
     }
 
-    /// More samples that are open, at which a front from the beginning or the end of a contact passes: a contact that is
-    /// smaller than the smallest disc has a sharper one, of which the terms that are left out do not tell.
+    /// More samples that are open, at which waves of the first or last instants of a contact pass.
     fn blurred(&self) -> Vec<usize> {
-        /// Times that a longitudinal wave takes over the largest radius, and how many kinds of fronts: Rayleigh's is sharp in
-        /// rates alone.
-        const BLUR: [(f64, usize); 2] = [(0.025, 2), (0.16, 3)];
-        let (excitation, [r_m, z_m]) = (self.forcing.excitation, self.place_m);
-        let (blur, kinds) = BLUR[usize::from(self.forcing.derivative != Derivative::Field)];
-        let blur_s = blur * excitation.units().time_s();
-        let fronts_s = excitation.speeds().arrivals_s(r_m, z_m, 0.0);
-        let passes = |t: f64| {
-            let ends_s = excitation.contacts_s().iter().flatten();
-            let mut since_s =
-                ends_s.flat_map(|end_s| fronts_s[..kinds].iter().map(move |s| t - end_s - s));
-            since_s.any(|s| s.abs() < blur_s)
-        };
         let times_s = &self.forcing.times_s;
-        let more = |&i: &usize| passes(times_s[i]) && !self.open.contains(&i);
+        let windows = self.windows();
+        let is_in = |t: f64| windows.front_passes(t) || windows.is_of_small_contact(t);
+        let more = |&i: &usize| !self.open.contains(&i) && is_in(times_s[i]);
         (0..times_s.len()).filter(more).collect()
+    }
+
+    fn windows(&self) -> Windows<'_> {
+        Windows {
+            excitation: self.forcing.excitation,
+            place_m: self.place_m,
+            tolerance: self.forcing.tolerance,
+            of_fields: self.forcing.derivative == Derivative::Field,
+        }
     }
 
     /// The largest index of a component.
@@ -557,8 +556,10 @@ impl<'a> Sum<'a> {
             parts.extend(found.into_iter().flatten());
         }
         let mut by_discs = self.by_discs(i, &parts, cells);
-        if near && *whole > 0 && over(allowed, |f| self.left[f][i] - by_discs[1][f]) > 1.0 {
-            *whole -= 1;
+        let known = self.windows().is_of_small_contact(time_s);
+        let is_open = || over(allowed, |f| self.left[f][i] - by_discs[1][f]) > 1.0;
+        if known || near && *whole > 0 && is_open() {
+            *whole -= usize::from(!known);
             parts = contacts;
             by_discs = self.by_discs(i, &parts, cells);
             for (f, last) in by_discs[1].into_iter().enumerate() {
@@ -572,8 +573,11 @@ impl<'a> Sum<'a> {
         for part in &parts {
             let (place_m, reading) = (self.place_m, self.forcing.reading);
             let found = past.between(&enough, place_m, time_s, span_s(part), reading)?;
-            for (sum, found) in exact.iter_mut().zip(found) {
-                *sum += found;
+            // of rates the last terms say too much: beside fronts they fall slowly, and have either sign
+            let counts = self.forcing.derivative == Derivative::Field;
+            for (f, exact) in exact.iter_mut().enumerate().take(self.components()) {
+                *exact += found.value[f];
+                self.rough[f][i] += if counts { found.error[f] } else { 0.0 };
             }
         }
         let [by_discs, last] = by_discs;
