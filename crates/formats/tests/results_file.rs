@@ -104,7 +104,13 @@ fn every_dataset_is_described_and_every_description_is_written() {
     assert_eq!(StoredImpact::open(&other).unwrap().series, outcome.series);
     let plastic = include_str!("../../../scenes/plastic-drop.toml");
     let fitted = plastic.replace("\"thornton\"", "\"jackson_green\"");
-    assert_ne!(plastic, fitted);
+    let own = |line: &&str| !line.starts_with("yield_pressure_pa");
+    let fitted: String = fitted
+        .lines()
+        .filter(own)
+        .flat_map(|line| [line, "\n"])
+        .collect();
+    assert!(fitted.contains("jackson_green"));
     let write = |text: &str, path: &Path| {
         let scene = parse_scene(text, &scenes).unwrap();
         let outcome = simulate(&scene, &KernelChoice::Direct).unwrap();

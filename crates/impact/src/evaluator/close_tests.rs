@@ -373,11 +373,14 @@ fn fields_close_to_a_growing_contact() {
                     let off = samples.iter().zip(&exact).map(|(&n, (x, own))| (((trace.samples[n] - x[f]).abs() - own[f]).max(0.0), n));
                     let (error, n) = off.fold((0.0, 0), |a, b| if b.0 > a.0 { b } else { a });
                     if error > trace.error + noise * peaks[f] {
+                        let k = samples.iter().position(|&m| m == n).unwrap();
+                        let whole = excitation.instant(place, history.time_s[n], 1e-6);
+                        let whole = whole.unwrap().unwrap();
                         println!(
-                            "{} r {:.4} z {:.4}, contact of {:.1} a/c1, nu {:.2}, t/T {:.4}: {field:?} off by {:.1e}, {:.1} times its estimate",
+                            "{} r {:.4} z {:.4}, contact of {:.1} a/c1, nu {:.2}, t/T {:.4}: {field:?} off by {:.1e}, {:.1} times its estimate; the reference may be off by {:.0e}, an integral over the whole contact is by {:.0e}",
                             name, place[0] / radius, place[1] / radius,
                             excitation.end_s() / excitation.units().time_s(), excitation.medium().poisson_ratio(),
-                            history.time_s[n] / excitation.end_s(), error / peaks[f], error / trace.error
+                            history.time_s[n] / excitation.end_s(), error / peaks[f], error / trace.error, exact[k].1[f] / peaks[f], (whole[f] - exact[k].0[f]).abs() / peaks[f]
                         );
                     }
                     of_scene.push((region, error / peaks[f], trace.error / peaks[f]));
