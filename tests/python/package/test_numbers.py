@@ -288,7 +288,7 @@ def test_chosen_columns_are_those_of_the_command(tmp_path):
     assert hl.collide(scene, columns=["loss"], velocity_m_s=[]).loss.shape == (0,)
     with pytest.raises(AttributeError, match="loss is not among the columns asked for, restitution"):
         _ = out.loss
-    with pytest.raises(hl.SceneError, match="column losss"):
+    with pytest.raises(hl.SceneError, match="\"losss\" is not one of"):
         hl.collide(scene, columns=["losss"], velocity_m_s=velocity)
     with pytest.raises(TypeError):
         hl.collide(scene, columns="loss", velocity_m_s=velocity)
