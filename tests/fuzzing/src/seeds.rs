@@ -141,6 +141,8 @@ fn shard(folder: &Path) -> Result<Vec<Vec<u8>>, Box<dyn Error>> {
 /// A sealed table, and the same without its seal as one of an older format.
 fn tables(folder: &Path) -> Result<Vec<Vec<u8>>, Box<dyn Error>> {
     let path = folder.join("seed.h5");
+    // a table is written where nothing is
+    let _ = fs::remove_file(&path);
     lookup::write(&path, &content())?;
     let sealed = fs::read(&path)?;
     let mut older = without_seal(&sealed).to_vec();
