@@ -55,6 +55,7 @@ impl Windows<'_> {
     /// the static field of a contact hardly larger than the distance from its centre, with which its waves begin, is no
     /// polynomial in the square of its radius.
     pub(crate) fn is_of_small_contact(&self, time_s: f64) -> bool {
+        // all of these: `scripts/check-close` counts the fields above their estimates
         /// Distance in largest radii up to which a point is close, and times over the radius before and after a front.
         const CLOSE: f64 = 4.0;
         const PASSING: [f64; 2] = [0.05, 0.8];
