@@ -3,197 +3,179 @@
 //!
 //! Its constants are seconds of one thread, measured with the jobs of `scripts/time-impacts`.
 
+use crate::convolution::plan::{PointPlan, Sets};
 use crate::error::ImpactError;
-use crate::evaluator::convolve::{direct_ns, transform_ns};
-use crate::evaluator::discs::Discs;
-use crate::evaluator::sum::most_whole;
-use crate::evaluator::{APART, MOST_HELD};
 use crate::excitation::{Excitation, PressureRadius};
+use crate::fields::quantity::Derivative;
 use crate::grid::{Grid, Wanted};
 use crate::kernels::KernelSource;
-use crate::scene::{Probe, Scene, Section};
+use crate::sampled::convolve::{direct_ns, transform_ns};
+use crate::scene::{Scene, Section};
 
 /// What any output takes, the opening of a table, and a byte of what is decoded of it.
 const OUTPUT_S: f64 = 1.4e-2;
 const TABLE_S: f64 = 1e-2;
 const DECODED_S: f64 = 2.7e-9;
 
-/// A kernel beside a disc, and one of the smaller discs of a contact that follows its load, which are farther.
+/// A kernel, and kernels of a trace whatever its tolerance, and for each digit; for fields with rates so many times more.
 const KERNEL_S: f64 = 7e-6;
-const SMALL_DISC: f64 = 1.1;
-
-/// Kernels of a trace whatever its tolerance, and for each digit; for fields with rates so many times more.
 const KERNELS: f64 = 16.0;
 const KERNELS_A_DIGIT: f64 = 16.0;
 const WITH_RATES: f64 = 1.5;
 
-/// Moments of a cell, and what it takes to look it up.
+/// Moments of a cell, and the lookup of a cell.
 const CELL_S: f64 = 4e-7;
-const LOOKED_UP_S: f64 = 4.5e-7;
+const LOOKED_UP_S: f64 = 1.5e-7;
 
-/// A step response at an instant, for each jump of a record.
+/// A static field, and a step response at an instant for each jump of a record.
+const STATIC_S: f64 = 3e-7;
 const STEP_S: f64 = 6e-8;
 
-/// Part of a point's samples that are integrated over the radii, and kernels of each over the square of the digits.
-const OPEN: f64 = 0.01;
-const KERNELS_OF_OPEN: f64 = 2.6;
+/// Kernels of a sample that is integrated over all of the past, and over parts of it, over the square of the digits; on the
+/// axis they are continued from so many radii.
+const KERNELS_OF_WHOLE: f64 = 12.0;
+const KERNELS_OF_PARTS: f64 = 6.0;
+const AXIS: f64 = 0.03;
+const RADII_ON_AXIS: f64 = 2.0;
 
-/// Radii from the axis and below the surface within which whole contacts are integrated, and kernels of each over the square
-/// of the digits.
-const BESIDE: [f64; 2] = [3.0, 1.4];
-const KERNELS_OF_WHOLE: f64 = 6.0;
+/// Points of a section whose plans are made for a forecast, at most.
+const MOST_PLANS: usize = 4096;
 
-/// Seconds of a rate of a point inside the contact at four digits, and how many times as many for each digit more. On the axis,
-/// up to some radii from it, all parts of the contact are as far, and it takes more.
-const RATE_INSIDE_S: f64 = 0.15;
-const RATE_A_DIGIT: f64 = 4.0;
-const INSIDE: [f64; 2] = [1.2, 0.5];
-const ON_AXIS: f64 = 8.0;
-const AXIS: f64 = 0.05;
+/// The work on the fields of a scene, known from the plans of its points.
+pub(crate) struct Work {
+    /// Seconds of one thread with kernels that are computed.
+    pub(crate) computed_s: f64,
+    /// Seconds of one thread with those of a table that is in memory.
+    pub(crate) looked_up_s: f64,
+    /// Discs at a point, at most.
+    discs: usize,
+}
 
-/// Times that a longitudinal wave takes over the radius: shorter contacts have short waves, and all choices of discs are tried.
-const SHORT: f64 = 20.0;
+/// Places of a point of a scene, and how many points it stands for.
+fn planned(scene: &Scene) -> Vec<([f64; 2], bool, f64)> {
+    let probes = scene
+        .probes
+        .iter()
+        .map(|probe| ([probe.r_m, probe.z_m], false, 1.0));
+    let section = scene.section.iter().flat_map(|section| {
+        let Section {
+            r_max_m,
+            z_max_m,
+            points,
+            ..
+        } = section;
+        let all = points[0] * points[1];
+        let stride = (all as f64 / MOST_PLANS as f64).sqrt().ceil().max(1.0) as usize;
+        let axis = move |most_m: f64, count: usize| {
+            let place_m = move |i: usize| most_m * i as f64 / (count as f64 - 1.0).max(1.0);
+            (0..count)
+                .step_by(stride)
+                .map(place_m)
+                .collect::<Vec<f64>>()
+        };
+        let (r_m, z_m) = (axis(*r_max_m, points[0]), axis(*z_max_m, points[1]));
+        let each = all as f64 / (r_m.len() * z_m.len()) as f64;
+        let places = r_m
+            .into_iter()
+            .flat_map(move |r| z_m.clone().into_iter().map(move |z| [r, z]));
+        places.map(move |place_m| (place_m, true, each))
+    });
+    probes.chain(section).collect()
+}
 
-/// A force with a kink, such as that of a contact that yields, has more parts to be integrated over.
-const WITH_KINKS: f64 = 3.0;
+impl Work {
+    /// Of a scene whose excitation is known, on samples a step apart.
+    pub(crate) fn new(scene: &Scene, excitation: &Excitation, reach: Option<[f64; 2]>) -> Self {
+        let wanted = Wanted::of(scene);
+        let tolerance = scene.settings.tolerance;
+        let samples = wanted.cells(excitation);
+        let (duration_s, step_s) = wanted.duration_and_step_s(excitation);
+        let follows = matches!(excitation.radius(), PressureRadius::Following { .. });
+        let times_s = |count: f64| -> Vec<f64> {
+            let count = if follows { count as usize } else { 0 };
+            (0..count)
+                .map(|n| duration_s * n as f64 / (count as f64 - 1.0).max(1.0))
+                .collect()
+        };
+        let frames = match &scene.section {
+            Some(Section { frames, .. }) if !scene.peaks => (*frames as f64).min(samples),
+            Some(_) | None => samples,
+        };
+        let [all_s, frames_s] = [duration_s / step_s + 1.0, frames].map(times_s);
+        let digits = -tolerance.log10();
+        let sets = Sets::new(excitation.radius(), tolerance, None, samples as usize);
+        let mut work = Self {
+            computed_s: OUTPUT_S,
+            looked_up_s: 0.0,
+            discs: 1,
+        };
+        let more = if scene.rates() > 0 { WITH_RATES } else { 1.0 };
+        let kernels = more * (KERNELS + KERNELS_A_DIGIT * digits);
+        let trace_s = kernels * KERNEL_S + samples * CELL_S;
+        let looked_up = Sets::new(
+            excitation.radius(),
+            tolerance,
+            reach.or(Some([f64::INFINITY; 2])),
+            samples as usize,
+        );
+        let looked_up = looked_up.get(0).count() as f64;
+        for (place_m, is_of_section, points) in planned(scene) {
+            let (times_s, count) = match is_of_section {
+                true => (&frames_s, frames),
+                false => (&all_s, samples),
+            };
+            let asked: Vec<_> = derivatives(scene).map(|one| (one, &times_s[..])).collect();
+            let plan = PointPlan::new(&sets, (excitation, tolerance), &asked, place_m);
+            let discs = sets.get(plan.set).count();
+            work.discs = work.discs.max(discs);
+            let sums = asked.len() as f64;
+            let still_s = if follows { count * STATIC_S } else { 0.0 };
+            let sum_s = convolved_s(scene, samples, count);
+            let radius_m = excitation.units().disc_radius_m;
+            let is_on_axis = place_m[0] < AXIS * place_m[1].hypot(radius_m);
+            let axis = if is_on_axis { RADII_ON_AXIS } else { 1.0 };
+            let integrated: f64 = (plan.integrated.iter().flatten())
+                .map(|one| {
+                    if one.whole {
+                        KERNELS_OF_WHOLE
+                    } else {
+                        KERNELS_OF_PARTS
+                    }
+                })
+                .sum();
+            let past_s = axis * integrated * digits.powi(2) * KERNEL_S;
+            let discs = discs as f64;
+            work.computed_s +=
+                points * (discs * trace_s + sums * ((discs + 1.0) * sum_s + still_s) + past_s);
+            work.looked_up_s += points
+                * (looked_up * samples * LOOKED_UP_S
+                    + sums * ((looked_up + 1.0) * sum_s + still_s));
+        }
+        work
+    }
+}
 
-/// Power of the longitudinal over the shear speed, over that of a ratio of 1/4: the fields beside a contact on a block that is
-/// nearly incompressible have as many more scales.
-const OF_SPEEDS: f64 = 0.5;
+/// The fields, and the rates of them that a scene asks for.
+fn derivatives(scene: &Scene) -> impl Iterator<Item = Derivative> {
+    let rates = [Derivative::First, Derivative::Second];
+    let mut own: Vec<Derivative> = vec![Derivative::Field];
+    let asked = scene.quantities.iter().filter_map(|one| one.rate());
+    let asked: Vec<Derivative> = asked.map(|(derivative, _)| derivative).collect();
+    own.extend(rates.into_iter().filter(|rate| asked.contains(rate)));
+    own.into_iter()
+}
 
-/// What the rates of a contact that follows its load take beside its fields.
-const FOLLOWING_RATES: f64 = 2.0;
-
-/// Seconds of one thread that the fields of a scene take whose output has so many samples: with kernels that are computed,
-/// and with those of a table that is in memory.
-pub(crate) fn fields_s(scene: &Scene, excitation: &Excitation, samples: f64) -> [f64; 2] {
-    let (radius, tolerance) = (excitation.radius(), scene.settings.tolerance);
-    let (rates, digits) = (scene.rates() as f64, -tolerance.log10());
-    let frames = match &scene.section {
-        Some(Section { frames, .. }) if !scene.peaks => (*frames as f64).min(samples),
-        Some(_) | None => samples,
-    };
-    // of so many samples at a probe and at a point of the section
-    let sum = |of_point: &dyn Fn(f64) -> f64| {
-        let probes = scene.probes.len();
-        let section = scene.points() - probes;
-        probes as f64 * of_point(samples) + section as f64 * of_point(frames)
-    };
-    // slopes and bends of a record are summed wherever lines meet, or transformed as its rises are
+/// Seconds of the convolutions of a point of which some samples are wanted. Slopes and bends of a record are summed wherever
+/// lines meet, or transformed as its rises are.
+fn convolved_s(scene: &Scene, samples: f64, wanted: f64) -> f64 {
     let (corners, jumps) = scene.record().map_or((0.0, 0.0), |record| {
         let rows = (record.time_s().len() as f64).min(samples);
         (rows, record.jumps().len() as f64)
     });
-    let convolved_s = |wanted: f64| {
-        let transform_ns = transform_ns(2.0 * samples);
-        let rises_ns = direct_ns(wanted, samples).min(transform_ns);
-        let bends_ns = direct_ns(wanted, 2.0 * corners).min(2.0 * transform_ns);
-        1e-9 * (rises_ns + bends_ns) + jumps * wanted * STEP_S
-    };
-    let discs = Discs::looked_up(radius)[0].radii.len() as f64;
-    let looked_up_s =
-        sum(&|wanted| discs * (samples * LOOKED_UP_S + (1.0 + rates) * convolved_s(wanted)));
-    // those beside the load seldom leave little at the first choice
-    let choices = Discs::computed(radius, tolerance);
-    let beside = !choices[0].is_apart();
-    let counts = |choices: &[Discs]| choices.iter().map(|discs| discs.radii.len()).sum::<usize>();
-    let is_short = excitation.end_s() < SHORT * excitation.units().time_s();
-    let discs = match (radius, is_short) {
-        (PressureRadius::Following { .. }, true) => counts(&choices),
-        _ => choices[usize::from(beside).min(choices.len() - 1)]
-            .radii
-            .len(),
-    } as f64;
-    let kernels = KERNELS + KERNELS_A_DIGIT * digits;
-    let more = if rates > 0.0 { WITH_RATES } else { 1.0 };
-    let [small, of_rates, open, beside] = match radius {
-        PressureRadius::Following { largest_m, .. } => {
-            let beside = points_beside(scene, largest_m);
-            [SMALL_DISC, FOLLOWING_RATES, OPEN, beside]
-        }
-        PressureRadius::Fixed(_) => [1.0, 1.0, 0.0, 0.0],
-    };
-    let trace_s = kernels * more * small * KERNEL_S + samples * CELL_S;
-    let points_s = sum(&|wanted| {
-        let past_s = open * wanted * KERNELS_OF_OPEN * digits.powi(2) * SMALL_DISC * KERNEL_S;
-        let each = discs * convolved_s(wanted) + past_s;
-        discs * trace_s + each * (1.0 + of_rates * rates)
-    });
-    let step_s = Wanted::of(scene).duration_and_step_s(excitation).1;
-    let whole = most_whole(excitation, step_s, tolerance) as f64;
-    let kinks = match excitation.kinks_s().is_empty() {
-        true => 1.0,
-        false => WITH_KINKS,
-    };
-    let speeds = excitation.speeds();
-    let scales = (speeds.p / speeds.s / 3.0_f64.sqrt()).max(1.0);
-    let harder = kinks * scales.powf(OF_SPEEDS);
-    let whole_s = whole * KERNELS_OF_WHOLE * digits.powi(2) * SMALL_DISC * KERNEL_S;
-    let rate_s = rates * RATE_INSIDE_S * RATE_A_DIGIT.powf(digits - 4.0);
-    let inside_s = match radius {
-        PressureRadius::Following { largest_m, .. } => points_inside(scene, largest_m) * rate_s,
-        PressureRadius::Fixed(_) => 0.0,
-    };
-    let more_s = harder * (beside * whole_s + inside_s);
-    [OUTPUT_S + points_s + more_s, looked_up_s]
-}
-
-/// Points of a scene that are inside a contact of a radius; those on the axis count for more.
-fn points_inside(scene: &Scene, radius_m: f64) -> f64 {
-    let [far_m, deep_m] = INSIDE.map(|radii| radii * radius_m);
-    let of = |r_m: f64| if r_m < AXIS * radius_m { ON_AXIS } else { 1.0 };
-    let probes = scene.probes.iter();
-    let inside = probes.filter(|probe| probe.r_m < far_m && probe.z_m < deep_m);
-    let section = scene.section.as_ref().map_or(0.0, |s| {
-        let [columns, rows] = s.points.map(|n| n as f64);
-        let columns = ON_AXIS + (columns - 1.0) * (far_m / s.r_max_m).min(1.0);
-        columns * (1.0 + (rows - 1.0) * (deep_m / s.z_max_m).min(1.0))
-    });
-    inside.map(|probe| of(probe.r_m)).sum::<f64>() + section
-}
-
-/// Discs that stand for the load at some point of a scene, at most.
-fn most_discs(
-    scene: &Scene,
-    excitation: &Excitation,
-    source: Option<&KernelSource>,
-    samples: f64,
-) -> f64 {
-    let radius = excitation.radius();
-    let choices = match source {
-        None => return 0.0,
-        Some(KernelSource::Table(_)) => Discs::looked_up(radius),
-        Some(KernelSource::Direct(_)) => Discs::computed(radius, scene.settings.tolerance),
-    };
-    let near_m = APART * radius.largest_m();
-    let probes = scene.probes.iter();
-    let near = scene.section.is_some()
-        || probes
-            .map(|probe| probe.r_m.hypot(probe.z_m))
-            .any(|far_m| far_m < near_m);
-    let counts = choices.iter().map(|discs| discs.radii.len());
-    let apart = choices.iter().filter(|discs| discs.is_apart());
-    let held = counts.filter(|&count| count as f64 * samples <= MOST_HELD as f64);
-    let few = apart.map(|discs| discs.radii.len()).max().unwrap_or(0);
-    let first = choices.iter().find(|discs| !discs.is_apart());
-    let few = few.max(first.map_or(1, |discs| discs.radii.len()));
-    if near {
-        held.max().unwrap_or(few) as f64
-    } else {
-        few as f64
-    }
-}
-
-/// Points of a scene that are beside a contact of a radius.
-fn points_beside(scene: &Scene, radius_m: f64) -> f64 {
-    let [far_m, deep_m] = BESIDE.map(|radii| radii * radius_m);
-    let beside = |probe: &&Probe| probe.r_m < far_m && probe.z_m < deep_m;
-    let probes = scene.probes.iter().filter(beside).count();
-    let section = scene.section.as_ref().map_or(0.0, |s| {
-        let part = (far_m / s.r_max_m).min(1.0) * (deep_m / s.z_max_m).min(1.0);
-        (s.points[0] * s.points[1]) as f64 * part
-    });
-    probes as f64 + section
+    let transform_ns = transform_ns(2.0 * samples);
+    let rises_ns = direct_ns(wanted, samples).min(transform_ns);
+    let bends_ns = direct_ns(wanted, 2.0 * corners).min(2.0 * transform_ns);
+    1e-9 * (rises_ns + bends_ns) + jumps * wanted * STEP_S
 }
 
 /// Threads that have something to do among points; one point does not start the others.
@@ -295,18 +277,19 @@ impl Forecast {
         let memory_s = excitation.units().time_s() / excitation.medium().rayleigh_speed();
         let cells = memory_s / grid.step_s;
         let products = samples * cells.min(samples);
-        let [computed_s, looked_up_s] = fields_s(scene, excitation, samples);
+        let reach = source.and_then(KernelSource::table_reach);
+        let work = Work::new(scene, excitation, reach);
         let (loaded_s, fields_s) = match source {
             None => (0.0, 0.0),
-            Some(KernelSource::Direct(_)) => (0.0, computed_s),
+            Some(KernelSource::Direct(_)) => (0.0, work.computed_s),
             Some(KernelSource::Table(table)) => {
                 let decoded = table.decoded_bytes() as f64;
-                (TABLE_S + DECODED_S * decoded, looked_up_s)
+                (TABLE_S + DECODED_S * decoded, work.looked_up_s)
             }
         };
         let deflection_s = (products * PRODUCT_S).min(1e-9 * transform_ns(2.0 * samples));
         let forcings = 1.0 + scene.rates() as f64;
-        let discs = most_discs(scene, excitation, source, samples);
+        let discs = source.map_or(0.0, |_| work.discs as f64);
         let of_discs = threads * CELL * (discs - 1.0).max(0.0) + forcings * FORCE_SAMPLE * discs;
         let mut forecast = Self::of(scene, samples, threads);
         forecast.seconds = loaded_s + fields_s / threads + deflection_s;

@@ -5,11 +5,11 @@
 //!
 //! Theory: `docs/theory.md` (T55).
 
-use crate::evaluator::convolve::{Transform, rises};
-use crate::evaluator::projection::{CellNodes, Node};
 use crate::kernels::Pulse;
 use crate::record::ForceRecord;
 use crate::record::jump::Jump;
+use crate::sampled::convolve::{Transform, rises};
+use crate::sampled::projection::{CellNodes, Node};
 use contact::{
     CollisionUnits, HalfSpace, History, KernelUnits, Resampler, SolvedContact, StaticShare,
     WaveSpeeds, Weights,

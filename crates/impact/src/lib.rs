@@ -21,10 +21,10 @@
 #![cfg_attr(doctest, doc = include_str!("../README.md"))]
 #![warn(missing_docs)]
 
+mod convolution;
 mod cost;
 pub mod energy;
 mod error;
-mod evaluator;
 pub mod excitation;
 mod fields;
 mod grid;
@@ -33,15 +33,16 @@ pub mod kernels;
 pub mod numbers;
 pub mod outcome;
 pub mod record;
+pub(crate) mod sampled;
 pub mod scene;
 pub mod simulate;
 pub mod sweep;
 
 pub use contact::{HalfSpace, Material, Settings, Striker};
+pub use convolution::Trace;
 pub use cost::{Allowance, Forecast};
 pub use energy::EnergySeries;
 pub use error::ImpactError;
-pub use evaluator::{Trace, convolve};
 pub use excitation::{Excitation, Motion, PressureRadius};
 pub use fields::probes::{Peaks, ProbeFields, ProbePeaks, SectionFields};
 pub use fields::quantity::Quantity;
@@ -54,5 +55,6 @@ pub use outcome::{Cause, FieldsUsed, Outcome, RecordResults, Series, StrikerSeri
 pub use record::condition::TreatmentError;
 pub use record::jump::{Jump, follows};
 pub use record::{ASCENDING, ForceRecord, Reading, RecordError, Treated};
+pub use sampled::convolve;
 pub use scene::{Load, Probe, Scene, Section, Strike};
 pub use simulate::{simulate, simulate_within};

@@ -1,20 +1,20 @@
 //! From a scene to all that it gives: an excitation, then series and fields.
 
+use crate::convolution::Convolution;
 use crate::cost::{Allowance, Forecast, busy};
 use crate::energy::EnergySeries;
 use crate::error::ImpactError;
-use crate::evaluator::Evaluator;
-use crate::evaluator::convolve::{Method, rises};
-use crate::evaluator::projection::Projection;
 use crate::excitation::Excitation;
 use crate::fields::faces;
 use crate::fields::probes::{at_probes, frames, on_section};
 use crate::grid::{Grid, Wanted};
 use crate::impact::Impact;
 use crate::kernels::KernelSource;
-use crate::kernels::source::{KernelChoice, choose_source, error_at_places};
+use crate::kernels::source::{KernelChoice, choose_source};
 use crate::outcome::{Cause, FieldsUsed, Outcome, RecordResults, Series, StrikerSeries, checked};
 use crate::record::ForceRecord;
+use crate::sampled::convolve::{Method, rises};
+use crate::sampled::projection::Projection;
 use crate::scene::{Load, Scene, Strike};
 use contact::{Model, Scheme, StaticShare};
 use halfspace::Medium;
@@ -177,11 +177,7 @@ fn begin<'e>(
         forecast.check(scene, allowance.memory_bytes)?;
         Ok::<_, ImpactError>((grid, forecast))
     };
-    let mut judge = |source: &KernelSource| {
-        let (grid, _) = planned(Some(source))?;
-        error_at_places(scene, source, &grid)
-    };
-    let chosen = choose_source(scene, kernels, excitation, &mut judge)?;
+    let chosen = choose_source(scene, kernels, excitation)?;
     let source = chosen.as_ref().map(|(source, _)| source);
     let (grid, forecast) = planned(source)?;
     if !(allowance.go_on)(&forecast) {
@@ -221,16 +217,16 @@ fn add_fields(
     outcome: &mut Outcome,
 ) -> Result<(), ImpactError> {
     let (quantities, watch) = (&scene.quantities, allowance.watch);
-    let evaluator = |wanted| Evaluator::new(&source, grid, wanted, quantities, watch);
-    let mut convolution = Method::Direct;
+    let of = |wanted| Convolution::new(&source, grid, wanted, quantities, watch);
+    let mut method = Method::Direct;
     let all: Vec<usize> = (0..outcome.series.time_s.len()).collect();
     let end_s = outcome.series.time_s.last().copied().unwrap_or(0.0);
     if !scene.probes.is_empty() {
-        let evaluator = evaluator(&all)?;
-        let found = at_probes(&evaluator, &scene.target, &scene.probes)?;
+        let fields = of(&all)?;
+        let found = at_probes(&fields, &scene.target, &scene.probes)?;
         (outcome.warnings).extend(faces::of_probes(scene, &found, end_s));
         outcome.probes = Some(found);
-        convolution = evaluator.method();
+        method = fields.method();
     }
     if let Some(section) = &scene.section {
         let at = frames(section, &outcome.series.time_s)?;
@@ -238,11 +234,11 @@ fn add_fields(
             true => (&all, at.clone()),
             false => (&at, (0..at.len()).collect()),
         };
-        let evaluator = evaluator(wanted)?;
-        let warnings = faces::of_section(&evaluator, &scene.target, section, end_s);
+        let fields = of(wanted)?;
+        let warnings = faces::of_section(&fields, &scene.target, section, end_s);
         outcome.warnings.extend(warnings);
-        outcome.section = Some(on_section(&evaluator, (section, &shown), scene.peaks)?);
-        convolution = evaluator.method();
+        outcome.section = Some(on_section(&fields, (section, &shown), scene.peaks)?);
+        method = fields.method();
     }
     let table = match source {
         KernelSource::Direct(_) => None,
@@ -253,7 +249,7 @@ fn add_fields(
     outcome.used = Some(FieldsUsed {
         table,
         reason,
-        convolution,
+        convolution: method,
     });
     Ok(())
 }

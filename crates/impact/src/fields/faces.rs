@@ -1,6 +1,6 @@
 //! Sentences on the faces of a block: fields are those of a half-space, which has none but the loaded one.
 
-use crate::evaluator::Evaluator;
+use crate::convolution::Convolution;
 use crate::fields::probes::ProbeFields;
 use crate::scene::{Scene, Section};
 use contact::HalfSpace;
@@ -55,14 +55,14 @@ pub(crate) fn of_probes(scene: &Scene, fields: &ProbeFields, end_s: f64) -> Vec<
 
 /// Of a section in an output that ends at a time in s.
 pub(crate) fn of_section(
-    evaluator: &Evaluator<'_>,
+    convolution: &Convolution<'_>,
     block: &HalfSpace,
     section: &Section,
     end_s: f64,
 ) -> Vec<String> {
     let corner = [("r_max_m", section.r_max_m), ("z_max_m", section.z_max_m)];
     let on = face(block, corner).map(|face| doubled("the section ends", &face));
-    let excitation = evaluator.grid.excitation;
+    let excitation = convolution.grid.excitation;
     let radius_m = excitation.units().disc_radius_m;
     // the nearest of its places to the lower face and to the side
     let nearest = [[0.0, section.z_max_m], [section.r_max_m, 0.0]];

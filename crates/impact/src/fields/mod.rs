@@ -7,8 +7,8 @@ pub(crate) mod faces;
 pub(crate) mod probes;
 pub(crate) mod quantity;
 
+use crate::convolution::{Convolution, Past, Trace};
 use crate::error::ImpactError;
-use crate::evaluator::{Evaluator, Past, Trace};
 use crate::excitation::Excitation;
 use crate::grid::{Grid, Wanted};
 use crate::kernels::KernelSource;
@@ -96,9 +96,9 @@ impl Fields<'_> {
         let grid = Grid::new(&wanted, self.excitation, Some(&self.source))?;
         let time_s: Vec<f64> = grid.times_s().collect();
         let all: Vec<usize> = (0..time_s.len()).collect();
-        let evaluator = Evaluator::new(&self.source, &grid, &all, &[], &|| {})?;
+        let convolution = Convolution::new(&self.source, &grid, &all, &[], &|| {})?;
         Ok(FieldHistory {
-            traces: evaluator.at(r_m, z_m)?,
+            traces: convolution.at(r_m, z_m)?,
             time_s,
             arrival_s: self.excitation.arrivals_s([r_m, z_m]),
         })

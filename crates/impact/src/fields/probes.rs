@@ -1,13 +1,13 @@
 //! Fields at the probes of a scene and on its meridional section, and their largest values over time.
 
+use crate::convolution::{Convolution, Trace};
 use crate::cost::Forecast;
 use crate::error::{ImpactError, finite};
-use crate::evaluator::{Evaluator, Trace};
 use crate::excitation::Excitation;
 use crate::fields::quantity::Quantity;
 use crate::grid::{Grid, Wanted};
 use crate::kernels::KernelSource;
-use crate::kernels::source::{KernelChoice, choose_source, relative_error};
+use crate::kernels::source::{KernelChoice, choose_source};
 use crate::scene::{Probe, Scene, Section};
 use contact::HalfSpace;
 use rayon::prelude::*;
@@ -87,13 +87,13 @@ fn peak(time_s: &[f64], samples: &[f64]) -> [f64; 2] {
 
 /// The fields at probes, at the samples that are wanted.
 pub(crate) fn at_probes(
-    evaluator: &Evaluator<'_>,
+    convolution: &Convolution<'_>,
     block: &HalfSpace,
     probes: &[Probe],
 ) -> Result<ProbeFields, ImpactError> {
-    let found = (probes.par_iter()).map(|probe| evaluator.at(probe.r_m, probe.z_m));
+    let found = (probes.par_iter()).map(|probe| convolution.at(probe.r_m, probe.z_m));
     let found: Vec<Vec<Trace>> = found.collect::<Result<_, _>>()?;
-    let quantities = evaluator.quantities.to_vec();
+    let quantities = convolution.quantities.to_vec();
     let count = 6 + quantities.len();
     let mut fields = ProbeFields {
         r_m: probes.iter().map(|p| p.r_m).collect(),
@@ -104,7 +104,7 @@ pub(crate) fn at_probes(
         values: vec![Vec::new(); count],
         errors: vec![Vec::new(); count],
     };
-    let excitation = evaluator.grid.excitation;
+    let excitation = convolution.grid.excitation;
     let (speeds, radius_m) = (excitation.speeds(), excitation.units().disc_radius_m);
     for (found, probe) in found.into_iter().zip(probes) {
         let place_m = [probe.r_m, probe.z_m];
@@ -149,12 +149,12 @@ pub(crate) fn frames(section: &Section, time_s: &[f64]) -> Result<Vec<usize>, Im
 
 /// The fields on a section; `frames` are places among the samples that are wanted, all of which count for `peaks`.
 pub(crate) fn on_section(
-    evaluator: &Evaluator<'_>,
+    convolution: &Convolution<'_>,
     (section, frames): (&Section, &[usize]),
     peaks: bool,
 ) -> Result<SectionFields, ImpactError> {
-    let all_s = evaluator.times_s();
-    let quantities = evaluator.quantities.to_vec();
+    let all_s = convolution.times_s();
+    let quantities = convolution.quantities.to_vec();
     let even =
         |end: f64, count: usize| (0..count).map(move |i| end * i as f64 / (count as f64 - 1.0));
     let r_m: Vec<f64> = even(section.r_max_m, section.points[0]).collect();
@@ -174,11 +174,11 @@ pub(crate) fn on_section(
     };
     for row in 0..fields.z_m.len() {
         let z_m = fields.z_m[row];
-        let found = fields.r_m.par_iter().map(|&r_m| evaluator.at(r_m, z_m));
+        let found = fields.r_m.par_iter().map(|&r_m| convolution.at(r_m, z_m));
         let found: Vec<Vec<Trace>> = found.collect::<Result<_, _>>()?;
         for (column, found) in found.into_iter().enumerate() {
             let place_m = [fields.r_m[column], z_m];
-            let arrivals = evaluator.grid.excitation.arrivals_s(place_m);
+            let arrivals = convolution.grid.excitation.arrivals_s(place_m);
             for (times, time) in fields.arrival_s.iter_mut().zip(arrivals) {
                 times.push(time);
             }
@@ -219,25 +219,12 @@ pub(crate) fn peaks_at_probes(
     kernels: &KernelChoice,
     excitation: &Excitation,
 ) -> Result<ProbePeaks, ImpactError> {
-    // what a table gives is kept once it is judged by its errors
-    let mut judged = None;
-    let mut judge = |source: &KernelSource| {
-        let found = peaks_from(scene, source, excitation)?;
-        let all = found.peaks.iter().enumerate();
-        let fields =
-            all.map(|(i, &[peak, _, error])| (i % (6 + scene.quantities.len()), peak, error));
-        let error = relative_error(fields.filter(|(field, ..)| *field < 6));
-        judged = Some(found);
-        Ok(error)
-    };
-    let chosen = choose_source(scene, kernels, excitation, &mut judge)?;
-    match (chosen, judged) {
-        (None, _) => Ok(ProbePeaks {
+    match choose_source(scene, kernels, excitation)? {
+        None => Ok(ProbePeaks {
             looked_up: false,
             peaks: Vec::new(),
         }),
-        (Some((KernelSource::Table(_), _)), Some(found)) => Ok(found),
-        (Some((source, _)), _) => peaks_from(scene, &source, excitation),
+        Some((source, _)) => peaks_from(scene, &source, excitation),
     }
 }
 
@@ -255,9 +242,9 @@ fn peaks_from(
     Forecast::new(scene, &grid, Some(source), 1.0).check(scene, MOST_BYTES)?;
     let time_s: Vec<f64> = grid.times_s().collect();
     let wanted: Vec<usize> = (0..time_s.len()).collect();
-    let evaluator = Evaluator::new(source, &grid, &wanted, &scene.quantities, &|| {})?;
+    let convolution = Convolution::new(source, &grid, &wanted, &scene.quantities, &|| {})?;
     for probe in &scene.probes {
-        for Trace { samples, error } in evaluator.at(probe.r_m, probe.z_m)? {
+        for Trace { samples, error } in convolution.at(probe.r_m, probe.z_m)? {
             let [value, time_s] = peak(&time_s, &samples);
             found.peaks.push([value, time_s, error]);
         }

@@ -112,9 +112,6 @@ const AT_INSTANTS: f64 = 0.1;
 /// Part of the tolerance that a trace has for rates, those of the displacements: with the power 1/2 a force begins steeper.
 const RATES: f64 = 0.01;
 
-/// Distance in radii to which pulses' fields from computed kernels have been shown to hold their tolerance.
-const FARTHEST: f64 = 1e4;
-
 impl KernelSource {
     /// Kernels of a half-space computed to a relative tolerance in [1e-14, 0.1].
     ///
@@ -140,11 +137,11 @@ impl KernelSource {
         }
     }
 
-    /// Largest r and z in radii at which its values are sure: beyond, computed ones lose digits.
-    pub(crate) fn reach(&self) -> [f64; 2] {
+    /// Largest r and z in radii of a table; none of kernels that are computed.
+    pub(crate) fn table_reach(&self) -> Option<[f64; 2]> {
         match self {
-            Self::Direct(_) => [FARTHEST; 2],
-            Self::Table(table) => [table.content().r_max, table.content().z_max],
+            Self::Direct(_) => None,
+            Self::Table(table) => Some([table.content().r_max, table.content().z_max]),
         }
     }
 

@@ -1,17 +1,18 @@
 //! Where the kernels of the fields come from: computed, or looked up.
 
-use crate::cost::{busy, fields_s};
+use crate::convolution::plan::Sets;
+use crate::convolution::tuning;
+use crate::cost::{Work, busy};
 use crate::error::ImpactError;
-use crate::evaluator::discs::Discs;
-use crate::evaluator::{Evaluator, Trace};
-use crate::excitation::Excitation;
-use crate::grid::{Grid, Wanted};
-use crate::kernels::KernelSource;
+use crate::excitation::{Excitation, PressureRadius};
+use crate::grid::Wanted;
+use crate::kernels::{KernelSource, table_error};
 use crate::scene::Scene;
 use fault::AnyError;
+use halfspace::{Profile, Six};
 use lookup::{LookupError, Table};
-use rayon::prelude::*;
 use std::collections::hash_map::{Entry, HashMap};
+use std::f64::consts::PI;
 use std::fmt;
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -147,17 +148,13 @@ const CHEAP_S: f64 = 0.2;
 /// Computed fields that cost more are not worth waiting for, whatever a table's error.
 const DEAR_S: f64 = 10.0;
 
-/// Finds the relative error of the fields of a scene that a source gives.
-type Judge<'a> = &'a mut dyn FnMut(&KernelSource) -> Result<f64, ImpactError>;
-
 /// The source of the fields of a scene and why it is this one; none when it asks for none.
 ///
-/// A table is judged by the errors that would be stored with its fields.
+/// Whether a table serves is known before anything is looked up, by [`looked_up_error`].
 pub(crate) fn choose_source(
     scene: &Scene,
     kernels: &KernelChoice,
     excitation: &Excitation,
-    judge: Judge<'_>,
 ) -> Result<Option<(KernelSource, String)>, ImpactError> {
     let points = places(scene);
     if points.is_empty() {
@@ -172,7 +169,8 @@ pub(crate) fn choose_source(
     let [nearest, farthest] = span(&points, excitation.units().disc_radius_m);
     let load = |tables: &Arc<dyn Tables>| {
         // as far as the smallest disc that stands for the load sees the places
-        let smallest = Discs::looked_up(excitation.radius())[0].smallest();
+        let sets = Sets::new(excitation.radius(), tolerance, Some([f64::INFINITY; 2]), 1);
+        let smallest = sets.smallest();
         let span = [nearest, farthest.map(|far| far / smallest)];
         let table = tables.part(medium.poisson_ratio(), span);
         table.map(KernelSource::Table).map_err(ImpactError::Table)
@@ -184,7 +182,7 @@ pub(crate) fn choose_source(
         KernelChoice::Auto(tables) => {
             let cells = Wanted::of(scene).cells(excitation);
             let count = scene.points();
-            let cost_s = fields_s(scene, excitation, cells)[0] / busy(count);
+            let cost_s = Work::new(scene, excitation, None).computed_s / busy(count);
             let cost =
                 format!("{count} points of {cells:.0} cells take about {cost_s:.1e} s to compute");
             if cost_s <= CHEAP_S {
@@ -199,12 +197,21 @@ pub(crate) fn choose_source(
         return direct(format!("{outside}: computed"));
     }
     let table = load(tables)?;
-    let error = match judge(&table) {
-        Err(ImpactError::OutsideTable { source, .. }) => {
-            return direct(format!("{source}: computed"));
-        }
-        found => found?,
+    let KernelSource::Table(own) = &table else {
+        return Ok(Some((table, "asked for".to_owned())));
     };
+    let mut error = 0.0_f64;
+    for place_m in points {
+        match looked_up_error(own, excitation, scene, place_m) {
+            Err(outside @ LookupError::Outside { .. }) => {
+                return direct(format!("{outside}: computed"));
+            }
+            found => {
+                let source = |source: LookupError| ImpactError::Table(source.into());
+                error = error.max(found.map_err(source)?);
+            }
+        }
+    }
     let [and, then]: [String; 2] = before;
     if error > tolerance && cost_s <= DEAR_S {
         return direct(format!(
@@ -235,34 +242,56 @@ fn span(places: &[[f64; 2]], radius: f64) -> [[f64; 2]; 2] {
     [nearest, [0, 1].map(|axis| extreme(axis, f64::max, 0.0))]
 }
 
-/// Largest estimated error of fields over the largest field of their kind, displacements and stresses: of each the number of
-/// the field, its peak and its error.
+/// Relative error of looked-up fields at a point, known before they are: that of the table for the force on each disc, and of the
+/// short waves of the first and last instants, which no table has.
 ///
-/// Where nothing moves there is no error.
-pub(crate) fn relative_error(fields: impl Iterator<Item = (usize, f64, f64)>) -> f64 {
-    let (mut errors, mut sizes) = ([0.0_f64; 2], [0.0_f64; 2]);
-    for (field, peak, error) in fields {
-        let kind = usize::from(field >= 2);
-        errors[kind] = errors[kind].max(error);
-        sizes[kind] = sizes[kind].max(peak.abs());
+/// It is over the largest static field of a kind, displacements and stresses.
+fn looked_up_error(
+    table: &Table,
+    excitation: &Excitation,
+    scene: &Scene,
+    place_m: [f64; 2],
+) -> Result<f64, LookupError> {
+    let (units, medium) = (excitation.units(), excitation.medium());
+    let reach = [table.content().r_max, table.content().z_max];
+    let tolerance = scene.settings.tolerance;
+    let sets = Sets::new(excitation.radius(), tolerance, Some(reach), 1);
+    let place = place_m.map(|x| x / units.disc_radius_m);
+    let discs = sets.get(sets.choose(place));
+    let still = |over: f64| -> Result<Six, LookupError> {
+        let fixed = medium.static_field(Profile::Hertz, place[0] / over, place[1] / over)?;
+        Ok(fixed)
+    };
+    let largest = still(1.0)?;
+    let mut errors = Six::default();
+    for (k, &over) in discs.radii.iter().enumerate() {
+        let at = place.map(|x| x / over);
+        let own = table_error(table, medium.poisson_ratio(), at, excitation.pulse(over))?;
+        let unit = [1.0 / over, 1.0 / (over * over)].map(|unit| unit * discs.variation(k));
+        for (f, error) in errors.iter_mut().enumerate() {
+            *error = error.hypot(unit[usize::from(f >= 2)] * own[f]);
+        }
     }
-    let relative = |kind: usize| errors[kind] / sizes[kind].max(f64::MIN_POSITIVE);
-    relative(0).max(relative(1))
+    let kinds =
+        [&largest[..2], &largest[2..]].map(|own| own.iter().fold(0.0_f64, |a, b| a.max(b.abs())));
+    let of_table = (0..6)
+        .map(|f| errors[f] / kinds[usize::from(f >= 2)])
+        .fold(0.0, f64::max);
+    Ok(of_table + short_waves(excitation, scene))
 }
 
-/// The same at the places of a scene, whose fields are evaluated as those that are stored are.
-pub(crate) fn error_at_places(
-    scene: &Scene,
-    source: &KernelSource,
-    grid: &Grid<'_>,
-) -> Result<f64, ImpactError> {
-    let all: Vec<usize> = (0..grid.count()).collect();
-    let evaluator = Evaluator::new(source, grid, &all, &[], &|| {})?;
-    let places = places(scene);
-    let found = places.par_iter().map(|&[r_m, z_m]| evaluator.at(r_m, z_m));
-    let found: Vec<Vec<Trace>> = found.collect::<Result<_, _>>()?;
-    let each = found.iter().flat_map(|traces| traces.iter().enumerate());
-    Ok(relative_error(
-        each.map(|(field, trace)| (field, trace.peak(), trace.error)),
-    ))
+/// Relative error of looked-up fields by the first and last instants of a contact: of waves shorter than the discs, and than the
+/// cells.
+fn short_waves(excitation: &Excitation, scene: &Scene) -> f64 {
+    if excitation.record().is_some() {
+        return 0.0;
+    }
+    let (_, step_s) = Wanted::of(scene).duration_and_step_s(excitation);
+    let crossing_s = excitation.units().time_s() / excitation.medium().rayleigh_speed();
+    let part = |time_s: f64| (PI * time_s / excitation.end_s()).powf(1.5);
+    let of_discs = match excitation.radius() {
+        PressureRadius::Following { .. } => tuning::LOOKED_UP_FRONTS * part(crossing_s),
+        PressureRadius::Fixed(_) => 0.0,
+    };
+    of_discs + tuning::LOOKED_UP_CELLS * part(step_s)
 }

@@ -1,8 +1,9 @@
 //! When the blow of a record begins and ends: a record may have a part before it, and one after it, in which only an
 //! instrument's noise is seen.
 
+use crate::record::ForceRecord;
 use crate::record::condition::TreatmentError;
-use crate::record::{ForceRecord, stretch::largest};
+use crate::sampled::projection::largest;
 
 /// Part of the largest force that a blow surely exceeds.
 const SEEN: f64 = 0.05;

@@ -8,8 +8,8 @@ pub(crate) mod jump;
 mod low_pass;
 pub(crate) mod stretch;
 
-use crate::evaluator::projection::Node;
 use crate::record::jump::{Jump, MOST_JUMPS, follows, jumps, rounded_up};
+use crate::sampled::projection::Node;
 use halfspace::gauss;
 use std::path::PathBuf;
 use thiserror::Error;

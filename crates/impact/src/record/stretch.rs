@@ -4,6 +4,7 @@
 //! static ones and a stretch is computed as if it were alone.
 
 use crate::record::ForceRecord;
+use crate::sampled::projection::{Departure, largest};
 
 /// A part of a record in which the force changes, with the constant force before it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -21,38 +22,6 @@ const QUIET: f64 = 1e-3;
 ///
 /// `the_step_follows_the_steepest_part` fails without it.
 const JUMP: f64 = 64.0;
-
-/// Largest magnitude.
-pub(crate) fn largest(samples: &[f64]) -> f64 {
-    samples.iter().fold(0.0, |most, v| most.max(v.abs()))
-}
-
-/// What samples joined by straight lines leave of a force, in N.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub(crate) struct Departure {
-    /// Largest difference.
-    pub(crate) most_n: f64,
-    /// Sum over the cells of the largest difference in each.
-    pub(crate) sum_n: f64,
-}
-
-impl Departure {
-    /// Counts a cell.
-    pub(crate) fn add(&mut self, cell_n: f64) {
-        self.most_n = self.most_n.max(cell_n);
-        self.sum_n += cell_n;
-    }
-
-    pub(crate) fn join(&mut self, other: Self) {
-        self.most_n = self.most_n.max(other.most_n);
-        self.sum_n += other.sum_n;
-    }
-
-    /// How far a response may be moved by it that varies by `variation` in all and by `step` over a cell at most.
-    pub(crate) fn moves(&self, [variation, step]: [f64; 2]) -> f64 {
-        (self.most_n * variation).min(self.sum_n * step)
-    }
-}
 
 impl ForceRecord {
     /// The stretches, those less than `quiet_s` apart as one; none where the force is zero throughout.

@@ -14,10 +14,10 @@
 //!
 //! Theory: `docs/theory.md` (T55).
 
-use super::forcing::Reading;
+use super::loads::Reading;
 use crate::error::ImpactError;
 use crate::excitation::{Excitation, PressureRadius};
-use crate::record::stretch::largest;
+use crate::sampled::projection::largest;
 use halfspace::{Estimate, Kernel, Profile, Six, gauss, leja_nodes, leja_series, weights_off_axis};
 use std::f64::consts::PI;
 use std::ops::Range;

@@ -2,10 +2,10 @@
 
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 
-use crate::evaluator::discs::Discs;
-use crate::evaluator::forcing::Forcing;
-use crate::evaluator::tests::contact;
-use crate::evaluator::{Evaluator, Past};
+use crate::convolution::discs::Discs;
+use crate::convolution::loads::Forcing;
+use crate::convolution::tests::contact;
+use crate::convolution::{Convolution, Past};
 use crate::fields::quantity::Derivative;
 use crate::fields::quantity::Quantity;
 use crate::grid::{Grid, Wanted};
@@ -88,8 +88,8 @@ fn worst(order: Derivative, duration: f64, place: [f64; 2], tolerance: f64) -> [
         Derivative::Field | Derivative::First => [Quantity::VelocityR, Quantity::VelocityZ],
         Derivative::Second => [Quantity::AccelerationR, Quantity::AccelerationZ],
     };
-    let evaluator = Evaluator::new(&source, &grid, &all, &quantities, &|| {});
-    let found = evaluator.unwrap().at(place[0], place[1]).unwrap();
+    let convolution = Convolution::new(&source, &grid, &all, &quantities, &|| {});
+    let found = convolution.unwrap().at(place[0], place[1]).unwrap();
     let rates = &found[6..];
     let reference = Reference {
         sum: Past::new(&excitation, 1e-8).unwrap(),
@@ -169,13 +169,13 @@ fn rates_of_shares_are_those_of_their_forces() {
     };
     let grid = Grid::new(&wanted, &excitation, None).unwrap();
     let [forces, rates] = [Derivative::Field, Derivative::First]
-        .map(|derivative| Forcing::new(&grid, &[], derivative));
-    let discs = Discs::following(6, 0.0);
-    for k in 0..discs.radii.len() {
+        .map(|derivative| Forcing::new(&grid, &[], derivative, 1));
+    let discs = Discs::between(0.04, 6);
+    for k in 0..discs.count() {
         for t in [0.1, 0.23, 0.4, 0.61, 0.9].map(|part| part * duration) {
-            let [after, before] = [t + APART, t - APART].map(|t| forces.on_disc(&discs, k, t)[0]);
+            let [after, before] = [t + APART, t - APART].map(|t| forces.on_disc(&discs, k, t));
             let (found, exact) = (
-                rates.on_disc(&discs, k, t)[0],
+                rates.on_disc(&discs, k, t),
                 (after - before) / (2.0 * APART),
             );
             // forces of one over a contact of 30 have rates of 0.1

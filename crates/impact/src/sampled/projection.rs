@@ -14,7 +14,6 @@
 //! Theory: `docs/theory.md` (T24).
 
 use super::convolve::{Transform, weighted_sum};
-use crate::record::stretch::Departure;
 use halfspace::Six;
 use lookup::{Moments, absorbed};
 use std::ops::Range;
@@ -143,18 +142,6 @@ impl Projection {
         }
         sum
     }
-
-    /// The most that some of the cells may leave of sample n, where the kernel departs by `open` from a parabola within
-    /// each of its cells.
-    pub(crate) fn left_by(&self, n: usize, part: &Range<usize>, open: &[Six]) -> Six {
-        let mut sum = Six::default();
-        for cell in part.start..part.end.min(n + 1) {
-            for (sum, open) in sum.iter_mut().zip(open[n - cell]) {
-                *sum += open * self.taken(cell).left;
-            }
-        }
-        sum
-    }
 }
 
 /// What a cell takes of a force, and what it leaves.
@@ -272,14 +259,41 @@ impl CellNodes {
         })
     }
 
-    /// The forces at all places.
-    pub(crate) fn forces(&self) -> impl Iterator<Item = f64> {
-        self.nodes.iter().map(|node| node.force)
-    }
-
     /// Those of one cell.
     pub(crate) fn of(&self, cell: usize) -> &[Node] {
         &self.nodes[self.starts[cell]..self.starts[cell + 1]]
+    }
+}
+
+/// Largest magnitude.
+pub(crate) fn largest(samples: &[f64]) -> f64 {
+    samples.iter().fold(0.0, |most, v| most.max(v.abs()))
+}
+
+/// What samples joined by straight lines leave of a force, in N.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(crate) struct Departure {
+    /// Largest difference.
+    pub(crate) most_n: f64,
+    /// Sum over the cells of the largest difference in each.
+    pub(crate) sum_n: f64,
+}
+
+impl Departure {
+    /// Counts a cell.
+    pub(crate) fn add(&mut self, cell_n: f64) {
+        self.most_n = self.most_n.max(cell_n);
+        self.sum_n += cell_n;
+    }
+
+    pub(crate) fn join(&mut self, other: Self) {
+        self.most_n = self.most_n.max(other.most_n);
+        self.sum_n += other.sum_n;
+    }
+
+    /// How far a response may be moved by it that varies by `variation` in all and by `step` over a cell at most.
+    pub(crate) fn moves(&self, [variation, step]: [f64; 2]) -> f64 {
+        (self.most_n * variation).min(self.sum_n * step)
     }
 }
 
@@ -350,7 +364,7 @@ mod tests {
     fn noise_is_transformed_as_it_is_summed() {
         let noise = |i: usize, k: usize| ((i * i + k) as f64).sin();
         let samples: Vec<f64> = (0..2048).map(|i| noise(i, 0)).collect();
-        let rises = crate::evaluator::convolve::rises(0.0, &samples);
+        let rises = crate::sampled::convolve::rises(0.0, &samples);
         let nodes = CellNodes::new(samples.len() - 1, |m, nodes| {
             let rule = gauss::rule(3).on(-0.5, 0.5);
             nodes.extend(rule.enumerate().map(|(k, (x, weight))| Node {

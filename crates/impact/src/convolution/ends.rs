@@ -11,18 +11,13 @@
 //!
 //! Theory: `docs/theory.md` (T24).
 
-use super::projection::Projection;
+use super::tuning;
+use crate::sampled::projection::Projection;
 use halfspace::{Six, Trace, chebyshev_each, gauss};
 use lookup::Moments;
 use std::f64::consts::PI;
 use std::ops::Range;
 use std::sync::LazyLock;
-
-/// Rates that are left over a cell count from this part of the tolerance of the steepest rise on.
-const SMOOTH: f64 = 0.02;
-
-/// Rise of the force that the integrals over a zone may lose, over its largest over a cell.
-const LOST: f64 = 3e-3;
 
 /// Terms of the force in the root of time.
 const DEGREE: usize = 12;
@@ -34,13 +29,20 @@ const START: f64 = 1e-10;
 /// Nodes of the rule, side by side.
 const NODES: usize = 10;
 
-/// Cells that are replaced together.
+/// Cells that are replaced together by an integral.
 pub(crate) struct Zone {
     /// Each ends at the sample of its number.
     pub(crate) cells: Range<usize>,
+    /// The force on each disc within them.
+    discs: Vec<DiscZone>,
+}
+
+/// The force on a disc within a zone.
+#[derive(Default)]
+struct DiscZone {
     parts: Vec<Part>,
-    /// When the pair of forces jumps, in s, and by how much, such as the rate of a contact that begins to yield.
-    jumps: Vec<(f64, [f64; 2])>,
+    /// When it jumps, in s, and by how much, such as the rate of a contact that begins to yield.
+    jumps: Vec<(f64, f64)>,
 }
 
 /// A part of a zone on one side of a beginning or an end.
@@ -50,54 +52,102 @@ struct Part {
     sign: f64,
     /// Roots of the times in s from the origin between which it lies.
     roots: [f64; 2],
-    /// dF/dx as Chebyshev series in x between them, of each of a pair of forces.
-    series: [[f64; 2]; DEGREE],
+    /// dF/dx as a Chebyshev series in x between them.
+    series: [[f64; 1]; DEGREE],
 }
 
-/// The zones of a force during a run, with those of another beside it; `steepest` is its largest rise over a step, in
-/// tolerances.
-pub(crate) fn zones(
-    contacts: &[[f64; 2]],
-    span_s: &dyn Fn(&Range<usize>) -> [f64; 2],
+/// Ranges of the cells of a run of `count` samples that a parabola does not follow; `steepest` is the largest rise over a
+/// step times the tolerance.
+pub(crate) fn unresolved(
     projection: &Projection,
-    (count, steepest): (usize, f64),
-    force: impl Fn(f64) -> [f64; 2],
-) -> Vec<Zone> {
-    let mut zones: Vec<Zone> = Vec::new();
-    let sure = SMOOTH * steepest;
-    for cell in (1..count).filter(|&cell| projection.taken(cell).left > sure) {
-        match zones.last_mut() {
-            Some(zone) if zone.cells.end == cell => zone.cells.end = cell + 1,
-            Some(_) | None => zones.push(Zone {
-                cells: cell..cell + 1,
-                parts: Vec::new(),
-                jumps: Vec::new(),
-            }),
+    count: usize,
+    steepest: f64,
+) -> Vec<Range<usize>> {
+    let mut found: Vec<Range<usize>> = Vec::new();
+    let is_open = |&cell: &usize| projection.taken(cell).left > tuning::UNRESOLVED * steepest;
+    for cell in (1..count).filter(is_open) {
+        match found.last_mut() {
+            Some(last) if last.end == cell => last.end = cell + 1,
+            Some(_) | None => found.push(cell..cell + 1),
         }
     }
-    let mut ends: Vec<f64> = contacts.as_flattened().to_vec();
-    ends.dedup();
-    let within = |[from_s, to_s]: [f64; 2]| {
-        let all = ends.iter().copied();
-        all.filter(move |at_s| from_s <= *at_s && *at_s < to_s)
-    };
-    // elsewhere cells lose less than the integral does, as long as they follow the force to the tolerance
-    zones.retain(|zone| {
-        let mut left = zone.cells.clone().map(|cell| projection.taken(cell).left);
-        within(span_s(&zone.cells)).next().is_some() || left.any(|left| left > steepest)
-    });
-    for zone in &mut zones {
-        let [from_s, to_s] = span_s(&zone.cells);
-        for at_s in within([from_s, to_s]) {
-            let beside_s = ROUNDING * at_s + START * (to_s - from_s);
-            // free of what grows as the root of the distance
-            let side = |s: f64| [force(at_s + s), force(at_s + 4.0 * s)];
-            let sides = [beside_s, -beside_s].map(side);
-            let [after, before] = sides.map(|[near, far]| [0, 1].map(|k| 2.0 * near[k] - far[k]));
-            let jump = [0, 1].map(|k| after[k] - before[k]);
-            zone.jumps.push((at_s, jump));
+    found
+}
+
+impl Zone {
+    /// Of some cells, with the forces on so many discs, which rise by `rise` at most over a cell; none where the integral would
+    /// be no better than the cells.
+    pub(crate) fn new(
+        cells: Range<usize>,
+        smooth_s: &[[f64; 2]],
+        span_s: &dyn Fn(&Range<usize>) -> [f64; 2],
+        (rise, tolerance): (f64, f64),
+        (count, projection): (usize, &Projection),
+        force: impl Fn(usize, f64) -> f64,
+    ) -> Option<Self> {
+        let steepest = tolerance * rise;
+        let span = span_s(&cells);
+        let mut ends: Vec<f64> = smooth_s.as_flattened().to_vec();
+        ends.dedup();
+        ends.retain(|at_s| span[0] <= *at_s && *at_s < span[1]);
+        // elsewhere cells lose less than the integral does, as long as they follow the force to the tolerance
+        let mut residuals = cells.clone().map(|cell| projection.taken(cell).left);
+        if ends.is_empty() && !residuals.any(|one| one > steepest) {
+            return None;
         }
-        for &[begin_s, end_s] in contacts {
+        let lost = tuning::LOST * rise;
+        let allowed = tuning::UNRESOLVED * steepest;
+        let of = |k: usize| DiscZone::new(span, &ends, smooth_s, allowed, |t| force(k, t));
+        let discs: Vec<DiscZone> = (0..count).map(of).collect();
+        // where a force has edges that nobody has named, such as a rate where pieces of a march meet, cells serve, too
+        let is_whole = |(k, disc): (usize, &DiscZone)| {
+            let [before, after] = span.map(|t| force(k, t));
+            (after - before - disc.rise()).abs() <= lost
+        };
+        let all = discs.iter().enumerate().all(is_whole);
+        all.then_some(Self { cells, discs })
+    }
+
+    /// The integral over some of the past at a time, under disc `k`.
+    pub(crate) fn by_trace(
+        &self,
+        k: usize,
+        time_s: f64,
+        past_s: [f64; 2],
+        (trace, unit_s): (&Trace, f64),
+    ) -> Six {
+        let mut sum = Six::default();
+        for part in &self.discs[k].parts {
+            part.add(time_s, past_s, (trace, unit_s), &mut sum);
+        }
+        let [from_s, to_s] = [past_s[0], past_s[1].min(time_s)];
+        let jumps = self.discs[k].jumps.iter();
+        for (at_s, jump) in jumps.filter(|one| from_s <= one.0 && one.0 < to_s) {
+            let value = trace.at((time_s - at_s) / unit_s);
+            for (sum, value) in sum.iter_mut().zip(value) {
+                *sum += jump * value;
+            }
+        }
+        sum
+    }
+}
+
+impl DiscZone {
+    fn new(
+        [from_s, to_s]: [f64; 2],
+        ends: &[f64],
+        smooth_s: &[[f64; 2]],
+        allowed: f64,
+        force: impl Fn(f64) -> f64,
+    ) -> Self {
+        let mut found = Self::default();
+        for &at_s in ends {
+            let beside_s = ROUNDING * at_s + START * (to_s - from_s);
+            // free of a part that grows as the root of the distance
+            let side = |s: f64| 2.0 * force(at_s + s) - force(at_s + 4.0 * s);
+            found.jumps.push((at_s, side(beside_s) - side(-beside_s)));
+        }
+        for &[begin_s, end_s] in smooth_s {
             let [low, high] = [from_s.max(begin_s), to_s.min(end_s)];
             if low >= high {
                 continue;
@@ -110,24 +160,21 @@ pub(crate) fn zones(
             for side in [(low, 1.0), (high, -1.0)] {
                 let roots = [0.0, (middle - side.0).abs().sqrt()];
                 if roots[1] > 0.0 {
-                    Part::push(side, roots, &force, sure, &mut zone.parts);
+                    Part::push(side, roots, &force, allowed, &mut found.parts);
                 }
             }
         }
+        found
     }
-    // where a force has edges that nobody has named, such as a rate where pieces of a march meet, cells serve, too
-    let rises = (1..count).map(|cell| projection.taken(cell).rise.abs());
-    let most = LOST * rises.fold(0.0, f64::max);
-    zones.retain(|zone| {
-        let [before, after] = span_s(&zone.cells).map(&force);
-        let of_parts = zone.parts.iter().map(|part| part.rises(part.roots).1);
-        let of_parts = of_parts.map(|rises| rises.map(|own| own.iter().sum()));
-        let jumps = zone.jumps.iter().map(|one| one.1);
-        let found: Vec<[f64; 2]> = of_parts.chain(jumps).collect();
-        let lost = |k: usize| after[k] - before[k] - found.iter().map(|r| r[k]).sum::<f64>();
-        lost(0).abs().max(lost(1).abs()) <= most
-    });
-    zones
+
+    /// By how much the force changes over the zone.
+    fn rise(&self) -> f64 {
+        let parts = self
+            .parts
+            .iter()
+            .map(|part| part.rises(part.roots).1.iter().sum::<f64>());
+        parts.chain(self.jumps.iter().map(|one| one.1)).sum()
+    }
 }
 
 impl Part {
@@ -135,37 +182,34 @@ impl Part {
     fn push(
         (origin_s, sign): (f64, f64),
         roots: [f64; 2],
-        force: &impl Fn(f64) -> [f64; 2],
+        force: &impl Fn(f64) -> f64,
         allowed: f64,
         parts: &mut Vec<Self>,
     ) {
-        /// Parts are halved no more once there are so many.
-        const MOST: usize = 16;
         let (middle, half) = (0.5 * (roots[0] + roots[1]), 0.5 * (roots[1] - roots[0]));
         let cosines = &*COSINES;
-        let values: [[f64; 2]; DEGREE] = std::array::from_fn(|i| {
+        let values: [f64; DEGREE] = std::array::from_fn(|i| {
             let x = middle + half * cosines[1][i];
             force(origin_s + sign * x * x)
         });
-        let term = |k: usize, j: usize| {
+        let term = |j: usize| {
             let terms = values.iter().zip(cosines[j]);
-            2.0 * terms.map(|(value, cosine)| value[k] * cosine).sum::<f64>() / DEGREE as f64
+            2.0 * terms.map(|(value, cosine)| value * cosine).sum::<f64>() / DEGREE as f64
         };
-        let left = |k| term(k, DEGREE - 1).abs() + term(k, DEGREE - 2).abs();
-        if left(0).max(left(1)) > allowed && parts.len() < MOST {
+        let last = term(DEGREE - 1).abs() + term(DEGREE - 2).abs();
+        if last > allowed && parts.len() < tuning::MOST_PARTS {
             for roots in [[roots[0], middle], [middle, roots[1]]] {
                 Self::push((origin_s, sign), roots, force, allowed, parts);
             }
             return;
         }
         // the derivative of each series, by its recurrence
-        let mut series = [[0.0; 2]; DEGREE];
+        let mut series = [[0.0; 1]; DEGREE];
         for j in (1..DEGREE).rev() {
             let above = series.get(j + 1).copied().unwrap_or_default();
-            let scale = 2.0 * j as f64 * sign / half;
-            series[j - 1] = [0, 1].map(|k| above[k] + scale * term(k, j));
+            series[j - 1] = [above[0] + 2.0 * j as f64 * sign / half * term(j)];
         }
-        series[0] = series[0].map(|slope| 0.5 * slope);
+        series[0][0] *= 0.5;
         parts.push(Self {
             origin_s,
             sign,
@@ -174,15 +218,14 @@ impl Part {
         });
     }
 
-    /// Nodes between two roots, and what the forces rise at each, in the sense of time.
-    fn rises(&self, [from, to]: [f64; 2]) -> ([f64; NODES], [[f64; NODES]; 2]) {
+    /// Nodes between two roots, and the rise of the force at each, in the sense of time.
+    fn rises(&self, [from, to]: [f64; 2]) -> ([f64; NODES], [f64; NODES]) {
         let [low, high] = self.roots;
         let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
         let x = RULE.map(|[y, _]| middle + half * y);
         let y = x.map(|x| (2.0 * x - low - high) / (high - low));
-        let slopes = chebyshev_each(&self.series, y);
-        let weighted = |own: [f64; NODES]| std::array::from_fn(|n| half * RULE[n][1] * own[n]);
-        (x, slopes.map(weighted))
+        let [slopes] = chebyshev_each(&self.series, y);
+        (x, std::array::from_fn(|n| half * RULE[n][1] * slopes[n]))
     }
 
     /// Adds the integrals over some of the past at a time; the trace has its times in `unit_s`.
@@ -191,7 +234,7 @@ impl Part {
         time_s: f64,
         [from_s, to_s]: [f64; 2],
         (trace, unit_s): (&Trace, f64),
-        sums: &mut [Six; 2],
+        sum: &mut Six,
     ) {
         let since_s = time_s - self.origin_s;
         let x_of = |s: f64| (self.sign * (since_s - s)).max(0.0).sqrt();
@@ -214,17 +257,9 @@ impl Part {
         for pair in cuts.windows(2) {
             let (x, rises) = self.rises([pair[0], pair[1]]);
             let values = trace.at_each(x.map(|x| (since_s - self.sign * x * x) / unit_s));
-            for (sum, rises) in sums.iter_mut().zip(rises) {
-                if rises == [0.0; NODES] {
-                    continue;
-                }
-                for (sum, values) in sum.iter_mut().zip(&values) {
-                    *sum += rises
-                        .iter()
-                        .zip(values)
-                        .map(|(rise, value)| rise * value)
-                        .sum::<f64>();
-                }
+            for (sum, values) in sum.iter_mut().zip(&values) {
+                let terms = rises.iter().zip(values);
+                *sum += terms.map(|(rise, value)| rise * value).sum::<f64>();
             }
         }
     }
@@ -245,40 +280,11 @@ static RULE: LazyLock<[[f64; 2]; NODES]> = LazyLock::new(|| {
     })
 });
 
-impl Zone {
-    /// What the integrals over some of the past bring at a time.
-    pub(crate) fn by_trace(
-        &self,
-        time_s: f64,
-        past_s: [f64; 2],
-        (trace, unit_s): (&Trace, f64),
-    ) -> [Six; 2] {
-        let mut sums = [Six::default(); 2];
-        for part in &self.parts {
-            part.add(time_s, past_s, (trace, unit_s), &mut sums);
-        }
-        let [from_s, to_s] = [past_s[0], past_s[1].min(time_s)];
-        for (at_s, jump) in self
-            .jumps
-            .iter()
-            .filter(|one| from_s <= one.0 && one.0 < to_s)
-        {
-            let value = trace.at((time_s - at_s) / unit_s);
-            for (sum, jump) in sums.iter_mut().zip(jump) {
-                for f in 0..6 {
-                    sum[f] += jump * value[f];
-                }
-            }
-        }
-        sums
-    }
-}
-
 /// How far the kernel may depart within each cell from the parabola that its moments give.
 ///
 /// Of a front that passes within a cell it is of the order of the cell's average, of a smooth kernel of that of its third
 /// difference.
-pub(crate) fn open(moments: &Moments) -> Vec<Six> {
+pub(crate) fn departures(moments: &Moments) -> Vec<Six> {
     let averages = &moments.averages;
     let (first, second, last) = (&moments.first, &moments.second, averages.len() - 1);
     let of = |j: usize| -> Six {

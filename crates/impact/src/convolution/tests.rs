@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 
-use crate::evaluator::{Evaluator, Past, Trace};
+use crate::convolution::{Convolution, Past, Trace};
 use crate::excitation::{Excitation, PressureRadius};
 use crate::grid::{Grid, Wanted};
 use crate::impact::Impact;
@@ -102,8 +102,8 @@ fn grid<'e>(
 
 /// The six fields at a place, at some samples of a grid.
 fn at(source: &KernelSource, grid: &Grid<'_>, wanted: &[usize], place: [f64; 2]) -> Vec<Trace> {
-    let evaluator = Evaluator::new(source, grid, wanted, &[], &|| {});
-    evaluator.unwrap().at(place[0], place[1]).unwrap()
+    let convolution = Convolution::new(source, grid, wanted, &[], &|| {});
+    convolution.unwrap().at(place[0], place[1]).unwrap()
 }
 
 #[test]

@@ -1,0 +1,147 @@
+//! Windows of time in which short waves of a growing contact pass a point: known from geometry, before any kernel is.
+//!
+//! A contact begins and ends with a small radius, and its waves then are as short as it is small. They pass a point as the
+//! fronts of longitudinal, shear and Rayleigh's waves from the centre. Kinks of the force, as where a block begins to yield,
+//! have fronts from the nearest to the farthest edge.
+//!
+//! Theory: `docs/theory.md` (T60).
+
+use super::tuning;
+use crate::excitation::Excitation;
+use std::f64::consts::PI;
+
+/// A point of a growing contact, in units of the largest radius a and of a/c_R.
+pub(crate) struct Fronts<'a> {
+    excitation: &'a Excitation,
+    place_m: [f64; 2],
+    /// Distance from the centre.
+    pub(crate) distance: f64,
+    /// a/c_R over the duration of the contact.
+    pub(crate) chi: f64,
+    /// a/c_R in s.
+    crossing_s: f64,
+    /// Arrivals in s of longitudinal, shear and Rayleigh's waves from the centre.
+    arrivals_s: [f64; 3],
+}
+
+impl<'a> Fronts<'a> {
+    /// Of a point in m.
+    pub(crate) fn new(excitation: &'a Excitation, place_m: [f64; 2]) -> Self {
+        let units = excitation.units();
+        let crossing_s = units.time_s() / excitation.medium().rayleigh_speed();
+        Self {
+            excitation,
+            place_m,
+            distance: place_m[0].hypot(place_m[1]) / units.disc_radius_m,
+            chi: crossing_s / excitation.end_s(),
+            crossing_s,
+            arrivals_s: excitation.speeds().arrivals_s(place_m[0], place_m[1], 0.0),
+        }
+    }
+
+    /// Whether the waves of all of a contact are too short for discs, as seen from inside it.
+    pub(crate) fn is_fast(&self, tolerance: f64) -> bool {
+        let most = tuning::FAST * (tolerance / 1e-3).powf(tuning::FAST_POWER);
+        self.distance < tuning::INSIDE && self.chi > most * self.distance.min(1.0)
+    }
+
+    /// Half-widths in a/c_R of the windows around the fronts of longitudinal, shear and Rayleigh's waves in which so many discs
+    /// do not serve; `power` is that of the load in the time since the contact began.
+    pub(crate) fn widths(&self, discs: usize, tolerance: f64, power: f64) -> [f64; 3] {
+        let short = self.chi.powf(power) / tolerance;
+        let between = tuning::BETWEEN_FRONTS * short;
+        // the term left out falls with the time since the front as its derivative of order 2 N does
+        let falls = 2.0 * discs as f64 - power;
+        let broad = if between > 1.0 {
+            between.powf(1.0 / falls)
+        } else {
+            0.0
+        };
+        let is_shallow = self.place_m[1] < tuning::SHALLOW * self.place_m[0];
+        let sharp = tuning::AT_FRONT.map(|own| (own * short).min(tuning::WIDEST_FRONT));
+        let deep = sharp[0].max(broad);
+        if !is_shallow {
+            return [deep; 3];
+        }
+        let depth = self.place_m[1] / self.excitation.units().disc_radius_m;
+        let rayleigh = sharp[1].max(depth.min(tuning::WIDEST_FRONT) + tuning::NARROWEST_FRONT);
+        [deep, sharp[1].max(broad), rayleigh.max(broad)]
+    }
+
+    /// Whether a front of the first or last instants of a contact, or of a kink, passes within these half-widths at a time.
+    pub(crate) fn pass(&self, time_s: f64, widths: [f64; 3]) -> bool {
+        let mut ends_s = self.excitation.contacts_s().iter().flatten();
+        let of_ends = ends_s.any(|end_s| {
+            let mut fronts = self.arrivals_s.iter().zip(widths);
+            fronts
+                .any(|(front_s, width)| (time_s - end_s - front_s).abs() < width * self.crossing_s)
+        });
+        of_ends || self.of_kink(time_s)
+    }
+
+    fn of_kink(&self, time_s: f64) -> bool {
+        let (excitation, [r_m, z_m]) = (self.excitation, self.place_m);
+        let (speeds, radius_m) = (excitation.speeds(), excitation.units().disc_radius_m);
+        let near_s = speeds.arrivals_s((r_m - radius_m).max(0.0), z_m, 0.0);
+        let far_s = speeds.arrivals_s(r_m + radius_m, z_m, 0.0);
+        let mut kinks_s = excitation.kinks_s().iter();
+        kinks_s.any(|kink_s| {
+            let mut fronts = near_s.iter().zip(far_s);
+            fronts.any(|(near_s, far_s)| {
+                let since_s = time_s - kink_s;
+                near_s - self.crossing_s < since_s && since_s < far_s + self.crossing_s
+            })
+        })
+    }
+
+    /// Whether waves of a time come from the first or last instants of a contact, seen from close to it: the whole contact is
+    /// integrated then.
+    ///
+    /// Their fronts are as sharp as the contact is small, and the waves behind them, too. Near the centre, before they have
+    /// passed, the static field of a contact hardly larger than the distance from its centre, with which its waves begin, is no
+    /// polynomial in the square of its radius.
+    pub(crate) fn are_of_small_contact(&self, time_s: f64, tolerance: f64) -> bool {
+        // all of these: `scripts/check-close` counts the fields above their estimates
+        /// Distance up to which a point is close, and times over the radius and the speed of each wave before and after a front.
+        const CLOSE: f64 = 4.0;
+        const PASSING: [f64; 2] = [0.05, 0.8];
+        /// Fraction of the tolerance that the force has reached when a wave has crossed a radius, below which nothing shows.
+        const SHOWS: f64 = 0.3;
+        /// Distance near the centre, radius of the contact over that distance and over the largest, and crossings of the distance
+        /// by Rayleigh's wave.
+        const CENTRAL: f64 = 0.15;
+        const SMALL: f64 = 8.0;
+        const LARGEST: f64 = 0.25;
+        const CROSSINGS: f64 = 30.0;
+        let (excitation, over) = (self.excitation, self.distance);
+        let shows = (PI * self.chi).powf(1.5) > SHOWS * tolerance;
+        if over > CLOSE || !shows {
+            return false;
+        }
+        let medium = excitation.medium();
+        let slowness =
+            [1.0, medium.kappa(), medium.rayleigh_speed()].map(|c| excitation.units().time_s() / c);
+        let [before, after] = PASSING;
+        let passes = |end_s: &f64| {
+            let mut fronts = self.arrivals_s.iter().zip(slowness);
+            fronts.any(|(front_s, unit_s)| {
+                let since = (time_s - end_s - front_s) / unit_s;
+                -before < since && since < after
+            })
+        };
+        if excitation.contacts_s().iter().flatten().any(passes) {
+            return true;
+        }
+        let passing_s = CROSSINGS * over * self.crossing_s;
+        let most = (SMALL * over).min(LARGEST);
+        let is_small = |s: f64| excitation.pressures(s)[0].square < most * most;
+        let is_at_end = |&[begin_s, end_s]: &[f64; 2]| {
+            let middle_s = 0.5 * (begin_s + end_s);
+            let begins = time_s < middle_s && is_small((time_s - passing_s).max(begin_s));
+            let ends =
+                time_s > middle_s && time_s < end_s + passing_s && is_small(time_s.min(end_s));
+            begins || ends
+        };
+        over < CENTRAL && excitation.contacts_s().iter().any(is_at_end)
+    }
+}

@@ -1,0 +1,387 @@
+//! Loads of the kernels: a force history or its rate, sampled, with the radius of its pressure.
+//!
+//! Waves are linear in the force, so that those of its rate are the rates of the waves: velocities are the same sum as the
+//! fields with P' in place of P.
+//! P'' of a contact is infinite where it begins and ends, and P' of a record jumps at each row: accelerations, and the
+//! velocities of records, are means over one step of the output, differences of sums half a step before and after.
+//!
+//! The samples of a record that jumps are those of its continuous part; each jump is a term of its own, a step response.
+//!
+//! Theory: `docs/theory.md` (T24, T60, T61).
+
+use super::discs::Discs;
+use super::ends::{Zone, unresolved};
+use super::tuning;
+use crate::excitation::{Excitation, Pressed, PressureRadius, Run};
+use crate::fields::quantity::Derivative;
+use crate::grid::Grid;
+use crate::sampled::convolve::Convolver;
+use crate::sampled::projection::{CellNodes, Departure, Projection, largest};
+use halfspace::Six;
+use std::ops::Range;
+use std::sync::OnceLock;
+
+/// The function of time that is read of an excitation.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Reading {
+    /// The force in N.
+    Force,
+    /// Its rate in N/s.
+    Rate,
+}
+
+/// The samples of a run, the ones needed, and the pressures at all of them.
+pub(crate) struct SampledRun {
+    pub(crate) run: Run,
+    /// Numbers of the samples that the outputs need, ascending.
+    pub(crate) needed: Vec<usize>,
+    /// Places in the cells between samples, with the force there.
+    nodes: CellNodes,
+    /// Pressures at the samples, and at the nodes; empty on a fixed disc.
+    pressures: [Vec<[Pressed; 2]>; 2],
+}
+
+/// A force or its rate at times a step apart.
+pub(crate) struct Forcing<'a> {
+    pub(crate) excitation: &'a Excitation,
+    /// Of the fields: themselves, or a rate.
+    pub(crate) derivative: Derivative,
+    pub(crate) reading: Reading,
+    /// How often the sums are differenced over a step.
+    pub(crate) differences: usize,
+    pub(crate) step_s: f64,
+    pub(crate) tolerance: f64,
+    /// Runs of samples, begun half a step earlier for each difference.
+    pub(crate) runs: Vec<SampledRun>,
+    /// Times in s of the samples needed, of all runs.
+    pub(crate) times_s: Vec<f64>,
+    /// The first sample that each output is made of, among those needed.
+    pub(crate) outputs: Vec<usize>,
+    /// The cell from which on the runs leave out what earlier ones have changed for good, and the sum of these changes in N.
+    pub(crate) left_out: (usize, f64),
+    /// Loads of each set of discs, once a point has needed them.
+    loads: Vec<OnceLock<Loads>>,
+}
+
+/// Loads of a set of discs.
+pub(crate) struct Loads {
+    /// Of each run.
+    pub(crate) runs: Vec<RunLoads>,
+    /// Half of the total variation of the force on each disc: its peak where it rises and falls once.
+    half_variation: Vec<f64>,
+    /// Residual of the load in the cells, once rise, slope and bend are subtracted.
+    residual: Departure,
+}
+
+/// Loads of a set of discs during a run.
+pub(crate) struct RunLoads {
+    /// The load times each of Newton's polynomials.
+    pub(crate) each: Vec<Sampled>,
+    /// The load of the term that the discs leave out; none on a fixed disc.
+    pub(crate) next: Option<Sampled>,
+    /// Cells that the samples do not resolve, with the forces on the discs within them.
+    pub(crate) zones: Vec<Zone>,
+}
+
+/// A load for sums over cells.
+pub(crate) struct Sampled {
+    pub(crate) convolver: Convolver,
+    pub(crate) projection: Projection,
+}
+
+impl Sampled {
+    /// Of samples and of the loads at the nodes of the cells, after a load that was `base` for long.
+    fn new(base: f64, samples: &[f64], nodes: &CellNodes, needed: &[usize], least: f64) -> Self {
+        let convolver = Convolver::from_base(base, samples, needed.to_vec());
+        let negligible = tuning::NEGLIGIBLE_SLOPE.max(least) * largest(samples);
+        let wanted = (needed.len(), negligible);
+        Self {
+            projection: Projection::new(samples, &convolver.rises, nodes, wanted),
+            convolver,
+        }
+    }
+}
+
+impl<'a> Forcing<'a> {
+    /// For a derivative at some samples of a grid, ascending, with so many sets of discs.
+    pub(crate) fn new(
+        grid: &Grid<'a>,
+        wanted: &[usize],
+        derivative: Derivative,
+        sets: usize,
+    ) -> Self {
+        let excitation = grid.excitation;
+        let (reading, differences) = match (derivative, excitation.record()) {
+            (Derivative::Field, _) => (Reading::Force, 0),
+            (Derivative::First, None) => (Reading::Rate, 0),
+            (Derivative::First, Some(_)) => (Reading::Force, 1),
+            (Derivative::Second, None) => (Reading::Rate, 1),
+            (Derivative::Second, Some(_)) => (Reading::Force, 2),
+        };
+        let mut runs = Vec::new();
+        let (mut outputs, mut times_s, mut first) = (Vec::new(), Vec::new(), 0);
+        for run in &grid.runs {
+            let own = first..first + run.count;
+            first = own.end;
+            let inside = wanted.iter().filter(|n| own.contains(n));
+            let inside = inside.map(|n| n - own.start);
+            let with_next = inside.clone().flat_map(|n| n..=n + differences);
+            let mut needed: Vec<usize> = with_next.collect();
+            needed.sort_unstable();
+            needed.dedup();
+            let before = times_s.len();
+            outputs.extend(inside.map(|n| before + needed.partition_point(|&m| m < n)));
+            let run = Run {
+                start_s: run.start_s - 0.5 * differences as f64 * grid.step_s,
+                base_n: run.base_n,
+                count: run.count + differences,
+            };
+            times_s.extend(needed.iter().map(|&n| run.start_s + n as f64 * grid.step_s));
+            runs.push(SampledRun::new(excitation, run, needed, grid.step_s));
+        }
+        Self {
+            excitation,
+            derivative,
+            reading,
+            differences,
+            step_s: grid.step_s,
+            tolerance: grid.tolerance,
+            runs,
+            times_s,
+            outputs,
+            left_out: match derivative {
+                Derivative::Field => grid.left_out(),
+                Derivative::First | Derivative::Second => (0, 0.0),
+            },
+            loads: (0..sets).map(|_| OnceLock::new()).collect(),
+        }
+    }
+
+    /// The load times Newton's polynomial of a degree, under some pressures.
+    fn load(&self, discs: &Discs, degree: usize, pressures: &[Pressed; 2]) -> f64 {
+        let of = |one: &Pressed| match self.reading {
+            Reading::Force => one.force_n * discs.newton(degree, one.square),
+            Reading::Rate => {
+                let [value, slope] = discs.newton_with_slope(degree, one.square);
+                one.rate * value + one.force_n * slope * one.square_rate
+            }
+        };
+        pressures.iter().map(of).sum()
+    }
+
+    /// The force on disc `k` at a time.
+    pub(crate) fn on_disc(&self, discs: &Discs, k: usize, time_s: f64) -> f64 {
+        let pressures = self.excitation.pressures(time_s);
+        let terms =
+            (k..discs.count()).map(|j| discs.weight(j, k) * self.load(discs, j, &pressures));
+        terms.sum()
+    }
+
+    /// When some cells of a run begin and end, in s.
+    pub(crate) fn span_s(&self, run: &Run, cells: &Range<usize>) -> [f64; 2] {
+        [cells.start - 1, cells.end - 1].map(|n| run.start_s + n as f64 * self.step_s)
+    }
+
+    /// The loads of set number `set` of discs.
+    pub(crate) fn loads(&self, set: usize, discs: &Discs) -> &Loads {
+        self.loads[set].get_or_init(|| self.loads_of(discs))
+    }
+
+    /// Whether a sum by transforms has been prepared for any loads.
+    pub(crate) fn transforms(&self) -> bool {
+        let loads = self.loads.iter().filter_map(OnceLock::get);
+        let mut each = loads
+            .flat_map(|loads| &loads.runs)
+            .flat_map(|run| &run.each);
+        each.any(|load| load.convolver.transform.is_some())
+    }
+
+    fn loads_of(&self, discs: &Discs) -> Loads {
+        let mut found = Loads {
+            runs: Vec::new(),
+            half_variation: vec![tuning::AT_INSTANTS * self.half_jumps(); discs.count()],
+            residual: Departure::default(),
+        };
+        for run in &self.runs {
+            let loads = self.loads_in(run, discs);
+            let rises: Vec<&[f64]> = (loads.each.iter())
+                .map(|load| &load.convolver.rises[..])
+                .collect();
+            for (k, half_variation) in found.half_variation.iter_mut().enumerate() {
+                let weights = (0..discs.count()).map(|j| discs.weight(j, k));
+                let weights: Vec<f64> = weights.collect();
+                let rise = |n: usize| weights.iter().zip(&rises).map(|(w, own)| w * own[n]).sum();
+                let mut changes: Vec<f64> = (0..run.run.count).map(rise).collect();
+                // of the outputs: differenced as they are
+                for _ in 0..self.differences {
+                    let next = changes.windows(2).map(|d| (d[1] - d[0]) / self.step_s);
+                    changes = next.collect();
+                }
+                *half_variation += 0.5 * changes.iter().map(|d| d.abs()).sum::<f64>();
+            }
+            // the residual of a contact's rate stands in the zones
+            if self.reading == Reading::Force {
+                found.residual.join(loads.each[0].projection.left);
+            }
+            found.runs.push(loads);
+        }
+        let per_step = self.step_s.recip().powi(self.differences as i32);
+        let Departure { most_n, sum_n } = &mut found.residual;
+        (*most_n, *sum_n) = (per_step * *most_n, per_step * *sum_n);
+        found
+    }
+
+    fn loads_in(&self, sampled: &SampledRun, discs: &Discs) -> RunLoads {
+        let (run, needed) = (&sampled.run, &sampled.needed);
+        let follows = !sampled.pressures[0].is_empty() || run.count == 0;
+        let base_n = match self.reading {
+            Reading::Force => self.excitation.continuous_base_n(run),
+            Reading::Rate => 0.0,
+        };
+        let least = tuning::NEGLIGIBLE_OF_ERROR * self.excitation.relative_error;
+        let each = (0..discs.count()).map(|j| {
+            let base = base_n * discs.newton(j, 1.0);
+            if follows {
+                let [samples, nodes] = sampled.pressures.each_ref().map(|all| {
+                    let loads = all.iter().map(|pressures| self.load(discs, j, pressures));
+                    loads.collect::<Vec<f64>>()
+                });
+                let nodes = sampled.nodes.with(|node| nodes[node]);
+                return Sampled::new(base, &samples, &nodes, needed, least);
+            }
+            let at = |time_s: f64| {
+                let [force, rate] = self.excitation.force_and_rate(time_s);
+                if self.reading == Reading::Force {
+                    force
+                } else {
+                    rate
+                }
+            };
+            let time_s = |n: f64| run.start_s + n * self.step_s;
+            let samples: Vec<f64> = (0..run.count).map(|n| at(time_s(n as f64))).collect();
+            match self.reading {
+                Reading::Force => Sampled::new(base, &samples, &sampled.nodes, needed, least),
+                Reading::Rate => {
+                    let rates: Vec<f64> = sampled.nodes.places().map(|x| at(time_s(x))).collect();
+                    let nodes = sampled.nodes.with(|node| rates[node]);
+                    Sampled::new(base, &samples, &nodes, needed, least)
+                }
+            }
+        });
+        let each: Vec<Sampled> = each.collect();
+        let next = follows.then(|| self.next(sampled, discs));
+        let mut zones = Vec::new();
+        if self.excitation.record().is_none() {
+            let spans_s = self.excitation.smooth_s();
+            let (rise, force) = (largest(&each[0].convolver.rises), &each[0].projection);
+            let cells = unresolved(force, run.count, self.tolerance * rise);
+            let span_s = |cells: &Range<usize>| self.span_s(run, cells);
+            let of = |cells| {
+                let (steepness, discs_of) = ((rise, self.tolerance), (discs.count(), force));
+                let on_disc = |k, time_s| self.on_disc(discs, k, time_s);
+                Zone::new(cells, &spans_s, &span_s, steepness, discs_of, on_disc)
+            };
+            zones = cells.into_iter().filter_map(of).collect();
+        }
+        RunLoads { each, next, zones }
+    }
+
+    /// The load of the term left out: so many times (a_max/c_R)^2 the second derivative of Newton's next polynomial of it, at
+    /// the samples alone.
+    fn next(&self, sampled: &SampledRun, discs: &Discs) -> Sampled {
+        let (excitation, run) = (self.excitation, &sampled.run);
+        let lag_s = excitation.units().time_s() / excitation.medium().rayleigh_speed();
+        let factor = discs.next() * (lag_s / self.step_s).powi(2);
+        let load = |pressures: &[Pressed; 2]| self.load(discs, discs.count(), pressures);
+        let beyond = |n: f64| load(&excitation.pressures(run.start_s + n * self.step_s));
+        let inside = sampled.pressures[0].iter().map(load);
+        let all = std::iter::once(beyond(-1.0)).chain(inside);
+        let all: Vec<f64> = all.chain([beyond(run.count as f64)]).collect();
+        let bends = all.windows(3).map(|v| factor * (v[2] - 2.0 * v[1] + v[0]));
+        let bends: Vec<f64> = bends.collect();
+        let nodes = CellNodes::new(run.count.saturating_sub(1), |_, _| {});
+        Sampled::new(0.0, &bends, &nodes, &sampled.needed, 1.0)
+    }
+
+    /// Half of the total variation of the jumps, differenced as the outputs are.
+    pub(crate) fn half_jumps(&self) -> f64 {
+        let jumps = self.excitation.jumps().iter();
+        let sum: f64 = jumps.map(|jump| jump.rise_n.abs()).sum();
+        0.5 * sum * (2.0 / self.step_s).powi(self.differences as i32)
+    }
+
+    /// The cells of each contact during a run.
+    pub(crate) fn contacts(&self, run: &Run) -> Vec<Range<usize>> {
+        let cell = |at_s: f64| (at_s - run.start_s) / self.step_s;
+        let of = |[begin_s, end_s]: &[f64; 2]| {
+            let from = cell(*begin_s).floor().max(0.0) as usize + 1;
+            from..(cell(*end_s).ceil().max(0.0) as usize + 1).min(run.count)
+        };
+        let found = self.excitation.contacts_s().iter().map(of);
+        found.filter(|cells| !cells.is_empty()).collect()
+    }
+
+    /// The static field of the pressures of an instant in SI units, or its rate by a difference over a part of the force.
+    pub(crate) fn still(
+        &self,
+        place_m: [f64; 2],
+        time_s: f64,
+    ) -> Result<Six, halfspace::DomainError> {
+        let of = |one| self.excitation.static_si(place_m, [one]);
+        let read = |one: Pressed| match self.reading {
+            Reading::Force => of(one),
+            Reading::Rate => one.rate_of(tuning::STATIC_DIFFERENCE, of),
+        };
+        let [one, other] = self.excitation.pressures(time_s).map(read);
+        let (one, other) = (one?, other?);
+        Ok(std::array::from_fn(|f| one[f] + other[f]))
+    }
+
+    /// Whether the radius follows the load.
+    pub(crate) fn follows(&self) -> bool {
+        matches!(self.excitation.radius(), PressureRadius::Following { .. })
+    }
+
+    /// The run of one of the samples needed, and its number there.
+    pub(crate) fn in_run(&self, i: usize) -> (usize, usize) {
+        let (mut place, mut run) = (i, 0);
+        while place >= self.runs[run].needed.len() {
+            place -= self.runs[run].needed.len();
+            run += 1;
+        }
+        (run, self.runs[run].needed[place])
+    }
+}
+
+impl SampledRun {
+    fn new(excitation: &Excitation, run: Run, needed: Vec<usize>, step_s: f64) -> Self {
+        let nodes = excitation.cell_nodes(&run, step_s);
+        let at = |n: f64| excitation.pressures(run.start_s + n * step_s);
+        let pressures = match excitation.radius() {
+            PressureRadius::Fixed(_) => Default::default(),
+            PressureRadius::Following { .. } => [
+                (0..run.count).map(|n| at(n as f64)).collect(),
+                nodes.places().map(at).collect(),
+            ],
+        };
+        Self {
+            run,
+            needed,
+            nodes,
+            pressures,
+        }
+    }
+}
+
+impl Loads {
+    /// Errors of the kernel of disc `k` and of the force within the cells, in kernel units times the unit of the force.
+    pub(crate) fn errors(&self, k: usize, cells: &crate::kernels::Cells) -> Six {
+        let steps = cells.steps();
+        let residual = if k == 0 {
+            self.residual
+        } else {
+            Departure::default()
+        };
+        std::array::from_fn(|f| cells.error[f] * self.half_variation[k] + residual.moves(steps[f]))
+    }
+}

@@ -1,0 +1,362 @@
+//! Fields of an excitation at a point: the convolution of its force with the kernels of the point.
+//!
+//! ```text
+//! u(t) = P(t) u_static + int P'(t') R(t - t') dt'
+//! ```
+//!
+//! Read in this order: [`tuning`] has the numbers that were chosen, [`discs`] the radii that stand for one that follows the
+//! load, [`loads`] the functions of time that are convolved, [`fronts`] the windows in which short waves pass, and [`plan`]
+//! decides the road of a point. Then [`sums`] convolves over cells, [`ends`] integrates the first and last instants over the
+//! traces of the discs, and [`exact`] integrates the past over the radii of the contact; [`at`](Convolution::at) puts these
+//! together. Nothing is decided there but whether a cell follows a kernel.
+//!
+//! Theory: `docs/theory.md` (T24, T55, T60, T61).
+
+#[cfg(test)]
+mod close_tests;
+pub(crate) mod discs;
+mod ends;
+mod exact;
+mod fronts;
+mod loads;
+pub(crate) mod plan;
+#[cfg(test)]
+mod rate_tests;
+mod sums;
+#[cfg(test)]
+mod tests;
+pub(crate) mod tuning;
+
+pub(crate) use exact::Past;
+
+use crate::error::ImpactError;
+use crate::excitation::PressureRadius;
+use crate::fields::quantity::{Derivative, Quantity};
+use crate::grid::Grid;
+use crate::kernels::{CellPlan, Cells, KernelSource};
+use crate::sampled::convolve::Method;
+use crate::sampled::projection::largest;
+use halfspace::Six;
+use loads::{Forcing, Loads, Reading};
+use lookup::BEYOND;
+use plan::{Integrated, PointPlan, Sets};
+use std::ops::Range;
+use sums::{PointKernels, Sums, by_cells, by_zones, components};
+
+/// One quantity over time, in SI units.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Trace {
+    /// Samples at the times of the output.
+    pub samples: Vec<f64>,
+    /// Estimated absolute error of every sample.
+    pub error: f64,
+}
+
+impl Trace {
+    /// The sample of the largest magnitude, with its sign.
+    pub fn peak(&self) -> f64 {
+        let larger = |most: f64, &x: &f64| if x.abs() > most.abs() { x } else { most };
+        self.samples.iter().fold(0.0, larger)
+    }
+}
+
+/// An excitation with a source of kernels: what is the same for all points.
+pub(crate) struct Convolution<'a> {
+    source: &'a KernelSource,
+    pub(crate) grid: &'a Grid<'a>,
+    /// Samples at which the fields are wanted, ascending.
+    wanted: &'a [usize],
+    /// In addition to the six fields.
+    pub(crate) quantities: &'a [Quantity],
+    /// Called for each point that is done.
+    watch: &'a (dyn Fn() + Sync),
+    /// Of the fields, and of the velocities and accelerations where they are asked for.
+    forcings: Vec<Forcing<'a>>,
+    sets: Sets,
+    /// Of a contact whose radius follows the load, with kernels that are computed.
+    past: Option<Past<'a>>,
+}
+
+/// Ratio of the tolerance of an integral over a part of the past, which brings a part of the field, to that of the field.
+const PART_OF_PAST: f64 = 10.0;
+
+impl<'a> Convolution<'a> {
+    /// Of the excitation of a grid with the kernels of a source, at some samples.
+    pub(crate) fn new(
+        source: &'a KernelSource,
+        grid: &'a Grid<'a>,
+        wanted: &'a [usize],
+        quantities: &'a [Quantity],
+        watch: &'a (dyn Fn() + Sync),
+    ) -> Result<Self, ImpactError> {
+        let (excitation, tolerance) = (grid.excitation, grid.tolerance);
+        let reach = source.table_reach();
+        let sets = Sets::new(excitation.radius(), tolerance, reach, grid.count());
+        let mut derivatives = vec![Derivative::Field];
+        for (derivative, _) in quantities.iter().filter_map(|one| one.rate()) {
+            if !derivatives.contains(&derivative) {
+                derivatives.push(derivative);
+            }
+        }
+        let forcing = |derivative| Forcing::new(grid, wanted, derivative, sets.count());
+        let past = match (excitation.radius(), reach) {
+            (PressureRadius::Following { .. }, None) => {
+                Some(Past::new(excitation, PART_OF_PAST * tolerance)?)
+            }
+            (PressureRadius::Following { .. } | PressureRadius::Fixed(_), _) => None,
+        };
+        Ok(Self {
+            forcings: derivatives.into_iter().map(forcing).collect(),
+            sets,
+            past,
+            source,
+            grid,
+            wanted,
+            quantities,
+            watch,
+        })
+    }
+
+    /// Times in s at which the fields are wanted.
+    pub(crate) fn times_s(&self) -> Vec<f64> {
+        let all: Vec<f64> = self.grid.times_s().collect();
+        self.wanted.iter().map(|&n| all[n]).collect()
+    }
+
+    /// How forces are summed, for reports.
+    pub(crate) fn method(&self) -> Method {
+        match self.forcings.iter().any(Forcing::transforms) {
+            true => Method::Transform,
+            false => Method::Direct,
+        }
+    }
+
+    /// The road of a point in m.
+    pub(crate) fn plan(&self, place_m: [f64; 2]) -> PointPlan {
+        let asked = self
+            .forcings
+            .iter()
+            .map(|own| (own.derivative, &own.times_s[..]));
+        let asked: Vec<_> = asked.collect();
+        let grid = self.grid;
+        PointPlan::new(
+            &self.sets,
+            (grid.excitation, grid.tolerance),
+            &asked,
+            place_m,
+        )
+    }
+
+    /// The six fields at a point in m, then the quantities.
+    ///
+    /// # Errors
+    /// [`ImpactError`] for a point outside the half-space or the table.
+    pub(crate) fn at(&self, r_m: f64, z_m: f64) -> Result<Vec<Trace>, ImpactError> {
+        let place_m = [r_m, z_m];
+        let plan = self.plan(place_m);
+        let discs = self.sets.get(plan.set);
+        let cells = discs.radii.iter().map(|&over| self.cells(place_m, over));
+        let cells: Vec<Cells> = cells.collect::<Result<_, _>>()?;
+        let kernels = PointKernels::new(&self.forcings[0], discs, place_m, cells);
+        let of = |(forcing, integrated): (&Forcing<'_>, &Vec<Integrated>)| {
+            self.sum(
+                forcing,
+                forcing.loads(plan.set, discs),
+                &kernels,
+                integrated,
+            )
+        };
+        let sums = self.forcings.iter().zip(&plan.integrated).map(of);
+        let sums: Vec<Vec<Trace>> = sums.collect::<Result<_, _>>()?;
+        let mut found = sums[0].clone();
+        found.extend(self.quantities.iter().map(|&quantity| {
+            let Some((derivative, component)) = quantity.rate() else {
+                return self.of_stresses(quantity, &sums[0]);
+            };
+            let mut derivatives = self.forcings.iter().map(|own| own.derivative);
+            let place = derivatives.position(|own| own == derivative);
+            sums[place.unwrap_or(0)][component].clone()
+        }));
+        (self.watch)();
+        Ok(found)
+    }
+
+    fn of_stresses(&self, quantity: Quantity, fields: &[Trace]) -> Trace {
+        let (stresses, elastic) = ([2, 3, 4, 5], self.grid.excitation.elastic);
+        let of = |i: usize| quantity.of(stresses.map(|f| fields[f].samples[i]), elastic);
+        Trace {
+            samples: (0..fields[2].samples.len()).map(of).collect(),
+            error: quantity.error(stresses.map(|f| fields[f].error), elastic),
+        }
+    }
+
+    /// The kernels of a disc of a radius `over` the largest, as far as the outputs need them.
+    fn cells(&self, place_m: [f64; 2], over: f64) -> Result<Cells, ImpactError> {
+        let (excitation, grid) = (self.grid.excitation, self.grid);
+        let (ratio, units) = (excitation.medium().poisson_ratio(), excitation.units());
+        let disc_radius_m = over * units.disc_radius_m;
+        let differences = self.forcings.iter().map(|forcing| forcing.differences);
+        let part = if self.past.is_some() {
+            tuning::KERNELS
+        } else {
+            1.0
+        };
+        let plan = CellPlan {
+            step: grid.step_s / (over * units.time_s()),
+            count: grid.longest() + differences.max().unwrap_or(0) + BEYOND,
+            pulse: excitation.pulse(over),
+            rates: self.forcings.len() > 1,
+            tolerance: (part * grid.tolerance).min(tuning::COARSEST),
+        };
+        let place = place_m.map(|x| x / disc_radius_m);
+        (self.source).cells(ratio, place, disc_radius_m, plan)
+    }
+
+    /// Values and errors of one forcing.
+    fn sum(
+        &self,
+        forcing: &Forcing<'_>,
+        loads: &Loads,
+        kernels: &PointKernels<'_>,
+        integrated: &[Integrated],
+    ) -> Result<Vec<Trace>, ImpactError> {
+        let mut sums = Sums::new(forcing, loads, kernels)?;
+        let is_whole = |i: usize| {
+            let found = integrated.binary_search_by_key(&i, |one| one.sample);
+            found.is_ok_and(|place| integrated[place].whole)
+        };
+        let by_zone = sums.integrate_zones(forcing, loads, kernels, is_whole);
+        if let Some(past) = &self.past {
+            let allowed = sums.allowed(forcing);
+            for one in integrated {
+                let by_zone = by_zone[one.sample];
+                integrate_past(
+                    &mut sums,
+                    past,
+                    (forcing, loads, kernels),
+                    one,
+                    (&allowed, by_zone),
+                )?;
+            }
+        }
+        Ok(self.traces(forcing, kernels, &sums, !integrated.is_empty()))
+    }
+
+    /// The outputs of a forcing with their errors.
+    fn traces(
+        &self,
+        forcing: &Forcing<'_>,
+        kernels: &PointKernels<'_>,
+        sums: &Sums,
+        is_integrated: bool,
+    ) -> Vec<Trace> {
+        let follows = forcing.follows();
+        let zones = f64::from(u8::from(kernels.are_traces()));
+        let over_past = match (is_integrated && self.past.is_some(), forcing.derivative) {
+            (false, _) => 0.0,
+            (true, Derivative::Field) => tuning::LAST_TERMS,
+            (true, Derivative::First | Derivative::Second) => 1.0,
+        };
+        let quadrature = (zones + over_past) * tuning::QUADRATURE * forcing.tolerance;
+        let own = forcing.excitation.relative_error;
+        let end = if follows {
+            0.0
+        } else {
+            tuning::RATE_OF_END * own.cbrt()
+        };
+        let sensitivity = match forcing.derivative {
+            Derivative::Field => 0.0,
+            Derivative::First => tuning::RATE_OF_TOLERANCE,
+            Derivative::Second => tuning::RATE_OF_TOLERANCE.powi(2),
+        };
+        let relative = own + (forcing.tolerance + end) * sensitivity;
+        let caution = caution(forcing, kernels.place_m);
+        let per_step = (2.0 / forcing.step_s).powi(forcing.differences as i32);
+        let of = |f: usize| {
+            let left = sums.truncation[f].iter().zip(&sums.residual[f]);
+            let left = left.map(|(truncation, residual)| caution * truncation.abs() + residual);
+            let left = left.fold(0.0, f64::max) * per_step;
+            let samples = Sums::differenced(forcing, &sums.values[f]);
+            let error = sums.errors[f]
+                + left
+                + quadrature * largest(&sums.values[f])
+                + relative * largest(&samples);
+            Trace { samples, error }
+        };
+        (0..6).map(of).collect()
+    }
+}
+
+/// Ratio of the truncation error of discs to its estimate, by place.
+fn caution(forcing: &Forcing<'_>, place_m: [f64; 2]) -> f64 {
+    let radius_m = forcing.excitation.units().disc_radius_m;
+    let [r, z] = place_m.map(|x| x / radius_m);
+    if r.max(z) < 1.0 {
+        tuning::CAUTION_INSIDE
+    } else if z < 1.0 {
+        tuning::CAUTION_SHALLOW
+    } else {
+        1.0
+    }
+}
+
+/// Replaces the discs in one sample by the integral over the radii of the contact: over all of the past, or over the parts whose
+/// fronts pass.
+fn integrate_past(
+    sums: &mut Sums,
+    past: &Past<'_>,
+    (forcing, loads, kernels): (&Forcing<'_>, &Loads, &PointKernels<'_>),
+    Integrated { sample, whole }: &Integrated,
+    (allowed, by_zone): (&Six, bool),
+) -> Result<(), ImpactError> {
+    let (i, time_s) = (*sample, forcing.times_s[*sample]);
+    let (run, _) = forcing.in_run(i);
+    let run = &forcing.runs[run].run;
+    let span_s = |cells: &Range<usize>| forcing.span_s(run, cells);
+    let contacts = forcing.contacts(run);
+    let mut parts: Vec<Range<usize>> = Vec::new();
+    for contact in &contacts {
+        match past
+            .parts(kernels.place_m, time_s, contact, span_s)
+            .filter(|_| !whole)
+        {
+            Some(found) => parts.extend(found),
+            None => parts.push(contact.clone()),
+        }
+    }
+    let is_all = parts == contacts;
+    let (mut found, mut by_discs) = ([Six::default(); 2], [Six::default(); 2]);
+    let part = tuning::LAST_TERMS.min(tuning::COARSEST / forcing.tolerance);
+    let enough = allowed.map(|x| part / tuning::ACCEPTED * x);
+    for part in &parts {
+        let own = past.between(
+            &enough,
+            kernels.place_m,
+            time_s,
+            span_s(part),
+            forcing.reading,
+        )?;
+        let cells = by_cells(forcing, loads, kernels, i, part);
+        let zones = match by_zone {
+            true => by_zones(forcing, loads, kernels, i, part),
+            false => Six::default(),
+        };
+        for f in 0..6 {
+            found[0][f] += own.value[f];
+            found[1][f] += own.error[f];
+            by_discs[0][f] += cells[0][f] + zones[f];
+            by_discs[1][f] += cells[1][f];
+        }
+    }
+    // of rates the last terms say too much: beside fronts they fall slowly, and have either sign
+    let counts = forcing.reading == Reading::Force;
+    for f in 0..components(forcing) {
+        sums.values[f][i] += found[0][f] - by_discs[0][f];
+        sums.truncation[f][i] -= by_discs[1][f];
+        if is_all {
+            (sums.truncation[f][i], sums.residual[f][i]) = (0.0, 0.0);
+        }
+        sums.residual[f][i] += if counts { found[1][f] } else { 0.0 };
+    }
+    Ok(())
+}

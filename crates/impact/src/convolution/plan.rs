@@ -1,0 +1,148 @@
+//! How the fields of a point are computed: decided from geometry, excitation and tolerance, before any kernel is.
+
+use super::discs::Discs;
+use super::fronts::Fronts;
+use super::tuning;
+use crate::excitation::{Excitation, PressureRadius};
+use crate::fields::quantity::Derivative;
+
+/// Sets of discs from which points choose.
+pub(crate) struct Sets {
+    all: Vec<Discs>,
+    /// Largest r and z in radii of a disc at which a table has kernels; none where they are computed.
+    reach: Option<[f64; 2]>,
+    follows: bool,
+}
+
+/// The road of one point.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct PointPlan {
+    /// Number of the set of discs.
+    pub(crate) set: usize,
+    /// Of each forcing, the samples at which the past is integrated, ascending, among those needed.
+    pub(crate) integrated: Vec<Vec<Integrated>>,
+}
+
+/// A sample at which the past of the force is integrated over the radii of the contact.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Integrated {
+    /// Number among the samples needed.
+    pub(crate) sample: usize,
+    /// All of the contact, rather than the parts of the past whose fronts pass.
+    pub(crate) whole: bool,
+}
+
+impl Sets {
+    /// For kernels that are computed, or that a table has up to a reach in r and z; `samples` limits the discs that are held.
+    pub(crate) fn new(
+        radius: PressureRadius,
+        tolerance: f64,
+        reach: Option<[f64; 2]>,
+        samples: usize,
+    ) -> Self {
+        let follows = matches!(radius, PressureRadius::Following { .. });
+        let digits = -tolerance.log10();
+        let most = (tuning::MOST_HELD / samples.max(1)).max(1);
+        let count = |a_digit: f64| ((a_digit * digits).round().max(2.0) as usize).min(most);
+        let all = match (follows, reach) {
+            (false, _) => vec![Discs::one()],
+            (true, Some(_)) => {
+                let count = count(tuning::LOOKED_UP_A_DIGIT);
+                let some = tuning::COVERED.map(|smallest| Discs::between(smallest, count));
+                some.into_iter().chain([Discs::one()]).collect()
+            }
+            (true, None) => {
+                let [outside, inside] = tuning::DISCS_A_DIGIT.map(count);
+                vec![
+                    Discs::between(tuning::SMALLEST, outside),
+                    Discs::between(tuning::SMALLEST, inside),
+                    Discs::between(tuning::SMALLEST_AT_CENTRE, inside),
+                ]
+            }
+        };
+        Self {
+            all,
+            reach,
+            follows,
+        }
+    }
+
+    /// The discs of a set.
+    pub(crate) fn get(&self, set: usize) -> &Discs {
+        &self.all[set]
+    }
+
+    /// How many sets there are.
+    pub(crate) fn count(&self) -> usize {
+        self.all.len()
+    }
+
+    /// Radius of the smallest disc of all over the largest.
+    pub(crate) fn smallest(&self) -> f64 {
+        self.all.iter().map(Discs::smallest).fold(1.0, f64::min)
+    }
+
+    /// The set for a point at a place in largest radii; where a table has none, the disc alone, whose error names the place.
+    pub(crate) fn choose(&self, [r, z]: [f64; 2]) -> usize {
+        let distance = r.hypot(z);
+        match self.reach {
+            _ if !self.follows => 0,
+            Some(reach) => {
+                let has = |discs: &Discs| {
+                    r <= discs.smallest() * reach[0] && z <= discs.smallest() * reach[1]
+                };
+                self.all.iter().position(has).unwrap_or(self.all.len() - 1)
+            }
+            None if distance < tuning::CENTRE => 2,
+            None if distance < tuning::INSIDE => 1,
+            None => 0,
+        }
+    }
+}
+
+impl PointPlan {
+    /// For a point in m; asked for are the fields or their rates at some times in s.
+    pub(crate) fn new(
+        sets: &Sets,
+        (excitation, tolerance): (&Excitation, f64),
+        asked: &[(Derivative, &[f64])],
+        place_m: [f64; 2],
+    ) -> Self {
+        let radius_m = excitation.units().disc_radius_m;
+        let set = sets.choose(place_m.map(|x| x / radius_m));
+        if !sets.follows || sets.reach.is_some() {
+            return Self {
+                set,
+                integrated: vec![Vec::new(); asked.len()],
+            };
+        }
+        let fronts = Fronts::new(excitation, place_m);
+        let count = sets.get(set).count();
+        let of = |one: &(Derivative, &[f64])| windows(&fronts, *one, tolerance, count);
+        Self {
+            set,
+            integrated: asked.iter().map(of).collect(),
+        }
+    }
+}
+
+/// The samples that so many discs do not serve.
+fn windows(
+    fronts: &Fronts<'_>,
+    (derivative, times_s): (Derivative, &[f64]),
+    tolerance: f64,
+    discs: usize,
+) -> Vec<Integrated> {
+    let power = match derivative {
+        Derivative::Field => 1.5,
+        Derivative::First | Derivative::Second => 0.5,
+    };
+    let is_fast = fronts.is_fast(tolerance);
+    let widths = fronts.widths(discs, tolerance, power);
+    let of = |(sample, &time_s): (usize, &f64)| {
+        let whole = is_fast || fronts.are_of_small_contact(time_s, tolerance);
+        let passes = || fronts.pass(time_s, widths);
+        (time_s > 0.0 && (whole || passes())).then_some(Integrated { sample, whole })
+    };
+    times_s.iter().enumerate().filter_map(of).collect()
+}

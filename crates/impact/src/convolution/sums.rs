@@ -1,0 +1,378 @@
+//! Sums of the loads of one forcing over the kernels of a point, with bounds on what they leave out.
+//!
+//! Theory: `docs/theory.md` (T24, T60).
+
+use super::discs::Discs;
+use super::ends::departures;
+use super::loads::{Forcing, Loads};
+use super::tuning;
+use crate::excitation::PressureRadius;
+use crate::fields::quantity::Derivative;
+use crate::kernels::Cells;
+use crate::record::jump::rounded_up;
+use crate::sampled::projection::largest;
+use halfspace::{DomainError, Six};
+use lookup::Moments;
+use std::ops::Range;
+
+/// The kernels of a point.
+pub(crate) struct PointKernels<'a> {
+    pub(crate) place_m: [f64; 2],
+    pub(crate) discs: &'a Discs,
+    /// Of each disc, in kernel units.
+    pub(crate) cells: Vec<Cells>,
+    /// Divided differences of them, in SI units.
+    differences: Vec<Difference>,
+}
+
+/// A divided difference of the kernels of discs in the squares of their radii, in SI units.
+struct Difference {
+    smooth: Vec<Six>,
+    moments: Moments,
+}
+
+impl<'a> PointKernels<'a> {
+    /// Of the cells of each disc.
+    pub(crate) fn new(
+        forcing: &Forcing<'_>,
+        discs: &'a Discs,
+        place_m: [f64; 2],
+        cells: Vec<Cells>,
+    ) -> Self {
+        let of = |j: usize| {
+            let zero = |of: fn(&Cells) -> &Vec<Six>| vec![Six::default(); of(&cells[0]).len()];
+            let [averages, first, second] = [
+                zero(|own| &own.moments.averages),
+                zero(|own| &own.moments.first),
+                zero(|own| &own.moments.second),
+            ];
+            let mut sum = Difference {
+                smooth: zero(|own| &own.smooth),
+                moments: Moments {
+                    averages,
+                    first,
+                    second,
+                },
+            };
+            for (k, own) in cells[..=j].iter().enumerate() {
+                let weight = discs.weight(j, k);
+                let unit = forcing
+                    .excitation
+                    .units_si(discs.radii[k])
+                    .map(|unit| weight * unit);
+                let lists = [
+                    (&mut sum.smooth, &own.smooth),
+                    (&mut sum.moments.averages, &own.moments.averages),
+                    (&mut sum.moments.first, &own.moments.first),
+                    (&mut sum.moments.second, &own.moments.second),
+                ];
+                for (sum, own) in lists {
+                    for (sum, own) in sum.iter_mut().zip(own) {
+                        for f in 0..6 {
+                            sum[f] += unit[f] * own[f];
+                        }
+                    }
+                }
+            }
+            sum
+        };
+        let differences = (0..discs.count()).map(of).collect();
+        Self {
+            place_m,
+            discs,
+            cells,
+            differences,
+        }
+    }
+
+    /// Whether kernels are known at each instant, rather than in cells alone.
+    pub(crate) fn are_traces(&self) -> bool {
+        self.cells.iter().all(|cells| cells.trace.is_some())
+    }
+}
+
+/// Samples of the six fields, or of rates of the first two, with what they leave out.
+pub(crate) struct Sums {
+    /// At the samples needed.
+    pub(crate) values: [Vec<f64>; 6],
+    /// The first term that the discs leave out.
+    pub(crate) truncation: [Vec<f64>; 6],
+    /// Bound on what the parabolas of the cells leave out.
+    pub(crate) residual: [Vec<f64>; 6],
+    /// Errors of every sample.
+    pub(crate) errors: Six,
+}
+
+/// How many components a forcing has.
+pub(crate) fn components(forcing: &Forcing<'_>) -> usize {
+    match forcing.derivative {
+        Derivative::Field => 6,
+        Derivative::First | Derivative::Second => 2,
+    }
+}
+
+impl Sums {
+    /// Of the loads of a forcing.
+    pub(crate) fn new(
+        forcing: &Forcing<'_>,
+        loads: &Loads,
+        kernels: &PointKernels<'_>,
+    ) -> Result<Self, DomainError> {
+        let blank = || std::array::from_fn(|_| vec![0.0; forcing.times_s.len()]);
+        let mut sums = Self {
+            values: blank(),
+            truncation: blank(),
+            residual: blank(),
+            errors: Six::default(),
+        };
+        sums.add_cells(forcing, loads, kernels);
+        sums.add_residuals(forcing, loads, kernels);
+        sums.add_jumps(forcing, kernels);
+        sums.add_errors(forcing, loads, kernels);
+        if let PressureRadius::Following { largest_m, .. } = forcing.excitation.radius() {
+            if kernels.discs.count() == 1 {
+                let [r_m, z_m] = kernels.place_m;
+                let part = tuning::ONE_DISC * (largest_m / r_m.hypot(z_m)).powi(2);
+                for (error, samples) in sums.errors.iter_mut().zip(&sums.values) {
+                    *error += part * largest(samples);
+                }
+            }
+            for (i, &time_s) in forcing.times_s.iter().enumerate() {
+                let still = forcing.still(kernels.place_m, time_s)?;
+                for (samples, value) in sums.values.iter_mut().zip(still) {
+                    samples[i] += value;
+                }
+            }
+        }
+        sums.still_before_arrival(forcing, kernels.place_m);
+        Ok(sums)
+    }
+
+    fn add_cells(&mut self, forcing: &Forcing<'_>, loads: &Loads, kernels: &PointKernels<'_>) {
+        // the static part of a pressure that follows the load is that of its instant
+        let unit = forcing.excitation.units_si(1.0);
+        let fixed = match forcing.excitation.radius() {
+            PressureRadius::Fixed(_) => {
+                std::array::from_fn(|f| unit[f] * kernels.cells[0].static_part[f])
+            }
+            PressureRadius::Following { .. } => Six::default(),
+        };
+        let count = components(forcing);
+        let mut first = 0;
+        for (run, sampled) in loads.runs.iter().zip(&forcing.runs) {
+            let add = |target: &mut [Vec<f64>; 6], found: [Vec<f64>; 6]| {
+                for (target, found) in target.iter_mut().zip(found).take(count) {
+                    for (target, found) in target[first..].iter_mut().zip(found) {
+                        *target += found;
+                    }
+                }
+            };
+            for (load, kernel) in run.each.iter().zip(&kernels.differences) {
+                let mut found = load.convolver.fields(&fixed, &kernel.smooth);
+                load.projection
+                    .add(&kernel.moments, &sampled.needed, &mut found);
+                add(&mut self.values, found);
+            }
+            if let (Some(next), Some(last)) = (&run.next, kernels.differences.last()) {
+                add(
+                    &mut self.truncation,
+                    next.convolver.fields(&Six::default(), &last.smooth),
+                );
+            }
+            first += sampled.needed.len();
+        }
+    }
+
+    /// Adds what the parabolas of the cells of a zone may leave out: the residual of the load times how far the kernel departs
+    /// from a parabola in the cell that it meets.
+    fn add_residuals(&mut self, forcing: &Forcing<'_>, loads: &Loads, kernels: &PointKernels<'_>) {
+        if loads.runs.iter().all(|run| run.zones.is_empty()) {
+            return;
+        }
+        let departures: Vec<Vec<Six>> = kernels
+            .differences
+            .iter()
+            .map(|own| departures(&own.moments))
+            .collect();
+        let count = components(forcing);
+        let mut first = 0;
+        for (run, sampled) in loads.runs.iter().zip(&forcing.runs) {
+            for (i, &n) in sampled.needed.iter().enumerate() {
+                let mut sum = Six::default();
+                for zone in &run.zones {
+                    for (load, departures) in run.each.iter().zip(&departures) {
+                        for cell in zone.cells.start..zone.cells.end.min(n + 1) {
+                            let residual = load.projection.taken(cell).left;
+                            for (sum, departure) in sum.iter_mut().zip(departures[n - cell]) {
+                                *sum += residual * departure;
+                            }
+                        }
+                    }
+                }
+                for (samples, sum) in self.residual.iter_mut().zip(sum).take(count) {
+                    samples[first + i] = sum;
+                }
+            }
+            first += sampled.needed.len();
+        }
+    }
+
+    /// Adds the response to each jump of the force, a step, at the instants after it; at an arrival it is that after it.
+    fn add_jumps(&mut self, forcing: &Forcing<'_>, kernels: &PointKernels<'_>) {
+        let (excitation, cells) = (forcing.excitation, &kernels.cells[0]);
+        let (unit, unit_s) = (excitation.units_si(1.0), excitation.units().time_s());
+        for jump in excitation.jumps() {
+            for (i, &time_s) in forcing.times_s.iter().enumerate() {
+                if !jump.is_past(time_s) {
+                    continue;
+                }
+                // at the jump itself after it
+                let since_s = (rounded_up(time_s) - jump.time_s).max(f64::MIN_POSITIVE);
+                let response = cells.step_response(since_s / unit_s, forcing.step_s / unit_s);
+                for f in 0..components(forcing) {
+                    self.values[f][i] += jump.rise_n * unit[f] * response[f];
+                }
+            }
+        }
+    }
+
+    /// Adds the errors of the kernels, those of the discs as independent ones, and of the force within the cells.
+    fn add_errors(&mut self, forcing: &Forcing<'_>, loads: &Loads, kernels: &PointKernels<'_>) {
+        let excitation = forcing.excitation;
+        let (settled, changed_n) = forcing.left_out;
+        for (k, cells) in kernels.cells.iter().enumerate() {
+            let unit = excitation.units_si(kernels.discs.radii[k]);
+            let tail = cells.smooth.get(settled).copied().unwrap_or_default();
+            let read = match excitation.jumps() {
+                [] => Six::default(),
+                _ => cells
+                    .error_at_instants()
+                    .map(|own| 2.0 * own * forcing.half_jumps()),
+            };
+            for (f, error) in loads.errors(k, cells).into_iter().enumerate() {
+                let error = error + read[f] + changed_n * tail[f].abs();
+                self.errors[f] = self.errors[f].hypot(unit[f] * error);
+            }
+        }
+    }
+
+    /// Sets to zero what the sums leave before the first wave from the largest disc has arrived.
+    fn still_before_arrival(&mut self, forcing: &Forcing<'_>, [r_m, z_m]: [f64; 2]) {
+        let excitation = forcing.excitation;
+        let radius_m = excitation.units().disc_radius_m;
+        let travel_s = excitation.speeds().arrivals_s(r_m, z_m, radius_m)[0];
+        let first_s = excitation.first_s() + travel_s;
+        let early = forcing.times_s.iter().filter(|&&t| rounded_up(t) < first_s);
+        let still = early.count();
+        for samples in [&mut self.values, &mut self.truncation, &mut self.residual] {
+            samples.iter_mut().for_each(|own| own[..still].fill(0.0));
+        }
+    }
+
+    /// What may be left out of a sample of each field.
+    pub(crate) fn allowed(&self, forcing: &Forcing<'_>) -> Six {
+        let differences = 0.1_f64.powi(forcing.differences as i32);
+        let part = tuning::ACCEPTED * forcing.tolerance * differences;
+        let peaks = self.values.each_ref().map(|samples| largest(samples));
+        let kinds = [&peaks[..2], &peaks[2..]].map(largest);
+        std::array::from_fn(|f| match f < components(forcing) {
+            true => part * peaks[f].max(tuning::SMALL_FIELD * kinds[usize::from(f >= 2)]),
+            false => f64::INFINITY,
+        })
+    }
+
+    /// Replaces the cells of the zones by integrals over them, where the cells may leave out more than is allowed: all but those
+    /// of samples that are integrated as a whole.
+    pub(crate) fn integrate_zones(
+        &mut self,
+        forcing: &Forcing<'_>,
+        loads: &Loads,
+        kernels: &PointKernels<'_>,
+        is_whole: impl Fn(usize) -> bool,
+    ) -> Vec<bool> {
+        let allowed = self.allowed(forcing);
+        let is_open = |i: usize| (0..6).any(|f| self.residual[f][i] > allowed[f]);
+        let mut done: Vec<bool> = (0..forcing.times_s.len())
+            .map(|i| !is_whole(i) && is_open(i))
+            .collect();
+        if !kernels.are_traces() {
+            done.fill(false);
+        }
+        for i in (0..done.len()).filter(|&i| done[i]) {
+            let change = by_zones(forcing, loads, kernels, i, &(0..usize::MAX));
+            for f in 0..components(forcing) {
+                self.values[f][i] += change[f];
+                self.residual[f][i] = 0.0;
+            }
+        }
+        done
+    }
+
+    /// Samples of the outputs from those needed.
+    pub(crate) fn differenced(forcing: &Forcing<'_>, samples: &[f64]) -> Vec<f64> {
+        let step_s = forcing.step_s;
+        let of = |&i: &usize| match forcing.differences {
+            0 => samples[i],
+            1 => (samples[i + 1] - samples[i]) / step_s,
+            _ => (samples[i + 2] - 2.0 * samples[i + 1] + samples[i]) / (step_s * step_s),
+        };
+        forcing.outputs.iter().map(of).collect()
+    }
+}
+
+/// The change of a sample where the integrals over the zones take the place of some cells.
+pub(crate) fn by_zones(
+    forcing: &Forcing<'_>,
+    loads: &Loads,
+    kernels: &PointKernels<'_>,
+    i: usize,
+    among: &Range<usize>,
+) -> Six {
+    let (run, _) = forcing.in_run(i);
+    let mut change = Six::default();
+    for zone in &loads.runs[run].zones {
+        let part = zone.cells.start.max(among.start)..zone.cells.end.min(among.end);
+        if part.is_empty() {
+            continue;
+        }
+        let past_s = forcing.span_s(&forcing.runs[run].run, &part);
+        for (k, cells) in kernels.cells.iter().enumerate() {
+            let Some(trace) = &cells.trace else {
+                continue;
+            };
+            let over = kernels.discs.radii[k];
+            let unit = forcing.excitation.units_si(over);
+            let unit_s = over * forcing.excitation.units().time_s();
+            let exact = zone.by_trace(k, forcing.times_s[i], past_s, (trace, unit_s));
+            for f in 0..6 {
+                change[f] += unit[f] * exact[f];
+            }
+        }
+        let [by_cells, _] = by_cells(forcing, loads, kernels, i, &part);
+        for f in 0..6 {
+            change[f] -= by_cells[f];
+        }
+    }
+    change
+}
+
+/// The contributions of some cells to a sample: to its value, and to its truncation error.
+pub(crate) fn by_cells(
+    forcing: &Forcing<'_>,
+    loads: &Loads,
+    kernels: &PointKernels<'_>,
+    i: usize,
+    part: &Range<usize>,
+) -> [Six; 2] {
+    let (run, n) = forcing.in_run(i);
+    let loads = &loads.runs[run];
+    let mut sums = [Six::default(); 2];
+    for (load, kernel) in loads.each.iter().zip(&kernels.differences) {
+        let found = load.projection.by_cells(n, part, &kernel.moments);
+        sums[0] = std::array::from_fn(|f| sums[0][f] + found[f]);
+    }
+    if let (Some(next), Some(last)) = (&loads.next, kernels.differences.last()) {
+        sums[1] = next.projection.by_cells(n, part, &last.moments);
+    }
+    sums
+}

@@ -1,0 +1,104 @@
+//! The numbers of the fields that were chosen: each with its meaning, the range in which it serves, where it comes from, and
+//! the test or script that fails outside.
+//!
+//! Lengths are over the largest radius of contact, times over the time a/c_R that a Rayleigh wave takes over it. chi is a/c_R
+//! over the duration of the contact: 1/1000 for steel balls that roll, 1/200 for most impacts, 1/20 for rubber.
+
+/// Discs for each digit of the tolerance away from the contact and inside it, of the kernels that are computed: 3 and 6 at
+/// 1e-4. More lose digits to kernels of small discs, fewer leave smooth waves (`scripts/check-close`).
+pub(crate) const DISCS_A_DIGIT: [f64; 2] = [0.75, 1.5];
+
+/// Distance up to which a point counts as inside: beyond it the contact's edge does not pass.
+pub(crate) const INSIDE: f64 = 1.2;
+
+/// Radius of the smallest disc, from 0.02 to 0.1: it stands for the first and last instants.
+/// `fronts_that_are_sharper_than_any_disc_are_seen` fails with a larger one.
+pub(crate) const SMALLEST: f64 = 0.04;
+
+/// Distance of a point from the centre below which a disc as small as [`SMALLEST`] is no smaller than the distance, and the
+/// radius of the smallest disc there (`scripts/check-close`, region `centre`).
+pub(crate) const CENTRE: f64 = 0.25;
+pub(crate) const SMALLEST_AT_CENTRE: f64 = 0.2;
+
+/// Error of looked-up fields by waves that are shorter than the discs, over the fraction of the largest force that a contact
+/// reaches while a Rayleigh wave crosses the radius, and by those shorter than the cells (`scripts/measure-lookups`).
+pub(crate) const LOOKED_UP_FRONTS: f64 = 0.3;
+pub(crate) const LOOKED_UP_CELLS: f64 = 0.05;
+
+/// Discs for each digit of the tolerance where kernels are looked up, and smallest radii of which the first is taken that the
+/// table has at the point (`scripts/measure-lookups`).
+pub(crate) const LOOKED_UP_A_DIGIT: f64 = 0.75;
+pub(crate) const COVERED: [f64; 4] = [0.2, 0.4, 0.6, 0.8];
+
+/// Ratio of the largest term left out to its estimate for long waves, which fronts make shorter; 3 to 10.
+/// `few_discs_are_enough_far_away` fails below.
+pub(crate) const CAUTION: f64 = 6.0;
+
+/// The same inside the contact, and at depths below one radius beside it, where Rayleigh's waves are shorter
+/// (`scripts/check-close`).
+pub(crate) const CAUTION_INSIDE: f64 = 10.0;
+pub(crate) const CAUTION_SHALLOW: f64 = 2.5;
+
+/// Error of a disc alone that stands for a growing contact, over the field, times the squared distance.
+pub(crate) const ONE_DISC: f64 = 2.0;
+
+/// Tolerance of the kernels over that of the fields, at most 3e-3 of the peak: a coarser series says little of its error.
+/// From 0.1 to 1 the errors of the fields are the same (`scripts/check-close`).
+pub(crate) const KERNELS: f64 = 0.5;
+pub(crate) const COARSEST: f64 = 3e-3;
+
+/// Error of few discs between fronts, over chi^(3/2) times the peak of a field, and of rates over chi^(1/2): where it is
+/// above the tolerance, samples near fronts of the first and last instants are integrated (`scripts/check-close`).
+pub(crate) const BETWEEN_FRONTS: f64 = 0.15;
+
+/// Error at a distance x from a front, times x, over chi^(3/2): of fronts deep below the surface, and of those of shear and
+/// Rayleigh's waves in depths below so many distances from the axis (`scripts/check-close`).
+pub(crate) const AT_FRONT: [f64; 2] = [0.02, 0.3];
+pub(crate) const SHALLOW: f64 = 0.3;
+
+/// The most by which a front of a small contact is followed, and by which Rayleigh's front is wider than its depth.
+pub(crate) const WIDEST_FRONT: f64 = 0.5;
+pub(crate) const NARROWEST_FRONT: f64 = 0.05;
+
+/// chi over the distance, at a tolerance of 1e-3, above which no discs serve inside a contact and all of the past is
+/// integrated; it falls as this power of the tolerance (`scripts/check-close`).
+pub(crate) const FAST: f64 = 0.04;
+pub(crate) const FAST_POWER: f64 = 0.3;
+
+/// Fraction of the tolerance below which the error of a cell's parabola is accepted; a tenth of it for each difference.
+pub(crate) const ACCEPTED: f64 = 0.5;
+
+/// Fields smaller than this fraction of the largest of their kind are not resolved on their own: tractions vanish at the
+/// surface.
+pub(crate) const SMALL_FIELD: f64 = 1e-4;
+
+/// Residual of a cell from which on it is part of a zone, over the tolerance of the steepest rise, and parts of a zone.
+pub(crate) const UNRESOLVED: f64 = 0.02;
+pub(crate) const MOST_PARTS: usize = 16;
+
+/// Rise of the force that the integrals over a zone may lose, over its largest over a cell.
+pub(crate) const LOST: f64 = 3e-3;
+
+/// Error of an integral over a zone, and of the sum of the last terms of an integral over the past, in tolerances.
+pub(crate) const QUADRATURE: f64 = 0.7;
+pub(crate) const LAST_TERMS: f64 = 3.0;
+
+/// Ratio of the error of a kernel at an instant to its estimate, which is for convolutions; 3.2 was seen.
+/// `fields_under_jumps_are_those_of_steps_within_their_estimates` fails without it.
+pub(crate) const AT_INSTANTS: f64 = 4.0;
+
+/// Slopes and bends of a force that are left to the differences of its samples: fraction of the largest sample, and of the
+/// error of the force.
+pub(crate) const NEGLIGIBLE_SLOPE: f64 = 1e-9;
+pub(crate) const NEGLIGIBLE_OF_ERROR: f64 = 1e-3;
+
+/// Part of the force over which a static field is differenced, a smooth function of it.
+pub(crate) const STATIC_DIFFERENCE: f64 = 1e-4;
+
+/// Sensitivity of a rate to the tolerance of the history, and to the instant at which a march ends, which is off as the power
+/// 3/2 is by the error of the force (`tests/rates.rs`).
+pub(crate) const RATE_OF_TOLERANCE: f64 = 4.0;
+pub(crate) const RATE_OF_END: f64 = 0.07;
+
+/// Samples of loads on discs that are held at most.
+pub(crate) const MOST_HELD: usize = 1 << 24;
