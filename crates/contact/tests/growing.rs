@@ -298,11 +298,10 @@ fn the_area_dashpot_keeps_its_bounds() {
             let exact = solve(&case, &Accuracy::of_contact(3e-9, None)).unwrap();
             let (a, b) = (terms.summary(), exact.summary);
             let relative = |x: f64, y: f64| (x / y - 1.0).abs();
-            let step = b.contact_time / 512.0;
-            let history = terms.history(step);
-            let missed = (1..history.force.len()).map(|i| {
-                let at = exact.state(i as f64 * step).force;
-                (history.force[i] - at).abs() / b.peak_force
+            // the law at the motion of the contact with memory
+            let missed = (1..=512).map(|i| {
+                let now = exact.state(b.contact_time * f64::from(i) / 512.0);
+                (terms.force(now.displacement, now.velocity) - now.force).abs() / b.peak_force
             });
             [
                 relative(a.peak_force, b.peak_force) / bounds.peak_force,
@@ -338,5 +337,30 @@ fn the_area_dashpot_keeps_its_bounds() {
             parts[parts.len() - 1]
         );
         assert!(over * 100 <= parts.len(), "{name}: {over}");
+    }
+}
+
+#[test]
+fn each_order_of_the_memory_is_met() {
+    // the bounds' powers: c T^2, and the loss relative T^2, so the third of both absolute; above the noise
+    let waves = PunchWaves::new(&Medium::new(0.3).unwrap());
+    for phi in [0.1, 0.5, 0.9] {
+        let error = |tau: f64| {
+            let contact = GrowingContact {
+                waves: &waves,
+                target_share: phi,
+                wave_time: tau,
+            };
+            let exact = solve_growing(&contact, &Accuracy::of_contact(1e-10, None)).unwrap();
+            let (a, b) = (AreaDashpot::new(&contact).summary(), exact.summary);
+            (a.distance(&b), (a.loss - b.loss).abs())
+        };
+        let (coarse, fine) = (error(0.08), error(0.02));
+        println!("phi = {phi}: {coarse:?} {fine:?}");
+        assert!(
+            coarse.0 / fine.0 > 4.0_f64.powf(2.8),
+            "{phi}: {coarse:?} {fine:?}"
+        );
+        assert!(fine.1 < 1e-6, "{phi}: {coarse:?} {fine:?}");
     }
 }

@@ -4,8 +4,8 @@
 
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 
-use contact::Resampler;
 use contact::{Collision, Exact, HalfSpace, Material, Model, Settings, Solver, Striker};
+use contact::{Resampler, work_until_j};
 use std::f64::consts::PI;
 
 /// Half-space, ball, its radius in m, velocity in m/s.
@@ -67,7 +67,7 @@ fn differences(found: &Resampler, exact: &Resampler, duration: f64) -> [f64; 3] 
 
 #[test]
 fn the_force_is_within_its_estimate_at_each_instant() {
-    for model in [Model::Wave, Model::Growing] {
+    for model in [Model::Wave, Model::Growing, Model::AreaDashpot] {
         for impact in IMPACTS {
             let (exact, ..) = solved(impact, model, 1e-8);
             for tolerance in [1e-3, 1e-4] {
@@ -87,9 +87,48 @@ fn the_force_is_within_its_estimate_at_each_instant() {
     }
 }
 
+/// Largest difference of the deflection over the largest, and that of its work.
+fn of_deflections(found: &Resampler, exact: &Resampler, duration: f64) -> [f64; 2] {
+    let times = (0..SAMPLES).map(|i| duration * f64::from(i) / f64::from(SAMPLES));
+    let of = |one: &Resampler| -> [Vec<f64>; 2] {
+        let states: Vec<_> = times.clone().map(|time| one.at(time)).collect();
+        [
+            states.iter().map(|now| now.force).collect(),
+            states.iter().map(|now| now.deflection).collect(),
+        ]
+    };
+    let ([force, found], [exact_force, exact]) = (of(found), of(exact));
+    let largest = exact.iter().fold(0.0_f64, |most, w| most.max(w.abs()));
+    let pairs = found.iter().zip(&exact);
+    let off = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    let work = |p: &[f64], w: &[f64]| work_until_j(p, w).last().copied().unwrap();
+    let works = [work(&force, &found), work(&exact_force, &exact)];
+    [off / largest, (works[0] / works[1] - 1.0).abs()]
+}
+
+/// The energy that is radiated until an instant comes from the deflection.
+#[test]
+fn the_deflection_of_the_area_dashpot_is_within_a_percent() {
+    let model = Model::AreaDashpot;
+    for impact in IMPACTS {
+        let (exact, ..) = solved(impact, model, 1e-8);
+        for tolerance in [1e-2, 1e-3, 1e-4, 1e-5] {
+            let (found, _, duration) = solved(impact, model, tolerance);
+            let [off, work] = of_deflections(&found, &exact, duration);
+            println!("{impact:?} {tolerance:e}: deflection {off:.1e}, work {work:.1e}");
+            assert!(off < 1e-2 && work < 1e-3, "{impact:?}: {off:e} {work:e}");
+        }
+    }
+}
+
 #[test]
 fn rates_are_those_of_the_force() {
-    for model in [Model::Wave, Model::Growing, Model::AreaDashpot] {
+    for model in [
+        Model::Wave,
+        Model::Growing,
+        Model::AreaDashpot,
+        Model::QuasiStaticRadiation,
+    ] {
         let (found, _, duration) = solved(IMPACTS[1], model, 1e-4);
         let [begin, .., end] = &found.breaks[..] else {
             panic!("{:?}", found.breaks)
@@ -110,13 +149,14 @@ fn rates_are_those_of_the_force() {
             assert!((indentation.powf(1.5) - now.force).abs() < 1e-9);
             // v' = -(5/4) p, and the power 3/2 at the touch
             let later = found.at(time + step).velocity - found.at(time - step).velocity;
-            assert!((later / (2.0 * step) + 1.25 * now.force).abs() < 1e-4);
+            let missed = (later / (2.0 * step) + 1.25 * now.force).abs();
+            assert!(missed < 2e-4, "{model:?} {part}: {missed:e}");
         }
-        // 4^(3/2); a growing contact has a layer there in which its waves have not crossed it
+        // 4^(3/2) on a disc; waves or a dashpot make a layer there in contacts whose radius follows the load
         let early = |part: f64| found.force(part * duration)[0];
         let growth = early(4e-6) / early(1e-6);
         let power = (growth / 8.0 - 1.0).abs() < 0.05;
-        assert!(power || model == Model::Growing, "{model:?}: {growth}");
+        assert!(power || model != Model::Wave, "{model:?}: {growth}");
         assert_eq!(found.force(1.001 * duration), [0.0; 3]);
     }
 }

@@ -11,9 +11,6 @@ use crate::plastic::branch::{Branch, Law};
 use crate::units::INVERSE_MASS;
 use std::sync::LazyLock;
 
-/// Error of a piece without a memory.
-const DAMPED: f64 = 1e-11;
-
 /// What is left of a change by the finer rule over the waves, at most.
 const LEFT: f64 = 0.3;
 
@@ -65,14 +62,14 @@ impl<'a> March<'a> {
     }
 
     /// On a half-space that answers at once, with a lag.
-    pub(crate) fn damped(lag: f64) -> Self {
+    pub(crate) fn damped(lag: f64, accuracy: f64) -> Self {
         static NONE: LazyLock<PunchWaves> = LazyLock::new(PunchWaves::default);
         let contact = GrowingContact {
             waves: &NONE,
             target_share: 0.0,
             wave_time: 1.0,
         };
-        let mut march = Self::new(contact, DAMPED);
+        let mut march = Self::new(contact, accuracy);
         march.law.lag = Some(lag);
         march
     }

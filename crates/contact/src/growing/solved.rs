@@ -91,6 +91,23 @@ impl SolvedContact {
         }
     }
 
+    /// Of a contact with a dashpot that does not yield.
+    pub(crate) fn with_dashpot(march: March<'_>) -> Self {
+        let (mut pieces, contact_time) = (march.pieces, march.state.time);
+        pieces.iter_mut().for_each(press);
+        let (peak_force, peak_force_time) = largest(&pieces, Piece::force);
+        let (peak_displacement, _) = largest(&pieces, |p, s| p.displacement.jet(s));
+        let summary = Summary {
+            peak_force,
+            peak_force_time,
+            contact_time,
+            peak_displacement,
+            peak_deflection: largest_deflection(&pieces),
+            ..Summary::rebound(-march.state.velocity)
+        };
+        Self::of(pieces, summary, &march.errors, 0.0)
+    }
+
     /// Of a contact that has yielded: its largest radius, and its [`Self::kinks`].
     pub(crate) fn yielded(
         march: March<'_>,
@@ -99,15 +116,7 @@ impl SolvedContact {
         times: Vec<f64>,
     ) -> Self {
         let (mut pieces, contact_time) = (march.pieces, march.state.time);
-        let nodes = Nodes::of(LARGEST, false);
-        for piece in &mut pieces {
-            let force = |&s: &f64| {
-                let here = piece.law.branch.at(piece.radius.value(s).max(0.0));
-                here.force + piece.law.damping(&here) * piece.velocity.value(s)
-            };
-            let values: Vec<f64> = nodes.places.iter().map(force).collect();
-            piece.force = Some(nodes.polynomial(&values));
-        }
+        pieces.iter_mut().for_each(press);
         let (peak_force, peak_force_time) = largest(&pieces, Piece::force);
         let (peak_displacement, _) = largest(&pieces, |p, s| p.displacement.jet(s));
         let (mut radiated, mut lost) = (Vec::new(), 0.0);
@@ -120,16 +129,12 @@ impl SolvedContact {
         lost += 2.0 * INVERSE_MASS * kept;
         let (back, from) = yielding.unloading(top);
         let flowed = 2.0 * INVERSE_MASS * (yielding.work(top) - back.given_back(from));
-        let deflected = pieces.iter().flat_map(|piece| {
-            let places = (0..=SAMPLES).map(|i| f64::from(i) / f64::from(SAMPLES));
-            places.map(|place| deflected(piece, place))
-        });
         let summary = Summary {
             peak_force,
             peak_force_time,
             contact_time,
             peak_displacement,
-            peak_deflection: deflected.fold(0.0, f64::max),
+            peak_deflection: largest_deflection(&pieces),
             ..Summary::rebound(-march.state.velocity)
         };
         Self {
@@ -261,13 +266,38 @@ impl SolvedContact {
 /// Places of a piece among which the largest deflection of a contact that yields is.
 const SAMPLES: u32 = 16;
 
-/// What deflects the surface beside the law's indentation: of a dashpot, which has no displacement for it, by its force.
+/// The largest deflection of the surface, among samples of the pieces.
+fn largest_deflection(pieces: &[Piece]) -> f64 {
+    let deflections = pieces.iter().flat_map(|piece| {
+        let places = (0..=SAMPLES).map(|i| f64::from(i) / f64::from(SAMPLES));
+        places.map(|place| deflected(piece, place))
+    });
+    deflections.fold(0.0, f64::max)
+}
+
+/// Deflection of the surface, which the indentation of the law does not contain.
 fn deflected(piece: &Piece, place: f64) -> f64 {
     let here = piece.law.branch.at(piece.radius.value(place).max(0.0));
-    match piece.law.lag {
-        Some(lag) => -lag * here.stiffness * piece.velocity.value(place),
-        None => piece.displacement.value(place) - here.depth,
+    let displacement = piece.displacement.value(place);
+    let hertz = || displacement - piece.force(place)[0].max(0.0).cbrt().powi(2);
+    match (piece.law.lag, piece.law.branch) {
+        (None, _) => displacement - here.depth,
+        (Some(_), Branch::OnSpring { .. }) => hertz(),
+        // a dashpot has no displacement for it: by its force
+        (Some(lag), _) => -lag * here.stiffness * piece.velocity.value(place),
     }
+}
+
+/// Makes the force of a piece, which is not the cube of its radius, a polynomial.
+fn press(piece: &mut Piece) {
+    let nodes = Nodes::of(LARGEST, false);
+    let force = |&s: &f64| {
+        let radius = piece.radius.value(s).max(0.0);
+        let here = piece.law.branch.at(radius);
+        here.force + piece.law.damping(&here) * piece.velocity.value(s)
+    };
+    let values: Vec<f64> = nodes.places.iter().map(force).collect();
+    piece.force = Some(nodes.polynomial(&values));
 }
 
 /// Work on the waves from the start of a piece to a place, over the kinetic energy before the contact.

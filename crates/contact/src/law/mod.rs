@@ -1,12 +1,13 @@
 //! Contact laws in closed form or without memory, one file each.
 //!
 //! [`radiation`] comes first, [`quasi_static`] is the same on a disc with a static spring of its own, [`area_dashpot`] goes
-//! to the next orders; `pulse` is the history that goes with their results.
+//! to the next orders.
 
 pub mod area_dashpot;
-pub(crate) mod pulse;
 pub mod quasi_static;
 pub mod radiation;
+#[cfg(test)]
+pub(crate) mod reference;
 
 /// Hertz's closed form (45)-(47): no waves, restitution 1.
 ///

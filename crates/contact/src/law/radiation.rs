@@ -14,7 +14,6 @@
 //! Theory: `docs/theory.md` (T49 to T51, T53).
 
 use crate::law::hertz;
-use crate::numeric::cubic::force_root;
 use crate::summary::Summary;
 
 /// int p'^2 dt of Hertz's pulse in collision units times 5/2: 1 - e^2 over c.
@@ -49,18 +48,6 @@ pub fn radiation(lag: f64) -> Summary {
 
 /// max (3/2) sqrt(d (1 - d^(5/2))), at d^(5/2) = 2/7.
 const STEEPEST: f64 = 0.986_765;
-
-/// The force at a displacement and a velocity, negative in tension: F + c F'^2 d'.
-///
-/// F is the force of Hertz's spring in series with a linear one of compliance `coupling`; without it
-/// this is d^(3/2) + (9/4) c d d'.
-pub(crate) fn damped_force(coupling: f64, lag: f64) -> impl Fn(f64, f64) -> f64 {
-    move |d, v| {
-        let y = force_root(coupling, d, d.max(0.0).sqrt()).unwrap_or(0.0);
-        let stiffness = 3.0 * y / (2.0 + 3.0 * coupling * y);
-        y * y * y + lag * stiffness * stiffness * v
-    }
-}
 
 #[cfg(test)]
 mod tests {

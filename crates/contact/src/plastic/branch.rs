@@ -7,6 +7,7 @@
 //! line          u = a^2                                p = y^3 + (3/2) y (a^2 - y^2)     (3/2) y
 //! fit           u = a^2                                p of Jackson and Green
 //! Hertzian      u = u_p + a^2/rho                      p = a^3/rho                 (3/2) a
+//! on a spring   u = a^2                                p = y^3,  y^2 + sigma y^3 = a^2
 //! truncated     du = (4/pi) asin min(1, y/sqrt(L^2 - a^2)) a da,  dp = (3/2) a du  (3/2) a
 //! ```
 //!
@@ -16,6 +17,7 @@
 //!
 //! Theory: `docs/theory.md` (T62 to T65).
 
+use crate::numeric::cubic::force_root;
 use crate::numeric::quadrature::in_panels;
 use crate::units::INVERSE_MASS;
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -31,6 +33,9 @@ pub(crate) enum Branch {
     Hertzian { left: f64, flatter: f64 },
     /// Unloading of a cut pressure from the radius `top`.
     Truncated { edge: f64, top: f64 },
+    /// Hertz's spring in series with a linear one of compliance `coupling`; the radius stands for the root of the
+    /// indentation of both.
+    OnSpring { coupling: f64 },
 }
 
 /// A branch with the constant of its int ds/a, which goes on where branches meet.
@@ -72,7 +77,7 @@ impl Law {
     /// Its slope in the radius.
     pub(crate) fn slope(&self, radius: f64) -> f64 {
         match self.branch {
-            Branch::Fit(_) => 2.0,
+            Branch::Fit(_) | Branch::OnSpring { .. } => 2.0,
             Branch::Line { edge } => 2.0 * edge / radius,
             Branch::Hertzian { flatter, .. } => 2.0 / flatter,
             Branch::Truncated { edge, top } => 4.0 / PI * Cut::new(edge, top, radius).angle,
@@ -136,6 +141,15 @@ impl Branch {
                     ..of(a * a, 2.0 * a, 2.0, force)
                 }
             }
+            Self::OnSpring { coupling } => {
+                let y = force_root(coupling, a * a, a).unwrap_or(0.0);
+                let stiffness = 3.0 * y / (2.0 + 3.0 * coupling * y);
+                Local {
+                    stiffness,
+                    braking: INVERSE_MASS * stiffness * 2.0 * a,
+                    ..of(a * a, 2.0 * a, 2.0, y * y * y)
+                }
+            }
             Self::Hertzian { left, flatter } => {
                 let (depth, force) = (left + a * a / flatter, a * a * a / flatter);
                 of(depth, 2.0 * a / flatter, 2.0 / flatter, force)
@@ -156,7 +170,7 @@ impl Branch {
     /// int ds/a, but for a constant.
     pub(crate) fn delayed(&self, a: f64) -> f64 {
         match *self {
-            Self::Fit(_) => 2.0 * a,
+            Self::Fit(_) | Self::OnSpring { .. } => 2.0 * a,
             Self::Line { edge } => 2.0 * edge * (1.0 + (a / edge).ln()),
             Self::Hertzian { flatter, .. } => 2.0 * a / flatter,
             Self::Truncated { edge, top } => Cut::new(edge, top, a).delayed(),

@@ -22,6 +22,12 @@ const MOST: usize = 300;
 /// First piece of the flow over the time until the striker turns: waves from before the yield arrive with another slope.
 const FIRST: f64 = 0.1;
 
+/// Estimated time until the indentation turns at the touch, where there is no force to tell it, in collision times.
+const FROM_TOUCH: f64 = 1.0;
+
+/// Error of a piece without a memory.
+pub(crate) const DAMPED: f64 = 1e-11;
+
 /// Part of a base at which the radius that falls from it is mostly gone.
 const LOW: f64 = 0.45;
 
@@ -56,7 +62,7 @@ impl March<'_> {
     /// Velocity, duration and the largest product of radius and velocity of a contact with a dashpot that opens along a
     /// branch from rest at radius one, and what it gives back without a lag.
     pub(crate) fn from_rest(branch: Branch, lag: f64) -> Option<[f64; 4]> {
-        let mut march = Self::damped(lag);
+        let mut march = Self::damped(lag, DAMPED);
         march.law.branch = branch;
         march.state = State {
             radius: 1.0,
@@ -87,7 +93,7 @@ impl March<'_> {
         }
         let onset = self.state.time;
         self.law = self.law.followed_by(yielding.loading(), edge);
-        self.flow()?;
+        self.flow(f64::INFINITY)?;
         let (top, turn) = (self.state.radius, self.state.time);
         let (branch, from) = yielding.unloading(top);
         self.law = self.law.followed_by(branch, top);
@@ -103,19 +109,19 @@ impl March<'_> {
         if let Branch::Truncated { edge, top } = self.law.branch {
             // where the pressure was cut the branch has a root
             let kink = ((top - edge) * (top + edge)).max(0.0).sqrt();
-            if self.open(base, kink)? || self.state.radius > kink {
+            if self.open(base, kink, f64::INFINITY)? || self.state.radius > kink {
                 return self.close().map(|()| None);
             }
             (base, crossed) = (kink, Some(self.state.time));
         }
-        self.open(base, 0.0)?;
+        self.open(base, 0.0, f64::INFINITY)?;
         self.close().map(|()| crossed)
     }
 
-    /// Pieces in time until the indentation turns.
+    /// Pieces in time until the indentation turns, no longer than `longest`.
     ///
     /// Without waves they are polynomials of the root of time, in which the radius is smooth however early it yields.
-    fn flow(&mut self) -> Result<(), MarchError> {
+    pub(crate) fn flow(&mut self, longest: f64) -> Result<(), MarchError> {
         let (power, first) = match self.law.lag {
             Some(_) => (2, 1.0),
             None => (1, FIRST),
@@ -124,11 +130,15 @@ impl March<'_> {
         let left = |march: &Self| {
             let State { time, slope, .. } = march.state;
             let force = march.law.branch.at(march.state.radius).force;
-            root(time + 1.2 * slope / (INVERSE_MASS * force)) - root(time)
+            let until_turn = match force > 0.0 {
+                true => 1.2 * slope / (INVERSE_MASS * force),
+                false => FROM_TOUCH,
+            };
+            root(time + until_turn) - root(time)
         };
-        let longest = first * left(self);
+        let start = (first * left(self)).min(longest);
         let piece = |march: &Self, length: &mut f64| {
-            *length = length.min(left(march));
+            *length = length.min(left(march)).min(longest);
             let given = Polynomial::power(root(march.state.time), *length, power);
             Some((given, march.guess(&given), false))
         };
@@ -140,7 +150,7 @@ impl March<'_> {
             let turns = error <= 1.0 && solution.piece.end.slope < 0.0;
             turns.then(|| rising_root(slowing, [0.0, 1.0], 0.5, 1e-16)[1])
         };
-        self.until(MOST, Independent::Time, longest, piece, turned)?;
+        self.until(MOST, Independent::Time, start, piece, turned)?;
         self.state.slope = 0.0;
         if self.law.lag.is_some() {
             self.state.velocity = 0.0;
@@ -148,15 +158,16 @@ impl March<'_> {
         Ok(())
     }
 
-    /// Pieces in the root of the distance from a radius, down to another one or until it is mostly gone; whether a dashpot's
-    /// force was gone before.
-    fn open(&mut self, base: f64, floor: f64) -> Result<bool, MarchError> {
+    /// Pieces in the root of the distance from a radius, no longer than `longest`, down to another one or until it is mostly
+    /// gone; whether a dashpot's force was gone before.
+    pub(crate) fn open(&mut self, base: f64, floor: f64, longest: f64) -> Result<bool, MarchError> {
         let goal = match self.law.lag {
             Some(_) => floor,
             None => floor.max(LOW * base),
         };
         let piece = |march: &Self, rise: &mut f64| {
             let [from, to] = [march.state.radius, goal].map(|a| (base - a).max(0.0).sqrt());
+            *rise = rise.min(longest);
             let whole = *rise >= to - from;
             *rise = rise.min(to - from);
             let given = Polynomial::power(from, *rise, 2).below(base);
