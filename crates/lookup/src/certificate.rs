@@ -113,16 +113,25 @@ impl Table {
                 value: pulse_length,
             });
         }
-        let content = self.content();
+        Ok(self.errors(poisson_ratio, r, z)?.under(pulse_length))
+    }
+
+    /// [`Self::error`] for pulses of any length.
+    ///
+    /// # Errors
+    /// [`LookupError`] outside the table.
+    pub fn errors(
+        &self,
+        poisson_ratio: f64,
+        r: f64,
+        z: f64,
+    ) -> Result<PulseErrors<'_>, LookupError> {
+        let lengths = &self.content().pulse_lengths;
         let mesh = self.mesh([r, z])?;
         let slices = ratio::weights(&self.served, poisson_ratio)?;
-        let (lower, fraction) = bracket(&content.pulse_lengths, pulse_length);
-        let upper = (lower + 1).min(content.pulse_lengths.len() - 1);
         let of = |pulse| self.measured(poisson_ratio, [r, z], mesh, &slices, pulse);
-        let (short, long) = (of(lower)?, of(upper)?);
-        Ok(std::array::from_fn(|f| {
-            short[f].powf(1.0 - fraction) * long[f].powf(fraction)
-        }))
+        let each = (0..lengths.len()).map(of).collect::<Result<_, _>>()?;
+        Ok(PulseErrors { lengths, each })
     }
 
     /// The estimate for one of the pulses that were measured.
@@ -168,6 +177,33 @@ impl Table {
             error = error.map(|e| AT_SURFACE * e);
         }
         Ok(error)
+    }
+}
+
+/// Estimated absolute errors of the fields at a point, for forces of unit peak.
+#[derive(Debug, Clone)]
+pub struct PulseErrors<'a> {
+    lengths: &'a [f64],
+    each: Vec<Six>,
+}
+
+impl PulseErrors<'_> {
+    /// Those for a pulse of some length in r0/c1, which is positive.
+    pub fn under(&self, pulse_length: f64) -> Six {
+        let (lower, fraction) = bracket(self.lengths, pulse_length);
+        let (short, long) = (
+            &self.each[lower],
+            &self.each[(lower + 1).min(self.each.len() - 1)],
+        );
+        if fraction == 0.0 {
+            return *short;
+        }
+        std::array::from_fn(|f| short[f].powf(1.0 - fraction) * long[f].powf(fraction))
+    }
+
+    /// Lengths of the pulses that were measured, in r0/c1, with the errors for each.
+    pub fn measured(&self) -> impl Iterator<Item = (f64, Six)> {
+        self.lengths.iter().copied().zip(self.each.iter().copied())
     }
 }
 

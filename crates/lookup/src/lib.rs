@@ -92,7 +92,7 @@ mod trace;
 mod validate;
 
 pub use accuracy::{Accuracy, Quantiles, quantile, worst};
-pub use certificate::{SAFETY, SAFETY_BETWEEN};
+pub use certificate::{PulseErrors, SAFETY, SAFETY_BETWEEN};
 pub use content::{Between, Content, Origin, Role, Slice, Verification, centres};
 pub use error::{ContentError, LookupError};
 #[cfg(feature = "hdf5")]

@@ -19,6 +19,7 @@ pub struct Table {
     first: [usize; 2],
     pub(crate) meshes: [usize; 2],
     decoded_bytes: u64,
+    reach: [f64; 2],
 }
 
 impl Table {
@@ -28,14 +29,17 @@ impl Table {
     /// [`ContentError`] when an axis does not ascend, a size does not fit or a value is not finite.
     pub fn new(content: Content) -> Result<Self, ContentError> {
         validate::frame(&content)?;
-        Self::part(content, [0; 2], 0)
+        let reach = [content.r_max, content.z_max];
+        Self::part(content, [0; 2], 0, reach)
     }
 
-    /// Accepts `content`, whose frame is valid, as a part that serves the meshes from the `first` on in r and z.
+    /// Accepts `content`, whose frame is valid, as a part that serves the meshes from the `first` on in r and z, of a table that
+    /// reaches to `reach`.
     pub(crate) fn part(
         content: Content,
         first: [usize; 2],
         decoded_bytes: u64,
+        reach: [f64; 2],
     ) -> Result<Self, ContentError> {
         validate::slices(&content)?;
         let slices = content.slices.iter();
@@ -46,6 +50,7 @@ impl Table {
             first,
             meshes,
             decoded_bytes,
+            reach,
             id: hash::settings_id(&content.origin.grid),
             served,
             content,
@@ -60,6 +65,11 @@ impl Table {
     /// Bytes of numbers that were decoded to load it as a part of a file: what loading took; 0 of any other table.
     pub fn decoded_bytes(&self) -> u64 {
         self.decoded_bytes
+    }
+
+    /// Largest r and z in r0 of the table, of all of it where this is a part.
+    pub fn reach(&self) -> [f64; 2] {
+        self.reach
     }
 
     /// Poisson ratios tabulated, ascending.

@@ -12,6 +12,11 @@ use halfspace::{Medium, Profile, Six};
 /// Largest coarsening: a cell of 2^20 table cells.
 const MAX_COARSENING: u32 = 20;
 
+/// Ratio of the width of cells to that of the table's from which on the averages of the table's cells alone make up their
+/// moments: what is lost of a front within a cell of the table is below a thousandth of its height, and counts by the square of
+/// the step over the length of the force. `wide_cells_need_averages_alone` fails below 8.
+const COARSE: f64 = 16.0;
+
 /// What comes with the cells of a trace.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct TraceInfo {
@@ -106,7 +111,10 @@ impl Table {
         width: f64,
         count: usize,
     ) -> Result<(Six, Moments), LookupError> {
-        let plan = self.plan(Smoothness::Smooth, poisson_ratio, 0)?;
+        let mut plan = self.plan(Smoothness::Smooth, poisson_ratio, 0)?;
+        if width >= COARSE * plan.width {
+            plan.smoothness = Smoothness::Linear;
+        }
         let table_cells = (count as f64 * width / plan.width).ceil() as usize;
         let series = plan.series([r, z], table_cells)?;
         Ok((

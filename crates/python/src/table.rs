@@ -156,6 +156,10 @@ impl Opened {
 }
 
 impl Tables for Opened {
+    fn reach(&self) -> [f64; 2] {
+        self.file.reach()
+    }
+
     fn part(
         &self,
         poisson_ratio: f64,

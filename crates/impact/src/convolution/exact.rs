@@ -15,6 +15,7 @@
 //! Theory: `docs/theory.md` (T55).
 
 use super::loads::Reading;
+use super::tuning;
 use crate::error::ImpactError;
 use crate::excitation::{Excitation, PressureRadius};
 use crate::sampled::projection::largest;
@@ -22,9 +23,6 @@ use halfspace::{Estimate, Kernel, Profile, Six, gauss, leja_nodes, leja_series, 
 use std::f64::consts::PI;
 use std::ops::Range;
 use std::sync::LazyLock;
-
-/// Distance in largest radii from which on the kernels of the first and last small contacts lose digits.
-const FAR: f64 = 30.0;
 
 /// Terms of a series at least and at most, and how often an interval is halved then.
 const LEAST: usize = 5;
@@ -347,7 +345,7 @@ impl<'a> Past<'a> {
 
     /// Whether fields nearly cancel over a contact.
     pub(crate) fn is_far(&self, [r_m, z_m]: [f64; 2]) -> bool {
-        r_m.max(z_m) > FAR * self.excitation.units().disc_radius_m
+        r_m.max(z_m) > tuning::FAR * self.excitation.units().disc_radius_m
     }
 
     /// Radii of the pressures of an instant over the largest; twice that of a single one.

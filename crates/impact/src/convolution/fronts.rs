@@ -22,6 +22,8 @@ pub(crate) struct Fronts<'a> {
     crossing_s: f64,
     /// Arrivals in s of longitudinal, shear and Rayleigh's waves from the centre.
     arrivals_s: [f64; 3],
+    /// The first arrival from the largest contact, in s.
+    pub(crate) first_s: f64,
 }
 
 impl<'a> Fronts<'a> {
@@ -35,14 +37,15 @@ impl<'a> Fronts<'a> {
             distance: place_m[0].hypot(place_m[1]) / units.disc_radius_m,
             chi: crossing_s / excitation.end_s(),
             crossing_s,
+            first_s: excitation.arrivals_s(place_m)[0],
             arrivals_s: excitation.speeds().arrivals_s(place_m[0], place_m[1], 0.0),
         }
     }
 
-    /// Whether the waves of all of a contact are too short for discs, as seen from inside it.
+    /// Whether the waves of all of a contact are too short for discs, as seen from close to it.
     pub(crate) fn is_fast(&self, tolerance: f64) -> bool {
         let most = tuning::FAST * (tolerance / 1e-3).powf(tuning::FAST_POWER);
-        self.distance < tuning::INSIDE && self.chi > most * self.distance.min(1.0)
+        self.distance < tuning::CLOSE && self.chi > most * self.distance
     }
 
     /// Half-widths in a/c_R of the windows around the fronts of longitudinal, shear and Rayleigh's waves in which so many discs
@@ -102,8 +105,7 @@ impl<'a> Fronts<'a> {
     /// polynomial in the square of its radius.
     pub(crate) fn are_of_small_contact(&self, time_s: f64, tolerance: f64) -> bool {
         // all of these: `scripts/check-close` counts the fields above their estimates
-        /// Distance up to which a point is close, and times over the radius and the speed of each wave before and after a front.
-        const CLOSE: f64 = 4.0;
+        /// Times over the radius and the speed of each wave before and after a front.
         const PASSING: [f64; 2] = [0.05, 0.8];
         /// Fraction of the tolerance that the force has reached when a wave has crossed a radius, below which nothing shows.
         const SHOWS: f64 = 0.3;
@@ -115,7 +117,7 @@ impl<'a> Fronts<'a> {
         const CROSSINGS: f64 = 30.0;
         let (excitation, over) = (self.excitation, self.distance);
         let shows = (PI * self.chi).powf(1.5) > SHOWS * tolerance;
-        if over > CLOSE || !shows {
+        if over > tuning::CLOSE || !shows {
             return false;
         }
         let medium = excitation.medium();

@@ -81,23 +81,29 @@ pub(crate) struct RunLoads {
     pub(crate) next: Option<Sampled>,
     /// Cells that the samples do not resolve, with the forces on the discs within them.
     pub(crate) zones: Vec<Zone>,
+    /// Those of them whose residuals count, ascending.
+    pub(crate) sharp: Vec<usize>,
 }
 
 /// A load for sums over cells.
 pub(crate) struct Sampled {
     pub(crate) convolver: Convolver,
     pub(crate) projection: Projection,
+    /// The largest sample.
+    largest: f64,
 }
 
 impl Sampled {
     /// Of samples and of the loads at the nodes of the cells, after a load that was `base` for long.
     fn new(base: f64, samples: &[f64], nodes: &CellNodes, needed: &[usize], least: f64) -> Self {
         let convolver = Convolver::from_base(base, samples, needed.to_vec());
-        let negligible = tuning::NEGLIGIBLE_SLOPE.max(least) * largest(samples);
+        let most = largest(samples);
+        let negligible = tuning::NEGLIGIBLE_SLOPE.max(least) * most;
         let wanted = (needed.len(), negligible);
         Self {
             projection: Projection::new(samples, &convolver.rises, nodes, wanted),
             convolver,
+            largest: most,
         }
     }
 }
@@ -270,7 +276,7 @@ impl<'a> Forcing<'a> {
         });
         let each: Vec<Sampled> = each.collect();
         let next = follows.then(|| self.next(sampled, discs));
-        let mut zones = Vec::new();
+        let (mut zones, mut sharp): (Vec<Zone>, Vec<usize>) = Default::default();
         if self.excitation.record().is_none() {
             let spans_s = self.excitation.smooth_s();
             let (rise, force) = (largest(&each[0].convolver.rises), &each[0].projection);
@@ -282,8 +288,20 @@ impl<'a> Forcing<'a> {
                 Zone::new(cells, &spans_s, &span_s, steepness, discs_of, on_disc)
             };
             zones = cells.into_iter().filter_map(of).collect();
+            let least = tuning::SHARP * self.tolerance * each[0].largest;
+            let counts = |cell: &usize| force.taken(*cell).left > least;
+            sharp = zones
+                .iter()
+                .flat_map(|zone| zone.cells.clone())
+                .filter(counts)
+                .collect();
         }
-        RunLoads { each, next, zones }
+        RunLoads {
+            each,
+            next,
+            zones,
+            sharp,
+        }
     }
 
     /// The load of the term left out: so many times (a_max/c_R)^2 the second derivative of Newton's next polynomial of it, at

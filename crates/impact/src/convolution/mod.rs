@@ -196,10 +196,11 @@ impl<'a> Convolution<'a> {
         let (ratio, units) = (excitation.medium().poisson_ratio(), excitation.units());
         let disc_radius_m = over * units.disc_radius_m;
         let differences = self.forcings.iter().map(|forcing| forcing.differences);
-        let part = if self.past.is_some() {
-            tuning::KERNELS
-        } else {
-            1.0
+        let distance = place_m[0].hypot(place_m[1]) / units.disc_radius_m;
+        let part = match &self.past {
+            None => 1.0,
+            Some(_) if distance > tuning::FAR => tuning::KERNELS_FAR,
+            Some(_) => tuning::KERNELS,
         };
         let plan = CellPlan {
             step: grid.step_s / (over * units.time_s()),

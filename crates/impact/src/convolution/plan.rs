@@ -57,6 +57,7 @@ impl Sets {
                     Discs::between(tuning::SMALLEST, outside),
                     Discs::between(tuning::SMALLEST, inside),
                     Discs::between(tuning::SMALLEST_AT_CENTRE, inside),
+                    Discs::between(tuning::SMALLEST_FAR, outside),
                 ]
             }
         };
@@ -77,11 +78,6 @@ impl Sets {
         self.all.len()
     }
 
-    /// Radius of the smallest disc of all over the largest.
-    pub(crate) fn smallest(&self) -> f64 {
-        self.all.iter().map(Discs::smallest).fold(1.0, f64::min)
-    }
-
     /// The set for a point at a place in largest radii; where a table has none, the disc alone, whose error names the place.
     pub(crate) fn choose(&self, [r, z]: [f64; 2]) -> usize {
         let distance = r.hypot(z);
@@ -95,6 +91,7 @@ impl Sets {
             }
             None if distance < tuning::CENTRE => 2,
             None if distance < tuning::INSIDE => 1,
+            None if distance > tuning::FAR => 3,
             None => 0,
         }
     }
@@ -142,7 +139,7 @@ fn windows(
     let of = |(sample, &time_s): (usize, &f64)| {
         let whole = is_fast || fronts.are_of_small_contact(time_s, tolerance);
         let passes = || fronts.pass(time_s, widths);
-        (time_s > 0.0 && (whole || passes())).then_some(Integrated { sample, whole })
+        (time_s > fronts.first_s && (whole || passes())).then_some(Integrated { sample, whole })
     };
     times_s.iter().enumerate().filter_map(of).collect()
 }

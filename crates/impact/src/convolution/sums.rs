@@ -21,8 +21,10 @@ pub(crate) struct PointKernels<'a> {
     pub(crate) discs: &'a Discs,
     /// Of each disc, in kernel units.
     pub(crate) cells: Vec<Cells>,
-    /// Divided differences of them, in SI units.
+    /// Divided differences of them from the first order on, in SI units.
     differences: Vec<Difference>,
+    /// Units of the first disc, whose kernel is the difference of order zero.
+    unit: Six,
 }
 
 /// A divided difference of the kernels of discs in the squares of their radii, in SI units.
@@ -39,49 +41,49 @@ impl<'a> PointKernels<'a> {
         place_m: [f64; 2],
         cells: Vec<Cells>,
     ) -> Self {
+        let units = discs
+            .radii
+            .iter()
+            .map(|over| forcing.excitation.units_si(*over));
+        let units: Vec<Six> = units.collect();
         let of = |j: usize| {
-            let zero = |of: fn(&Cells) -> &Vec<Six>| vec![Six::default(); of(&cells[0]).len()];
-            let [averages, first, second] = [
-                zero(|own| &own.moments.averages),
-                zero(|own| &own.moments.first),
-                zero(|own| &own.moments.second),
-            ];
-            let mut sum = Difference {
-                smooth: zero(|own| &own.smooth),
-                moments: Moments {
-                    averages,
-                    first,
-                    second,
-                },
-            };
-            for (k, own) in cells[..=j].iter().enumerate() {
-                let weight = discs.weight(j, k);
-                let unit = forcing
-                    .excitation
-                    .units_si(discs.radii[k])
-                    .map(|unit| weight * unit);
-                let lists = [
-                    (&mut sum.smooth, &own.smooth),
-                    (&mut sum.moments.averages, &own.moments.averages),
-                    (&mut sum.moments.first, &own.moments.first),
-                    (&mut sum.moments.second, &own.moments.second),
-                ];
-                for (sum, own) in lists {
-                    for (sum, own) in sum.iter_mut().zip(own) {
+            let blend = |of: fn(&Cells) -> &Vec<Six>| {
+                let mut sum = vec![Six::default(); of(&cells[0]).len()];
+                for (k, (own, unit)) in cells[..=j].iter().zip(&units).enumerate() {
+                    let weight = discs.weight(j, k);
+                    let unit = unit.map(|unit| weight * unit);
+                    for (sum, own) in sum.iter_mut().zip(of(own)) {
                         for f in 0..6 {
                             sum[f] += unit[f] * own[f];
                         }
                     }
                 }
+                sum
+            };
+            Difference {
+                smooth: blend(|own| &own.smooth),
+                moments: Moments {
+                    averages: blend(|own| &own.moments.averages),
+                    first: blend(|own| &own.moments.first),
+                    second: blend(|own| &own.moments.second),
+                },
             }
-            sum
         };
-        let differences = (0..discs.count()).map(of).collect();
+        let differences = (1..discs.count()).map(of).collect();
         Self {
             place_m,
             discs,
-            cells,
             differences,
+            unit: units[0],
+            cells,
+        }
+    }
+
+    /// The difference of an order: cells for a smooth load, moments, and their unit.
+    fn difference(&self, order: usize) -> (&[Six], &Moments, Six) {
+        match order.checked_sub(1).map(|place| &self.differences[place]) {
+            Some(own) => (&own.smooth, &own.moments, [1.0; 6]),
+            None => (&self.cells[0].smooth, &self.cells[0].moments, self.unit),
         }
     }
 
@@ -150,34 +152,30 @@ impl Sums {
 
     fn add_cells(&mut self, forcing: &Forcing<'_>, loads: &Loads, kernels: &PointKernels<'_>) {
         // the static part of a pressure that follows the load is that of its instant
-        let unit = forcing.excitation.units_si(1.0);
-        let fixed = match forcing.excitation.radius() {
-            PressureRadius::Fixed(_) => {
-                std::array::from_fn(|f| unit[f] * kernels.cells[0].static_part[f])
-            }
-            PressureRadius::Following { .. } => Six::default(),
+        let fixed = match forcing.follows() {
+            false => kernels.cells[0].static_part,
+            true => Six::default(),
         };
         let count = components(forcing);
         let mut first = 0;
         for (run, sampled) in loads.runs.iter().zip(&forcing.runs) {
-            let add = |target: &mut [Vec<f64>; 6], found: [Vec<f64>; 6]| {
-                for (target, found) in target.iter_mut().zip(found).take(count) {
-                    for (target, found) in target[first..].iter_mut().zip(found) {
-                        *target += found;
+            let add = |target: &mut [Vec<f64>; 6], found: [Vec<f64>; 6], unit: Six| {
+                for f in 0..count {
+                    for (target, found) in target[f][first..].iter_mut().zip(&found[f]) {
+                        *target += unit[f] * found;
                     }
                 }
             };
-            for (load, kernel) in run.each.iter().zip(&kernels.differences) {
-                let mut found = load.convolver.fields(&fixed, &kernel.smooth);
-                load.projection
-                    .add(&kernel.moments, &sampled.needed, &mut found);
-                add(&mut self.values, found);
+            for (order, load) in run.each.iter().enumerate() {
+                let (smooth, moments, unit) = kernels.difference(order);
+                let mut found = load.convolver.fields(&fixed, smooth);
+                load.projection.add(moments, &sampled.needed, &mut found);
+                add(&mut self.values, found, unit);
             }
-            if let (Some(next), Some(last)) = (&run.next, kernels.differences.last()) {
-                add(
-                    &mut self.truncation,
-                    next.convolver.fields(&Six::default(), &last.smooth),
-                );
+            if let Some(next) = &run.next {
+                let (smooth, _, unit) = kernels.difference(kernels.discs.count() - 1);
+                let found = next.convolver.fields(&Six::default(), smooth);
+                add(&mut self.truncation, found, unit);
             }
             first += sampled.needed.len();
         }
@@ -186,26 +184,28 @@ impl Sums {
     /// Adds what the parabolas of the cells of a zone may leave out: the residual of the load times how far the kernel departs
     /// from a parabola in the cell that it meets.
     fn add_residuals(&mut self, forcing: &Forcing<'_>, loads: &Loads, kernels: &PointKernels<'_>) {
-        if loads.runs.iter().all(|run| run.zones.is_empty()) {
+        if loads.runs.iter().all(|run| run.sharp.is_empty()) {
             return;
         }
-        let departures: Vec<Vec<Six>> = kernels
-            .differences
-            .iter()
-            .map(|own| departures(&own.moments))
-            .collect();
+        let of = |order: usize| {
+            let (_, moments, unit) = kernels.difference(order);
+            let mut found = departures(moments);
+            for own in &mut found {
+                *own = std::array::from_fn(|f| unit[f] * own[f]);
+            }
+            found
+        };
+        let departures: Vec<Vec<Six>> = (0..kernels.discs.count()).map(of).collect();
         let count = components(forcing);
         let mut first = 0;
         for (run, sampled) in loads.runs.iter().zip(&forcing.runs) {
             for (i, &n) in sampled.needed.iter().enumerate() {
                 let mut sum = Six::default();
-                for zone in &run.zones {
+                for &cell in run.sharp.iter().take_while(|cell| **cell <= n) {
                     for (load, departures) in run.each.iter().zip(&departures) {
-                        for cell in zone.cells.start..zone.cells.end.min(n + 1) {
-                            let residual = load.projection.taken(cell).left;
-                            for (sum, departure) in sum.iter_mut().zip(departures[n - cell]) {
-                                *sum += residual * departure;
-                            }
+                        let residual = load.projection.taken(cell).left;
+                        for (sum, departure) in sum.iter_mut().zip(departures[n - cell]) {
+                            *sum += residual * departure;
                         }
                     }
                 }
@@ -367,12 +367,15 @@ pub(crate) fn by_cells(
     let (run, n) = forcing.in_run(i);
     let loads = &loads.runs[run];
     let mut sums = [Six::default(); 2];
-    for (load, kernel) in loads.each.iter().zip(&kernels.differences) {
-        let found = load.projection.by_cells(n, part, &kernel.moments);
-        sums[0] = std::array::from_fn(|f| sums[0][f] + found[f]);
+    for (order, load) in loads.each.iter().enumerate() {
+        let (_, moments, unit) = kernels.difference(order);
+        let found = load.projection.by_cells(n, part, moments);
+        sums[0] = std::array::from_fn(|f| sums[0][f] + unit[f] * found[f]);
     }
-    if let (Some(next), Some(last)) = (&loads.next, kernels.differences.last()) {
-        sums[1] = next.projection.by_cells(n, part, &last.moments);
+    if let Some(next) = &loads.next {
+        let (_, moments, unit) = kernels.difference(kernels.discs.count() - 1);
+        let found = next.projection.by_cells(n, part, moments);
+        sums[1] = std::array::from_fn(|f| unit[f] * found[f]);
     }
     sums
 }

@@ -241,6 +241,11 @@ fn far_away_few_discs_are_enough() {
                         .fold(0.0, f64::max);
                     let estimate = point[f].error / peak;
                     errors.push(error / tolerance);
+                    if error > tolerance {
+                        println!(
+                            "T {duration} nu {poisson_ratio} at {distance} {direction} to {tolerance:.0e}: field {f} {error:.1e}, estimated {estimate:.1e}"
+                        );
+                    }
                     if error > estimate {
                         println!(
                             "T {duration} nu {poisson_ratio} at {place:?} to {tolerance:.0e}: field {f} {error:.1e}, estimated {estimate:.1e}"

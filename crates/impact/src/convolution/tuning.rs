@@ -25,6 +25,12 @@ pub(crate) const SMALLEST_AT_CENTRE: f64 = 0.2;
 pub(crate) const LOOKED_UP_FRONTS: f64 = 0.3;
 pub(crate) const LOOKED_UP_CELLS: f64 = 0.05;
 
+/// Distance from which on the waves of a contact nearly cancel: kernels of small discs lose digits, so that the smallest has
+/// this radius, and kernels have this tolerance over that of the fields (`far_away_few_discs_are_enough`).
+pub(crate) const FAR: f64 = 30.0;
+pub(crate) const SMALLEST_FAR: f64 = 0.25;
+pub(crate) const KERNELS_FAR: f64 = 0.03;
+
 /// Discs for each digit of the tolerance where kernels are looked up, and smallest radii of which the first is taken that the
 /// table has at the point (`scripts/measure-lookups`).
 pub(crate) const LOOKED_UP_A_DIGIT: f64 = 0.75;
@@ -60,8 +66,9 @@ pub(crate) const SHALLOW: f64 = 0.3;
 pub(crate) const WIDEST_FRONT: f64 = 0.5;
 pub(crate) const NARROWEST_FRONT: f64 = 0.05;
 
-/// chi over the distance, at a tolerance of 1e-3, above which no discs serve inside a contact and all of the past is
-/// integrated; it falls as this power of the tolerance (`scripts/check-close`).
+/// Distance up to which a point is close, and chi over the distance, at a tolerance of 1e-3, above which no discs serve there
+/// and all of the past is integrated; it falls as this power of the tolerance (`scripts/check-close`).
+pub(crate) const CLOSE: f64 = 4.0;
 pub(crate) const FAST: f64 = 0.04;
 pub(crate) const FAST_POWER: f64 = 0.3;
 
@@ -75,6 +82,10 @@ pub(crate) const SMALL_FIELD: f64 = 1e-4;
 /// Residual of a cell from which on it is part of a zone, over the tolerance of the steepest rise, and parts of a zone.
 pub(crate) const UNRESOLVED: f64 = 0.02;
 pub(crate) const MOST_PARTS: usize = 16;
+
+/// Residual of a cell of a zone below which it is left out of the bound on what cells leave, over the tolerance of the load: a
+/// zone has up to a hundred cells, whose residuals fall quickly.
+pub(crate) const SHARP: f64 = 1e-3;
 
 /// Rise of the force that the integrals over a zone may lose, over its largest over a cell.
 pub(crate) const LOST: f64 = 3e-3;

@@ -141,7 +141,7 @@ impl KernelSource {
     pub(crate) fn table_reach(&self) -> Option<[f64; 2]> {
         match self {
             Self::Direct(_) => None,
-            Self::Table(table) => Some([table.content().r_max, table.content().z_max]),
+            Self::Table(table) => Some(table.reach()),
         }
     }
 
@@ -281,14 +281,14 @@ pub(crate) fn table_error(
     [r, z]: [f64; 2],
     pulse: Pulse,
 ) -> Result<Six, LookupError> {
-    let of = |length: f64| table.error(poisson_ratio, r, z, length);
+    let errors = table.errors(poisson_ratio, r, z)?;
     match pulse {
-        Pulse::Smooth(length) => of(length),
+        Pulse::Smooth(length) => Ok(errors.under(length)),
         Pulse::Lines { length, jump } => {
-            let mut error = of(length)?;
+            let mut error = errors.under(length);
             if jump > 0.0 {
                 // as sharp as the shortest pulse that was measured, at least
-                let sharp = of(table.content().pulse_lengths[0])?;
+                let sharp = errors.under(table.content().pulse_lengths[0]);
                 for (all, own) in error.iter_mut().zip(sharp) {
                     *all += jump * own;
                 }
@@ -296,11 +296,10 @@ pub(crate) fn table_error(
             Ok(error)
         }
         Pulse::Contact(duration) => {
-            let mut error = of(duration)?;
-            let lengths = &table.content().pulse_lengths;
-            for &length in lengths.iter().filter(|&&length| length < duration) {
+            let mut error = errors.under(duration);
+            for (length, own) in errors.measured().filter(|(length, _)| *length < duration) {
                 let fraction = (PI * length / duration).powf(1.5).min(1.0);
-                for (all, own) in error.iter_mut().zip(of(length)?) {
+                for (all, own) in error.iter_mut().zip(own) {
                     *all += fraction * own;
                 }
             }

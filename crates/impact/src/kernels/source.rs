@@ -24,6 +24,9 @@ pub trait Tables: fmt::Debug + Send + Sync {
     /// Why it cannot be loaded.
     fn part(&self, poisson_ratio: f64, span: [[f64; 2]; 2]) -> Result<Arc<Table>, AnyError>;
 
+    /// Largest r and z in disc radii.
+    fn reach(&self) -> [f64; 2];
+
     /// Why there is no such table, as far as that is known without loading one.
     ///
     /// # Errors
@@ -34,6 +37,10 @@ pub trait Tables: fmt::Debug + Send + Sync {
 }
 
 impl Tables for Arc<Table> {
+    fn reach(&self) -> [f64; 2] {
+        Table::reach(self)
+    }
+
     fn part(&self, _: f64, _: [[f64; 2]; 2]) -> Result<Arc<Table>, AnyError> {
         Ok(Self::clone(self))
     }
@@ -41,6 +48,10 @@ impl Tables for Arc<Table> {
 
 #[cfg(feature = "hdf5")]
 impl Tables for lookup::TableFile {
+    fn reach(&self) -> [f64; 2] {
+        Self::reach(self)
+    }
+
     fn part(&self, poisson_ratio: f64, span: [[f64; 2]; 2]) -> Result<Arc<Table>, AnyError> {
         Ok(Arc::new(Self::part(self, poisson_ratio, span)?))
     }
@@ -64,8 +75,7 @@ pub struct Shared {
 /// What is known of a ratio: why there is no table, and the part that was loaded with the places that it was loaded for.
 type Known = (Option<LookupError>, Option<([[f64; 2]; 2], Arc<Table>)>);
 
-/// How much farther than was asked a part reaches that takes the place of another: places of a sweep wander. It begins in
-/// the centre, so that places that come nearer are read once more at most.
+/// Ratio of the places that a part serves to those asked for, outwards and inwards: places of a sweep wander.
 const FARTHER: f64 = 1.5;
 
 impl Shared {
@@ -106,16 +116,22 @@ impl Shared {
 }
 
 impl Tables for Shared {
+    fn reach(&self) -> [f64; 2] {
+        self.tables.reach()
+    }
+
     fn part(&self, poisson_ratio: f64, span: [[f64; 2]; 2]) -> Result<Arc<Table>, AnyError> {
         self.with(poisson_ratio, |(_, part)| {
-            let mut wanted = span;
+            let mut wanted = [span[0].map(|x| x / FARTHER), span[1].map(|x| x * FARTHER)];
             if let Some((held, table)) = part {
                 let mut axes = 0..2;
                 if axes.all(|i| held[0][i] <= span[0][i] && span[1][i] <= held[1][i]) {
                     return Ok(Arc::clone(table));
                 }
-                let farthest = |i: usize| FARTHER * held[1][i].max(span[1][i]);
-                wanted = [[0.0; 2], [farthest(0), farthest(1)]];
+                for axis in 0..2 {
+                    wanted[0][axis] = wanted[0][axis].min(held[0][axis]);
+                    wanted[1][axis] = wanted[1][axis].max(held[1][axis]);
+                }
             }
             let table = self.tables.part(poisson_ratio, wanted)?;
             *part = Some((wanted, Arc::clone(&table)));
@@ -166,13 +182,18 @@ pub(crate) fn choose_source(
         let tolerance = (1e-1 * tolerance).clamp(1e-12, 1e-3);
         Ok(Some((KernelSource::direct(medium, tolerance)?, reason)))
     };
-    let [nearest, farthest] = span(&points, excitation.units().disc_radius_m);
+    let radius_m = excitation.units().disc_radius_m;
+    let [nearest, farthest] = span(points.iter().map(|place_m| place_m.map(|x| x / radius_m)));
     let load = |tables: &Arc<dyn Tables>| {
-        // as far as the smallest disc that stands for the load sees the places
-        let sets = Sets::new(excitation.radius(), tolerance, Some([f64::INFINITY; 2]), 1);
-        let smallest = sets.smallest();
-        let span = [nearest, farthest.map(|far| far / smallest)];
-        let table = tables.part(medium.poisson_ratio(), span);
+        // as far as the smallest disc of each place sees it
+        let sets = Sets::new(excitation.radius(), tolerance, Some(tables.reach()), 1);
+        let seen = points.iter().map(|place_m| {
+            let place = place_m.map(|x| x / radius_m);
+            let smallest = sets.get(sets.choose(place)).smallest();
+            place.map(|x| x / smallest)
+        });
+        let [_, far] = span(seen);
+        let table = tables.part(medium.poisson_ratio(), [nearest, far]);
         table.map(KernelSource::Table).map_err(ImpactError::Table)
     };
     let (tables, cost_s, before) = match kernels {
@@ -232,14 +253,17 @@ fn places(scene: &Scene) -> Vec<[f64; 2]> {
     probes.chain(section).collect()
 }
 
-/// The smallest and the largest r and z of some places, in radii.
-fn span(places: &[[f64; 2]], radius: f64) -> [[f64; 2]; 2] {
-    let extreme = |axis: usize, pick: fn(f64, f64) -> f64, none: f64| {
-        let all = places.iter().map(|place_m| place_m[axis] / radius);
-        all.fold(none, pick)
-    };
-    let nearest = [0, 1].map(|axis| extreme(axis, f64::min, f64::INFINITY));
-    [nearest, [0, 1].map(|axis| extreme(axis, f64::max, 0.0))]
+/// The smallest and the largest r and z of some places.
+fn span(places: impl Iterator<Item = [f64; 2]>) -> [[f64; 2]; 2] {
+    places.fold(
+        [[f64::INFINITY; 2], [0.0; 2]],
+        |[nearest, farthest], place| {
+            let pick = |own: [f64; 2], of: fn(f64, f64) -> f64| {
+                [0, 1].map(|axis| of(own[axis], place[axis]))
+            };
+            [pick(nearest, f64::min), pick(farthest, f64::max)]
+        },
+    )
 }
 
 /// Relative error of looked-up fields at a point, known before they are: that of the table for the force on each disc, and of the
@@ -253,7 +277,7 @@ fn looked_up_error(
     place_m: [f64; 2],
 ) -> Result<f64, LookupError> {
     let (units, medium) = (excitation.units(), excitation.medium());
-    let reach = [table.content().r_max, table.content().z_max];
+    let reach = table.reach();
     let tolerance = scene.settings.tolerance;
     let sets = Sets::new(excitation.radius(), tolerance, Some(reach), 1);
     let place = place_m.map(|x| x / units.disc_radius_m);

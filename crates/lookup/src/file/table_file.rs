@@ -23,6 +23,7 @@ use std::path::{Path, PathBuf};
 pub struct TableFile {
     path: PathBuf,
     id: String,
+    reach: [f64; 2],
 }
 
 impl TableFile {
@@ -42,12 +43,18 @@ impl TableFile {
         Ok(Self {
             path: path.to_owned(),
             id: settings_id(&content.origin.grid),
+            reach: [content.r_max, content.z_max],
         })
     }
 
     /// Identity of the settings that it was made with, when it was opened.
     pub fn id(&self) -> &str {
         &self.id
+    }
+
+    /// Largest r and z in r0, when it was opened.
+    pub fn reach(&self) -> [f64; 2] {
+        self.reach
     }
 
     /// Where the file is.
@@ -116,8 +123,9 @@ impl TableFile {
                 listed.iter().map(slice).collect::<Result<_, _>>()?
             }
         };
+        let reach = [content.r_max, content.z_max];
         cut(&mut content, &wanted);
-        let table = Table::part(content, first, source.decoded.get());
+        let table = Table::part(content, first, source.decoded.get(), reach);
         table.map_err(|error| source.wrong(error))
     }
 }

@@ -222,7 +222,9 @@ impl Series {
                     (0.5 * (start + end) - centre) / width,
                     (end - start) / width,
                 ];
-                let own = std::array::from_fn(|i| self.cells[i][k]);
+                // moments may have been left out
+                let own =
+                    std::array::from_fn(|i| self.cells[i].get(k).copied().unwrap_or_default());
                 if end - start == 1.0 {
                     add(place, &own, &mut sums);
                 } else {

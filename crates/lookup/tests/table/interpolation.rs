@@ -238,3 +238,30 @@ fn a_table_is_shared_between_threads() {
     fn shared<T: Send + Sync>() {}
     shared::<Table>();
 }
+
+/// Moments of wide cells beside those of narrow ones gathered: the averages of the table's cells alone make them up.
+#[test]
+fn wide_cells_need_averages_alone() {
+    let table = table();
+    let (narrow, wide) = (8, 16);
+    for (r, z) in [(0.0, 0.3), (0.7, 0.2), (1.5, 1.1)] {
+        let count = CELLS / wide - 1;
+        let of = |part: usize, count: usize| {
+            table
+                .moments(0.3, r, z, part as f64 * WIDTH, count)
+                .unwrap()
+                .1
+        };
+        let (found, fine) = (of(wide, count), of(narrow, 2 * count));
+        for j in 0..count {
+            for f in 0..FIELDS.len() {
+                let [a, b] = [2 * j, 2 * j + 1].map(|i| [fine.averages[i][f], fine.first[i][f]]);
+                let average = 0.5 * (a[0] + b[0]);
+                let first = 0.125 * (b[0] - a[0]) + 0.25 * (a[1] + b[1]);
+                let height = (a[0].abs()).max(b[0].abs()).max(1e-6);
+                assert!((found.averages[j][f] - average).abs() < 1e-9 * height);
+                assert!((found.first[j][f] - first).abs() < 1e-3 * height, "{j} {f}");
+            }
+        }
+    }
+}
