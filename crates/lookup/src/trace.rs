@@ -111,16 +111,29 @@ impl Table {
         width: f64,
         count: usize,
     ) -> Result<(Six, Moments), LookupError> {
+        let (static_part, series) = self.until(poisson_ratio, r, z, width, count)?;
+        Ok((static_part, series.moments(width, count)))
+    }
+
+    /// The static field at a point, and the remainder over `count` cells that are no narrower than `width`, in r0/c1.
+    ///
+    /// # Errors
+    /// As [`Self::trace`].
+    pub fn until(
+        &self,
+        poisson_ratio: f64,
+        r: f64,
+        z: f64,
+        width: f64,
+        count: usize,
+    ) -> Result<(Six, Series), LookupError> {
         let mut plan = self.plan(Smoothness::Smooth, poisson_ratio, 0)?;
         if width >= COARSE * plan.width {
             plan.smoothness = Smoothness::Linear;
         }
         let table_cells = (count as f64 * width / plan.width).ceil() as usize;
         let series = plan.series([r, z], table_cells)?;
-        Ok((
-            plan.medium.static_field(Profile::Hertz, r, z)?,
-            series.moments(width, count),
-        ))
+        Ok((plan.medium.static_field(Profile::Hertz, r, z)?, series))
     }
 
     fn plan(

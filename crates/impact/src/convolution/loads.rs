@@ -16,7 +16,7 @@ use crate::excitation::{Excitation, Pressed, PressureRadius, Run};
 use crate::fields::quantity::Derivative;
 use crate::grid::Grid;
 use crate::sampled::convolve::Convolver;
-use crate::sampled::projection::{CellNodes, Departure, Projection, largest};
+use crate::sampled::projection::{CellNodes, Departure, Projection, Taken, largest};
 use halfspace::Six;
 use std::ops::Range;
 use std::sync::OnceLock;
@@ -59,6 +59,8 @@ pub(crate) struct Forcing<'a> {
     pub(crate) outputs: Vec<usize>,
     /// The cell from which on the runs leave out what earlier ones have changed for good, and the sum of these changes in N.
     pub(crate) left_out: (usize, f64),
+    /// Parts of a cell of which a table has averages.
+    pub(crate) parts: usize,
     /// Loads of each set of discs, once a point has needed them.
     loads: Vec<OnceLock<Loads>>,
 }
@@ -82,7 +84,15 @@ pub(crate) struct RunLoads {
     /// Cells that the samples do not resolve, with the forces on the discs within them.
     pub(crate) zones: Vec<Zone>,
     /// Those of them whose residuals count, ascending.
-    pub(crate) sharp: Vec<usize>,
+    pub(crate) sharp: Vec<SharpCell>,
+}
+
+/// A cell that its parabola does not follow.
+pub(crate) struct SharpCell {
+    /// It ends at the sample of this number.
+    pub(crate) cell: usize,
+    /// Rises over its parts, the oldest first, less those of the parabola, of the load times each of Newton's polynomials.
+    pub(crate) rises: Vec<Vec<f64>>,
 }
 
 /// A load for sums over cells.
@@ -109,12 +119,12 @@ impl Sampled {
 }
 
 impl<'a> Forcing<'a> {
-    /// For a derivative at some samples of a grid, ascending, with so many sets of discs.
+    /// For a derivative at some samples of a grid, ascending, with so many sets of discs and parts of a cell.
     pub(crate) fn new(
         grid: &Grid<'a>,
         wanted: &[usize],
         derivative: Derivative,
-        sets: usize,
+        (sets, parts): (usize, usize),
     ) -> Self {
         let excitation = grid.excitation;
         let (reading, differences) = match (derivative, excitation.record()) {
@@ -159,6 +169,7 @@ impl<'a> Forcing<'a> {
                 Derivative::Field => grid.left_out(),
                 Derivative::First | Derivative::Second => (0, 0.0),
             },
+            parts,
             loads: (0..sets).map(|_| OnceLock::new()).collect(),
         }
     }
@@ -173,6 +184,18 @@ impl<'a> Forcing<'a> {
             }
         };
         pressures.iter().map(of).sum()
+    }
+
+    /// The same at a time.
+    fn load_at(&self, discs: &Discs, degree: usize, time_s: f64) -> f64 {
+        if self.follows() {
+            return self.load(discs, degree, &self.excitation.pressures(time_s));
+        }
+        let [force, rate] = self.excitation.force_and_rate(time_s);
+        match self.reading {
+            Reading::Force => force,
+            Reading::Rate => rate,
+        }
     }
 
     /// The force on disc `k` at a time.
@@ -247,36 +270,29 @@ impl<'a> Forcing<'a> {
         let least = tuning::NEGLIGIBLE_OF_ERROR * self.excitation.relative_error;
         let each = (0..discs.count()).map(|j| {
             let base = base_n * discs.newton(j, 1.0);
-            if follows {
-                let [samples, nodes] = sampled.pressures.each_ref().map(|all| {
+            let time_s = |n: f64| run.start_s + n * self.step_s;
+            let [samples, nodes] = if follows {
+                sampled.pressures.each_ref().map(|all| {
                     let loads = all.iter().map(|pressures| self.load(discs, j, pressures));
                     loads.collect::<Vec<f64>>()
-                });
-                let nodes = sampled.nodes.with(|node| nodes[node]);
-                return Sampled::new(base, &samples, &nodes, needed, least);
-            }
-            let at = |time_s: f64| {
-                let [force, rate] = self.excitation.force_and_rate(time_s);
-                if self.reading == Reading::Force {
-                    force
-                } else {
-                    rate
-                }
+                })
+            } else {
+                let at = |n: f64| self.load_at(discs, j, time_s(n));
+                let nodes = match self.reading {
+                    Reading::Force => Vec::new(),
+                    Reading::Rate => sampled.nodes.places().map(at).collect(),
+                };
+                [(0..run.count).map(|n| at(n as f64)).collect(), nodes]
             };
-            let time_s = |n: f64| run.start_s + n * self.step_s;
-            let samples: Vec<f64> = (0..run.count).map(|n| at(time_s(n as f64))).collect();
-            match self.reading {
-                Reading::Force => Sampled::new(base, &samples, &sampled.nodes, needed, least),
-                Reading::Rate => {
-                    let rates: Vec<f64> = sampled.nodes.places().map(|x| at(time_s(x))).collect();
-                    let nodes = sampled.nodes.with(|node| rates[node]);
-                    Sampled::new(base, &samples, &nodes, needed, least)
-                }
+            if nodes.is_empty() {
+                return Sampled::new(base, &samples, &sampled.nodes, needed, least);
             }
+            let nodes = sampled.nodes.with(|node| nodes[node]);
+            Sampled::new(base, &samples, &nodes, needed, least)
         });
         let each: Vec<Sampled> = each.collect();
         let next = follows.then(|| self.next(sampled, discs));
-        let (mut zones, mut sharp): (Vec<Zone>, Vec<usize>) = Default::default();
+        let (mut zones, mut sharp): (Vec<Zone>, Vec<SharpCell>) = Default::default();
         if self.excitation.record().is_none() {
             let spans_s = self.excitation.smooth_s();
             let (rise, force) = (largest(&each[0].convolver.rises), &each[0].projection);
@@ -290,11 +306,18 @@ impl<'a> Forcing<'a> {
             zones = cells.into_iter().filter_map(of).collect();
             let least = tuning::SHARP * self.tolerance * each[0].largest;
             let counts = |cell: &usize| force.taken(*cell).left > least;
-            sharp = zones
-                .iter()
-                .flat_map(|zone| zone.cells.clone())
-                .filter(counts)
-                .collect();
+            let cells = zones.iter().flat_map(|zone| zone.cells.clone());
+            let of = |cell: usize| SharpCell {
+                cell,
+                rises: (0..discs.count())
+                    .map(|j| {
+                        self.residual_rises(run, cell, each[j].projection.taken(cell), |t| {
+                            self.load_at(discs, j, t)
+                        })
+                    })
+                    .collect(),
+            };
+            sharp = cells.filter(counts).map(of).collect();
         }
         RunLoads {
             each,
@@ -302,6 +325,21 @@ impl<'a> Forcing<'a> {
             zones,
             sharp,
         }
+    }
+
+    /// Rises of a load over the parts of a cell, the oldest first, less those of the parabola.
+    fn residual_rises(
+        &self,
+        run: &Run,
+        cell: usize,
+        taken: &Taken,
+        load: impl Fn(f64) -> f64,
+    ) -> Vec<f64> {
+        let parts = self.parts as f64;
+        let edge = |m: usize| m as f64 / parts - 0.5;
+        let at = |m: usize| load(run.start_s + (cell as f64 - 0.5 + edge(m)) * self.step_s);
+        let of = |m: usize| at(m + 1) - at(m) - taken.between(edge(m), edge(m + 1));
+        (0..self.parts).map(of).collect()
     }
 
     /// The load of the term left out: so many times (a_max/c_R)^2 the second derivative of Newton's next polynomial of it, at

@@ -98,7 +98,10 @@ impl<'a> Convolution<'a> {
                 derivatives.push(derivative);
             }
         }
-        let forcing = |derivative| Forcing::new(grid, wanted, derivative, sets.count());
+        let unit_s = excitation.units().time_s();
+        let ratio = excitation.medium().poisson_ratio();
+        let parts = source.parts(ratio, grid.step_s / unit_s).min(tuning::PARTS);
+        let forcing = |derivative| Forcing::new(grid, wanted, derivative, (sets.count(), parts));
         let past = match (excitation.radius(), reach) {
             (PressureRadius::Following { .. }, None) => {
                 Some(Past::new(excitation, PART_OF_PAST * tolerance)?)
@@ -202,7 +205,17 @@ impl<'a> Convolution<'a> {
             Some(_) if distance > tuning::FAR => tuning::KERNELS_FAR,
             Some(_) => tuning::KERNELS,
         };
+        // until the last front from the far edge has passed a cell
+        let fronts_s = excitation
+            .speeds()
+            .arrivals_s(place_m[0] + disc_radius_m, place_m[1], 0.0);
+        let last_s = fronts_s
+            .into_iter()
+            .filter(|s| s.is_finite())
+            .fold(0.0, f64::max);
+        let until = (last_s / grid.step_s) as usize + 2;
         let plan = CellPlan {
+            parts: [self.forcings[0].parts, until.min(grid.longest())],
             step: grid.step_s / (over * units.time_s()),
             count: grid.longest() + differences.max().unwrap_or(0) + BEYOND,
             pulse: excitation.pulse(over),
@@ -255,7 +268,8 @@ impl<'a> Convolution<'a> {
         let zones = f64::from(u8::from(kernels.are_traces()));
         let over_past = match (is_integrated && self.past.is_some(), forcing.derivative) {
             (false, _) => 0.0,
-            (true, Derivative::Field) => tuning::LAST_TERMS,
+            // the last terms of the integrals of fields are counted one by one
+            (true, Derivative::Field) => 0.0,
             (true, Derivative::First | Derivative::Second) => 1.0,
         };
         let quadrature = (zones + over_past) * tuning::QUADRATURE * forcing.tolerance;

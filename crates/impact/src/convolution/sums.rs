@@ -23,8 +23,8 @@ pub(crate) struct PointKernels<'a> {
     pub(crate) cells: Vec<Cells>,
     /// Divided differences of them from the first order on, in SI units.
     differences: Vec<Difference>,
-    /// Units of the first disc, whose kernel is the difference of order zero.
-    unit: Six,
+    /// Units of each disc; the kernel of the first is the difference of order zero.
+    units: Vec<Six>,
 }
 
 /// A divided difference of the kernels of discs in the squares of their radii, in SI units.
@@ -74,7 +74,7 @@ impl<'a> PointKernels<'a> {
             place_m,
             discs,
             differences,
-            unit: units[0],
+            units,
             cells,
         }
     }
@@ -83,8 +83,22 @@ impl<'a> PointKernels<'a> {
     fn difference(&self, order: usize) -> (&[Six], &Moments, Six) {
         match order.checked_sub(1).map(|place| &self.differences[place]) {
             Some(own) => (&own.smooth, &own.moments, [1.0; 6]),
-            None => (&self.cells[0].smooth, &self.cells[0].moments, self.unit),
+            None => (&self.cells[0].smooth, &self.cells[0].moments, self.units[0]),
         }
+    }
+
+    /// Averages of the difference of an order over parts of the first cells in SI units, where the table has them.
+    fn fine(&self, order: usize) -> Vec<Six> {
+        let mut sum = vec![Six::default(); self.cells[0].fine.len()];
+        for (k, cells) in self.cells[..=order].iter().enumerate() {
+            let weight = self.discs.weight(order, k);
+            for (sum, own) in sum.iter_mut().zip(&cells.fine) {
+                for f in 0..6 {
+                    sum[f] += weight * self.units[k][f] * own[f];
+                }
+            }
+        }
+        sum
     }
 
     /// Whether kernels are known at each instant, rather than in cells alone.
@@ -128,7 +142,7 @@ impl Sums {
             errors: Six::default(),
         };
         sums.add_cells(forcing, loads, kernels);
-        sums.add_residuals(forcing, loads, kernels);
+        sums.add_sharp(forcing, loads, kernels);
         sums.add_jumps(forcing, kernels);
         sums.add_errors(forcing, loads, kernels);
         if let PressureRadius::Following { largest_m, .. } = forcing.excitation.radius() {
@@ -181,36 +195,52 @@ impl Sums {
         }
     }
 
-    /// Adds what the parabolas of the cells of a zone may leave out: the residual of the load times how far the kernel departs
-    /// from a parabola in the cell that it meets.
-    fn add_residuals(&mut self, forcing: &Forcing<'_>, loads: &Loads, kernels: &PointKernels<'_>) {
+    /// Adds the residuals of the load in sharp cells, summed over the fine cells of a table where there are any, and a bound on
+    /// what is left out then: the residual times the departure of the kernel, from a parabola in a cell or from its average in a
+    /// part of one.
+    fn add_sharp(&mut self, forcing: &Forcing<'_>, loads: &Loads, kernels: &PointKernels<'_>) {
         if loads.runs.iter().all(|run| run.sharp.is_empty()) {
             return;
         }
+        let parts = forcing.parts;
+        let count = components(forcing);
         let of = |order: usize| {
             let (_, moments, unit) = kernels.difference(order);
             let mut found = departures(moments);
             for own in &mut found {
                 *own = std::array::from_fn(|f| unit[f] * own[f]);
             }
-            found
+            (found, kernels.fine(order))
         };
-        let departures: Vec<Vec<Six>> = (0..kernels.discs.count()).map(of).collect();
-        let count = components(forcing);
+        let orders: Vec<(Vec<Six>, Vec<Six>)> = (0..kernels.discs.count()).map(of).collect();
         let mut first = 0;
         for (run, sampled) in loads.runs.iter().zip(&forcing.runs) {
             for (i, &n) in sampled.needed.iter().enumerate() {
-                let mut sum = Six::default();
-                for &cell in run.sharp.iter().take_while(|cell| **cell <= n) {
-                    for (load, departures) in run.each.iter().zip(&departures) {
-                        let residual = load.projection.taken(cell).left;
-                        for (sum, departure) in sum.iter_mut().zip(departures[n - cell]) {
-                            *sum += residual * departure;
+                let (mut sum, mut bound) = (Six::default(), Six::default());
+                for sharp in run.sharp.iter().take_while(|sharp| sharp.cell <= n) {
+                    let lag = n - sharp.cell;
+                    for (order, (departures, fine)) in orders.iter().enumerate() {
+                        if (lag + 1) * parts > fine.len() {
+                            let residual = run.each[order].projection.taken(sharp.cell).left;
+                            for f in 0..count {
+                                bound[f] += residual * departures[lag][f];
+                            }
+                            continue;
+                        }
+                        for (m, rise) in sharp.rises[order].iter().rev().enumerate() {
+                            let place = lag * parts + m;
+                            let next = (place + 1).min(fine.len() - 1);
+                            let before = place.saturating_sub(1);
+                            for f in 0..count {
+                                sum[f] += rise * fine[place][f];
+                                bound[f] += (rise * (fine[next][f] - fine[before][f])).abs();
+                            }
                         }
                     }
                 }
-                for (samples, sum) in self.residual.iter_mut().zip(sum).take(count) {
-                    samples[first + i] = sum;
+                for f in 0..count {
+                    self.values[f][first + i] += sum[f];
+                    self.residual[f][first + i] = tuning::WITHIN_PARTS * bound[f];
                 }
             }
             first += sampled.needed.len();

@@ -87,6 +87,13 @@ pub(crate) const MOST_PARTS: usize = 16;
 /// zone has up to a hundred cells, whose residuals fall quickly.
 pub(crate) const SHARP: f64 = 1e-3;
 
+/// Parts of a cell of a zone in which its residual is summed over the cells of a table, at most.
+pub(crate) const PARTS: usize = 16;
+
+/// Error of a residual summed over parts of a cell, over its rises in them times the changes of the kernel to both sides
+/// (`scripts/measure-lookups`).
+pub(crate) const WITHIN_PARTS: f64 = 0.5;
+
 /// Rise of the force that the integrals over a zone may lose, over its largest over a cell.
 pub(crate) const LOST: f64 = 3e-3;
 

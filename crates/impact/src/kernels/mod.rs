@@ -30,6 +30,8 @@ pub struct Cells {
     pub smooth: Vec<Six>,
     /// Error of the response to a force of unit peak.
     pub error: Six,
+    /// Averages over parts of the first cells, as many as [`CellPlan::parts`] says, where they were looked up.
+    pub fine: Vec<Six>,
     /// The remainder at any instant, where it was computed.
     pub trace: Option<Trace>,
 }
@@ -137,6 +139,17 @@ impl KernelSource {
         }
     }
 
+    /// Parts of a cell of a width in r0/c1 that the cells of a table tell apart; 1 of kernels that are computed.
+    pub(crate) fn parts(&self, poisson_ratio: f64, step: f64) -> usize {
+        match self {
+            Self::Direct(_) => 1,
+            Self::Table(table) => {
+                let cell = table.cell_width(poisson_ratio).unwrap_or(step);
+                ((step / cell) as usize).max(1)
+            }
+        }
+    }
+
     /// Largest r and z in radii of a table; none of kernels that are computed.
     pub(crate) fn table_reach(&self) -> Option<[f64; 2]> {
         match self {
@@ -158,6 +171,7 @@ impl KernelSource {
     ) -> Result<Cells, ImpactError> {
         let (step, count, pulse) = (wanted.step, wanted.count, wanted.pulse);
         let [r_m, z_m] = [r, z].map(|x| x * disc_radius_m);
+        let mut fine = Vec::new();
         let (static_part, moments, error, trace) = match self {
             Self::Direct(kernel) => {
                 let domain = |source| ImpactError::OutsideBlock { r_m, z_m, source };
@@ -190,8 +204,14 @@ impl KernelSource {
                     disc_radius_m,
                     source,
                 };
-                let found = table.moments(poisson_ratio, r, z, step, count);
-                let (static_part, moments) = found.map_err(outside)?;
+                let found = table.until(poisson_ratio, r, z, step, count);
+                let (static_part, series) = found.map_err(outside)?;
+                let moments = series.moments(step, count);
+                let [parts, until] = wanted.parts;
+                fine = series.averages(
+                    step / parts as f64,
+                    if parts > 1 { parts * until } else { 0 },
+                );
                 let error = table_error(table, poisson_ratio, [r, z], pulse).map_err(outside)?;
                 (static_part, moments, error, None)
             }
@@ -201,6 +221,7 @@ impl KernelSource {
             smooth: moments.absorbed(),
             moments,
             error,
+            fine,
             trace,
         })
     }
@@ -213,6 +234,8 @@ pub struct CellPlan {
     pub step: f64,
     /// How many cells, [`lookup::BEYOND`] among them.
     pub count: usize,
+    /// Parts of each cell whose averages are looked up, too, and the number of cells of which they are.
+    pub parts: [usize; 2],
     /// Of the force.
     pub pulse: Pulse,
     /// Whether rates of the fields are asked for, too.

@@ -156,6 +156,16 @@ pub(crate) struct Taken {
     pub(crate) left: f64,
 }
 
+impl Taken {
+    /// The rise that the parabola has between two places in the cell, from -1/2 to 1/2 in time.
+    pub(crate) fn between(&self, from: f64, to: f64) -> f64 {
+        let until = |x: f64| {
+            self.rise * x + 0.5 * self.slope * x * x + self.bend * (x * x * x / 3.0 - x / 12.0)
+        };
+        until(to) - until(from)
+    }
+}
+
 /// Of the cell that ends at sample `m`: slope and bend by parts from the mean and the first moment of the force.
 ///
 /// ```text

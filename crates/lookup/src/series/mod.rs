@@ -161,6 +161,15 @@ impl Series {
         found
     }
 
+    /// Averages over `count` cells of any width, in r0/c1.
+    pub fn averages(&self, width: f64, count: usize) -> Vec<Six> {
+        let mut found = Vec::with_capacity(count);
+        self.dispatch(width / self.width, 0..count, |_, [average]: [Six; 1]| {
+            found.push(average)
+        });
+        found
+    }
+
     /// How many of `count` cells that are `part` table cells wide are those of the table.
     fn whole(&self, part: f64, count: usize) -> usize {
         let stored = if part == 1.0 { self.cells[0].len() } else { 0 };

@@ -99,6 +99,7 @@ pub(crate) fn computed(
     tolerance: f64,
 ) -> Result<Cells, AnyError> {
     let plan = CellPlan {
+        parts: [1, 0],
         step,
         count: samples + lookup::BEYOND,
         pulse: Pulse::Smooth(length),
