@@ -103,7 +103,8 @@ impl Work {
         };
         let [all_s, frames_s] = [duration_s / step_s + 1.0, frames].map(times_s);
         let digits = -tolerance.log10();
-        let sets = Sets::new(excitation.radius(), tolerance, None, samples as usize);
+        let asked = (samples as usize, scene.rates() > 0);
+        let sets = Sets::new(excitation, tolerance, None, asked);
         let mut work = Self {
             computed_s: OUTPUT_S,
             looked_up_s: 0.0,
@@ -113,10 +114,10 @@ impl Work {
         let kernels = more * (KERNELS + KERNELS_A_DIGIT * digits);
         let trace_s = kernels * KERNEL_S + samples * CELL_S;
         let looked_up = Sets::new(
-            excitation.radius(),
+            excitation,
             tolerance,
             reach.or(Some([f64::INFINITY; 2])),
-            samples as usize,
+            asked,
         );
         let looked_up = looked_up.get(0).count() as f64;
         for (place_m, is_of_section, points) in planned(scene) {

@@ -91,13 +91,14 @@ impl<'a> Convolution<'a> {
     ) -> Result<Self, ImpactError> {
         let (excitation, tolerance) = (grid.excitation, grid.tolerance);
         let reach = source.table_reach();
-        let sets = Sets::new(excitation.radius(), tolerance, reach, grid.count());
         let mut derivatives = vec![Derivative::Field];
         for (derivative, _) in quantities.iter().filter_map(|one| one.rate()) {
             if !derivatives.contains(&derivative) {
                 derivatives.push(derivative);
             }
         }
+        let asked = (grid.count(), derivatives.len() > 1);
+        let sets = Sets::new(excitation, tolerance, reach, asked);
         let unit_s = excitation.units().time_s();
         let ratio = excitation.medium().poisson_ratio();
         let parts = source.parts(ratio, grid.step_s / unit_s).min(tuning::PARTS);
@@ -340,7 +341,7 @@ fn integrate_past(
         }
     }
     let is_all = parts == contacts;
-    let (mut found, mut by_discs) = ([Six::default(); 2], [Six::default(); 2]);
+    let (mut found, mut by_discs) = ([Six::default(); 2], Six::default());
     let part = tuning::LAST_TERMS.min(tuning::COARSEST / forcing.tolerance);
     let enough = allowed.map(|x| part / tuning::ACCEPTED * x);
     for part in &parts {
@@ -359,17 +360,17 @@ fn integrate_past(
         for f in 0..6 {
             found[0][f] += own.value[f];
             found[1][f] += own.error[f];
-            by_discs[0][f] += cells[0][f] + zones[f];
-            by_discs[1][f] += cells[1][f];
+            by_discs[f] += cells[f] + zones[f];
         }
     }
     // of rates the last terms say too much: beside fronts they fall slowly, and have either sign
     let counts = forcing.reading == Reading::Force;
     for f in 0..components(forcing) {
-        sums.values[f][i] += found[0][f] - by_discs[0][f];
-        sums.truncation[f][i] -= by_discs[1][f];
+        sums.values[f][i] += found[0][f] - by_discs[f];
+        // between fronts discs serve
+        sums.truncation[f][i] = 0.0;
         if is_all {
-            (sums.truncation[f][i], sums.residual[f][i]) = (0.0, 0.0);
+            sums.residual[f][i] = 0.0;
         }
         sums.residual[f][i] += if counts { found[1][f] } else { 0.0 };
     }

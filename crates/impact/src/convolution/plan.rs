@@ -12,6 +12,8 @@ pub(crate) struct Sets {
     /// Largest r and z in radii of a disc at which a table has kernels; none where they are computed.
     reach: Option<[f64; 2]>,
     follows: bool,
+    /// Inverse distance up to which two discs serve between fronts.
+    two_serve: f64,
 }
 
 /// The road of one point.
@@ -33,17 +35,24 @@ pub(crate) struct Integrated {
 }
 
 impl Sets {
-    /// For kernels that are computed, or that a table has up to a reach in r and z; `samples` limits the discs that are held.
+    /// For kernels that are computed, or that a table has up to a reach in r and z; `samples` limits the discs that are held, and
+    /// `rates` of the fields have shorter waves than these.
     pub(crate) fn new(
-        radius: PressureRadius,
+        excitation: &Excitation,
         tolerance: f64,
         reach: Option<[f64; 2]>,
-        samples: usize,
+        (samples, rates): (usize, bool),
     ) -> Self {
-        let follows = matches!(radius, PressureRadius::Following { .. });
+        let follows = matches!(excitation.radius(), PressureRadius::Following { .. });
         let digits = -tolerance.log10();
         let most = (tuning::MOST_HELD / samples.max(1)).max(1);
-        let count = |a_digit: f64| ((a_digit * digits).round().max(2.0) as usize).min(most);
+        let more = if rates { tuning::MORE_FOR_RATES } else { 0 };
+        let count = |a_digit: f64| ((a_digit * digits).round().max(2.0) as usize + more).min(most);
+        let chi = Fronts::new(excitation, [0.0; 2]).chi;
+        let two_serve = match rates {
+            true => 0.0,
+            false => tuning::TWO_SERVE * tolerance / (chi * chi),
+        };
         let all = match (follows, reach) {
             (false, _) => vec![Discs::one()],
             (true, Some(_)) => {
@@ -55,6 +64,7 @@ impl Sets {
                 let [outside, inside] = tuning::DISCS_A_DIGIT.map(count);
                 vec![
                     Discs::between(tuning::SMALLEST, outside),
+                    Discs::between(tuning::SMALLEST, 2.min(most)),
                     Discs::between(tuning::SMALLEST, inside),
                     Discs::between(tuning::SMALLEST_AT_CENTRE, inside),
                     Discs::between(tuning::SMALLEST_FAR, outside),
@@ -65,6 +75,7 @@ impl Sets {
             all,
             reach,
             follows,
+            two_serve,
         }
     }
 
@@ -89,9 +100,10 @@ impl Sets {
                 };
                 self.all.iter().position(has).unwrap_or(self.all.len() - 1)
             }
-            None if distance < tuning::CENTRE => 2,
-            None if distance < tuning::INSIDE => 1,
-            None if distance > tuning::FAR => 3,
+            None if distance < tuning::CENTRE => 3,
+            None if distance < tuning::INSIDE => 2,
+            None if distance > tuning::FAR => 4,
+            None if self.two_serve > distance.recip() => 1,
             None => 0,
         }
     }

@@ -187,8 +187,8 @@ impl Sums {
                 add(&mut self.values, found, unit);
             }
             if let Some(next) = &run.next {
-                let (smooth, _, unit) = kernels.difference(kernels.discs.count() - 1);
-                let found = next.convolver.fields(&Six::default(), smooth);
+                let (_, moments, unit) = kernels.difference(kernels.discs.count() - 1);
+                let found = next.convolver.fields(&Six::default(), &moments.averages);
                 add(&mut self.truncation, found, unit);
             }
             first += sampled.needed.len();
@@ -233,14 +233,15 @@ impl Sums {
                             let before = place.saturating_sub(1);
                             for f in 0..count {
                                 sum[f] += rise * fine[place][f];
-                                bound[f] += (rise * (fine[next][f] - fine[before][f])).abs();
+                                let change = (fine[next][f] - fine[before][f]).abs();
+                                bound[f] += tuning::WITHIN_PARTS * rise.abs() * change;
                             }
                         }
                     }
                 }
                 for f in 0..count {
                     self.values[f][first + i] += sum[f];
-                    self.residual[f][first + i] = tuning::WITHIN_PARTS * bound[f];
+                    self.residual[f][first + i] = bound[f];
                 }
             }
             first += sampled.needed.len();
@@ -378,7 +379,7 @@ pub(crate) fn by_zones(
                 change[f] += unit[f] * exact[f];
             }
         }
-        let [by_cells, _] = by_cells(forcing, loads, kernels, i, &part);
+        let by_cells = by_cells(forcing, loads, kernels, i, &part);
         for f in 0..6 {
             change[f] -= by_cells[f];
         }
@@ -386,26 +387,20 @@ pub(crate) fn by_zones(
     change
 }
 
-/// The contributions of some cells to a sample: to its value, and to its truncation error.
+/// The contribution of some cells to a sample.
 pub(crate) fn by_cells(
     forcing: &Forcing<'_>,
     loads: &Loads,
     kernels: &PointKernels<'_>,
     i: usize,
     part: &Range<usize>,
-) -> [Six; 2] {
+) -> Six {
     let (run, n) = forcing.in_run(i);
-    let loads = &loads.runs[run];
-    let mut sums = [Six::default(); 2];
-    for (order, load) in loads.each.iter().enumerate() {
+    let mut sum = Six::default();
+    for (order, load) in loads.runs[run].each.iter().enumerate() {
         let (_, moments, unit) = kernels.difference(order);
         let found = load.projection.by_cells(n, part, moments);
-        sums[0] = std::array::from_fn(|f| sums[0][f] + unit[f] * found[f]);
+        sum = std::array::from_fn(|f| sum[f] + unit[f] * found[f]);
     }
-    if let Some(next) = &loads.next {
-        let (_, moments, unit) = kernels.difference(kernels.discs.count() - 1);
-        let found = next.projection.by_cells(n, part, moments);
-        sums[1] = std::array::from_fn(|f| unit[f] * found[f]);
-    }
-    sums
+    sum
 }

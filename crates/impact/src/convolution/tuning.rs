@@ -8,6 +8,13 @@
 /// 1e-4. More lose digits to kernels of small discs, fewer leave smooth waves (`scripts/check-close`).
 pub(crate) const DISCS_A_DIGIT: [f64; 2] = [0.75, 1.5];
 
+/// Error of two discs between fronts is chi^2/distance over this fraction of the tolerance's inverse; with more than this product
+/// of tolerance and distance over chi^2 two discs serve (`scripts/check-close`).
+pub(crate) const TWO_SERVE: f64 = 0.03;
+
+/// Discs more for rates of the fields, which have shorter waves (`rates_of_growing_contacts_are_within_their_estimates`).
+pub(crate) const MORE_FOR_RATES: usize = 2;
+
 /// Distance up to which a point counts as inside: beyond it the contact's edge does not pass.
 pub(crate) const INSIDE: f64 = 1.2;
 
@@ -85,7 +92,7 @@ pub(crate) const MOST_PARTS: usize = 16;
 
 /// Residual of a cell of a zone below which it is left out of the bound on what cells leave, over the tolerance of the load: a
 /// zone has up to a hundred cells, whose residuals fall quickly.
-pub(crate) const SHARP: f64 = 1e-3;
+pub(crate) const SHARP: f64 = 3e-5;
 
 /// Parts of a cell of a zone in which its residual is summed over the cells of a table, at most.
 pub(crate) const PARTS: usize = 16;

@@ -186,7 +186,7 @@ pub(crate) fn choose_source(
     let [nearest, farthest] = span(points.iter().map(|place_m| place_m.map(|x| x / radius_m)));
     let load = |tables: &Arc<dyn Tables>| {
         // as far as the smallest disc of each place sees it
-        let sets = Sets::new(excitation.radius(), tolerance, Some(tables.reach()), 1);
+        let sets = Sets::new(excitation, tolerance, Some(tables.reach()), (1, false));
         let seen = points.iter().map(|place_m| {
             let place = place_m.map(|x| x / radius_m);
             let smallest = sets.get(sets.choose(place)).smallest();
@@ -279,7 +279,7 @@ fn looked_up_error(
     let (units, medium) = (excitation.units(), excitation.medium());
     let reach = table.reach();
     let tolerance = scene.settings.tolerance;
-    let sets = Sets::new(excitation.radius(), tolerance, Some(reach), 1);
+    let sets = Sets::new(excitation, tolerance, Some(reach), (1, scene.rates() > 0));
     let place = place_m.map(|x| x / units.disc_radius_m);
     let discs = sets.get(sets.choose(place));
     let still = |over: f64| -> Result<Six, LookupError> {
