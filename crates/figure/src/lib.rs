@@ -32,18 +32,19 @@
 //! 1/96 inch from the upper left corner. The same figure gives the same bytes.
 #![cfg_attr(doctest, doc = include_str!("../README.md"))]
 
-mod axis;
-mod colour;
+// From the bottom up: a module uses only those above it.
 mod error;
-mod figure;
-mod font;
+mod axis;
 mod geometry;
-mod layers;
-mod layout;
-mod look;
-mod scene;
+mod colour;
+mod font;
 mod text;
 mod ticks;
+mod scene;
+mod look;
+mod layers;
+mod figure;
+mod layout;
 mod write;
 
 pub use axis::{Axis, Interval, Scale};

@@ -4,11 +4,12 @@
 //! - [`Shard`] and [`gaps`]: work in parts, and what of it is not there.
 //! - [`seal`] and [`HdfFile`]: every byte of a finished HDF5 file is compared with what was written before it is used.
 
+// From the bottom up: a module uses only those above it.
 mod error;
-mod hdf;
 mod identity;
-mod seal;
 mod shard;
+mod seal;
+mod hdf;
 
 pub use error::HdfError;
 pub use hdf::{Dataset, Group, HdfFile};

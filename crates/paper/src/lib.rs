@@ -12,6 +12,7 @@
 //! Equation, figure and table numbers are the paper's.
 #![cfg_attr(doctest, doc = include_str!("../README.md"))]
 
+// From the bottom up: a module uses only those above it.
 mod case;
 mod figures;
 mod numbers;

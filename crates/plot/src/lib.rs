@@ -13,15 +13,16 @@
 //! ```
 #![cfg_attr(doctest, doc = include_str!("../README.md"))]
 
-mod compose;
+// From the bottom up: a module uses only those above it.
 mod error;
-mod impacts;
 mod request;
-mod section;
+mod words;
 mod series;
+mod section;
+mod impacts;
 mod sweep;
 mod table;
-mod words;
+mod compose;
 
 pub use compose::{animate, compose};
 pub use error::PlotError;

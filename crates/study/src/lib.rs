@@ -11,16 +11,17 @@
 //! In reading order: `chart`; `measure` (a method at a setting, timed) and `record` (its row); the questions, with
 //! `scenes` and `inversion` for them; the maps; `ranking`, `picture` and `report`.
 
-mod chart;
-mod inversion;
-mod map;
-mod measure;
-mod picture;
-mod question;
-mod ranking;
+// From the bottom up: a module uses only those above it.
 mod record;
-mod report;
+mod measure;
 mod scenes;
+mod picture;
+mod ranking;
+mod inversion;
+mod question;
+mod map;
+mod chart;
+mod report;
 
 pub use chart::Chart;
 pub use measure::Effort;

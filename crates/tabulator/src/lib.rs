@@ -23,21 +23,22 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-mod assemble;
-mod block;
-mod build;
+// From the bottom up: a module uses only those above it.
 mod error;
-mod extend;
+mod numbers;
+mod progress;
 mod grid;
+mod block;
+mod point;
 mod journal;
 mod known;
-mod measure;
-mod numbers;
-mod plan;
-mod point;
-mod progress;
 mod rows;
+mod plan;
+mod assemble;
+mod build;
+mod extend;
 mod shard;
+mod measure;
 
 pub use assemble::Summary;
 pub use build::{build, build_over};

@@ -137,6 +137,18 @@ impl Layer {
     }
 }
 
+/// The colours of the first image among some layers, for the values of all images; none without an image.
+pub(crate) fn colours_of<'a>(layers: impl IntoIterator<Item = &'a Layer>) -> Option<Colours> {
+    let images = layers.into_iter().filter_map(|layer| match layer {
+        Layer::Image(image) => Some(image),
+        Layer::Line(_) | Layer::Classes(_) | Layer::Mark { .. } | Layer::Point { .. } => None,
+    });
+    let images: Vec<&Image> = images.collect();
+    let first = images.first()?;
+    let values = images.iter().flat_map(|image| image.values.iter().copied());
+    Some(Colours::new(&first.colours, first.map, &values))
+}
+
 /// The sample beside a name.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Swatch {

@@ -1,8 +1,9 @@
-//! From rows to a table: numbers in their places, errors measured off the grid, the file under its name.
+//! From rows to a table: numbers in their places, errors measured off the grid (`verify`), the file under its name.
+
+mod verify;
 
 use crate::block::{Kind, Row};
 use crate::error::BuildError;
-use crate::measure::verify;
 use crate::numbers::NUMBERS_REVISION;
 use crate::rows::Work;
 use lookup::{Accuracy, BadTable, Between, Content, Origin, Slice, Table, Verification, schema};

@@ -12,7 +12,7 @@ use rayon::prelude::*;
 const SAMPLES: f64 = 250.0;
 
 /// Measures errors at one Poisson ratio at the places of a kind: a row holds the exact numbers at a radius and all depths.
-pub(crate) fn verify<'a>(
+pub(super) fn verify<'a>(
     table: &Table,
     work: &Work<'a>,
     kind: Kind,
