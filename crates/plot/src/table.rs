@@ -5,7 +5,7 @@ use crate::request::Request;
 use crate::words::{digits, of_quantity, stem};
 use figure::{Axis, ColourMap, Figure, Image, Layer, Panel, Sharing};
 use formats::quantities::Described;
-use formats::results::schema::FIELDS;
+use formats::quantities::FIELDS;
 use lookup::{Content, Slice};
 use std::path::Path;
 

@@ -3,7 +3,7 @@
 use super::keys::FINITE;
 use super::section::{MOST_OF_RECORD, read_text_up_to};
 use crate::error::SceneError;
-use crate::results::schema::{FILE_TYPE, SEALED_FROM};
+use crate::schema::results::{FILE_TYPE, SEALED_FROM};
 use impact::{ASCENDING, ForceRecord, Reading, RecordError, TreatmentError, follows};
 use ledger::{Group, HdfError, HdfFile};
 use output::HDF5;

@@ -1,8 +1,7 @@
 //! Groups of rows of a Parquet file: nothing is decoded before its hash was compared.
 
-use super::rows::NOT_HELD;
-use crate::sweep::schema::{FAILURE, MODEL};
-use crate::sweep::{Block, Footer, NO_MODEL, Part, Precision};
+use crate::schema::sweep::{FAILURE, MODEL};
+use crate::sweep::{Block, Footer, NO_MODEL, NOT_HELD, Part, Precision};
 use bytes::Bytes;
 use contact::{Choice, Model};
 use output::Fault;

@@ -2,9 +2,9 @@
 
 use crate::error::SceneError;
 use crate::quantities::Described;
-use crate::results;
 use crate::scene::section::parse;
-use crate::sweep::schema::{self, TEXTS, part};
+use crate::schema::sweep::{TEXTS, part};
+use crate::schema::{results, sweep};
 use crate::sweep::{Fields, Footer, MAGIC, Part, Precision, stored_columns};
 use ledger::{Dataset, Group, H5Type, HdfError, HdfFile};
 use std::fmt;
@@ -35,8 +35,8 @@ impl FileKind {
     /// That of a value of the attribute `file_type`.
     fn of_type(found: &str) -> Option<Self> {
         Some(match found {
-            results::schema::FILE_TYPE => Self::Impact,
-            schema::FILE_TYPE => Self::Sweep,
+            results::FILE_TYPE => Self::Impact,
+            sweep::FILE_TYPE => Self::Sweep,
             part::FILE_TYPE => Self::SweepPart,
             lookup::schema::FILE_TYPE_VALUE => Self::Table,
             _ => return None,
@@ -46,7 +46,7 @@ impl FileKind {
     /// What the file is, and the minor version of the format from which on its files have a seal.
     fn row(self) -> (&'static str, u32) {
         match self {
-            Self::Impact => ("the results of an impact", results::schema::SEALED_FROM),
+            Self::Impact => ("the results of an impact", results::SEALED_FROM),
             Self::Sweep => ("a sweep", 6),
             Self::SweepPart => ("a part of a sweep", 2),
             Self::Table => ("a kernel table", lookup::schema::SEALED_FROM),

@@ -1,21 +1,20 @@
 //! The results of a sweep, and rows of it, some or all, read back from either format.
 
+#[cfg(feature = "parquet")]
+use super::groups;
 use super::open::{FileKind, Stored, parquet_of_kind};
 use crate::error::SceneError;
 use crate::quantities::Described;
-use crate::sweep::schema::{
+use crate::schema::sweep::{
     AXES, FAILED, FAILURE, FAILURES, LIST, MODEL, RESULTS, ROWS, SAMPLE, SHA256, part,
 };
 use crate::sweep::{
-    Axis, BLOCK, Block, Blocks, Cells, Column, Fields, Footer, Part, Precision, Selection, Spec,
-    Values, What, columns,
+    Axis, BLOCK, Block, Blocks, Cells, Column, Fields, Footer, NOT_HELD, Part, Precision,
+    Selection, Spec, Values, What, columns,
 };
 use output::Fault;
 use std::ops::Range;
 use std::path::Path;
-
-/// What is wrong with a block that cannot have been computed.
-pub(super) const NOT_HELD: &str = "it has models that are not known, or failures without reasons";
 
 /// An open part; its rows are read a block at a time.
 #[derive(Debug, Clone)]
@@ -200,7 +199,7 @@ impl Blocks for StoredPart {
                 visit(&block.map_err(|error| Fault::from(error.to_string()))?)
             }),
             #[cfg(feature = "parquet")]
-            Rows::Parquet(footer) => super::groups::each(&self.part, &footer.row_groups, visit),
+            Rows::Parquet(footer) => groups::each(&self.part, &footer.row_groups, visit),
             #[cfg(not(feature = "parquet"))]
             Rows::Parquet(footer) => Err(Fault::from(format!(
                 "{} is a Parquet file, the {} groups of which this program was built without reading",
@@ -229,7 +228,7 @@ pub(crate) fn whole_sweep(path: &Path) -> Result<(Option<String>, Fields), Scene
 /// Compares the rows of a Parquet file with their hashes, where the program can read them.
 fn check_groups(part: &Part, footer: &Footer) -> Result<(), SceneError> {
     #[cfg(feature = "parquet")]
-    super::groups::check(part, &footer.row_groups)
+    groups::check(part, &footer.row_groups)
         .map_err(|fault| SceneError::damaged(&part.path, fault.reason))?;
     let _ = (part, footer);
     Ok(())

@@ -1,10 +1,10 @@
 //! The keys that vary and their values.
 
 use super::draws::Drawn;
-use super::schema::SAMPLE;
 use crate::error::SceneError;
 use crate::scene::keys::{FINITE, POSITIVE};
 use crate::scene::section::{Section, as_number};
+use crate::schema::sweep::SAMPLE;
 use contact::choice;
 use toml::{Table, Value};
 

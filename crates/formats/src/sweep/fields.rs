@@ -1,10 +1,10 @@
 //! Which results a file of rows has, and how exactly: the quantities of a contact and, behind them, what probes bring.
 
-use super::schema::FIELDS as SECTION;
 use crate::error::SceneError;
 use crate::quantities::{Described, Labels, QUANTITIES, labels_of};
-use crate::results::schema::beside;
 use crate::scene::section::Section;
+use crate::schema::results::beside;
+use crate::schema::sweep::FIELDS as SECTION;
 use impact::{ProbePeaks, Quantity};
 use std::sync::Arc;
 use toml::{Table, Value};

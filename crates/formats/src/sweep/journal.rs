@@ -7,10 +7,10 @@
 
 use super::fields::Fields;
 use super::rows::{Block, Blocks};
-use super::schema::COUNTED;
 use super::shard::BLOCK;
 use super::spec::Spec;
 use crate::quantities::QUANTITIES;
+use crate::schema::sweep::COUNTED;
 use ledger::Identity;
 use output::{Fault, Journal, OutputError, Record, Records, Title, packed, unpacked};
 use std::ops::Range;

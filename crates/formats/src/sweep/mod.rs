@@ -17,7 +17,6 @@ mod journal;
 mod kernels;
 mod rows;
 mod run;
-pub mod schema;
 mod shard;
 mod spec;
 mod template;
@@ -33,7 +32,7 @@ pub use rows::{
     Block, Blocks, Held, NO_MODEL, PARQUET_VERSION, check_rows, column_names, described_keys,
     key_unit, print_csv, row_bytes, stage_csv, stage_rows,
 };
-pub(crate) use rows::{Cells, Footer, MAGIC, What, columns, stage_hdf5};
+pub(crate) use rows::{Cells, Footer, MAGIC, NOT_HELD, What, columns, stage_hdf5};
 pub use run::{Computed, check_at_once, compute_columns, compute_rows, fields_bytes, run_rows};
 pub use shard::{BLOCK, Part, Selection, grain};
 pub use spec::Spec;

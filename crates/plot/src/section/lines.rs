@@ -8,7 +8,7 @@ use crate::series::curve;
 use crate::words::{axis, of_quantity, with_unit};
 use contact::KernelUnits;
 use figure::{Axis, Image, Layer, Legend, Panel, Scale, Style};
-use formats::results::schema::FIELDS;
+use formats::quantities::FIELDS;
 use formats::stored::StoredImpact;
 use halfspace::{Kernel, Medium, Profile};
 

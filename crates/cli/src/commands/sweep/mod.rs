@@ -11,7 +11,7 @@ use crate::progress::Bar;
 use clap::{Args, Subcommand};
 use fault::Fault as _;
 use formats::parts::check_complete;
-use formats::sweep::schema::COUNTED;
+use formats::schema::sweep::COUNTED;
 use formats::sweep::{
     Axis, Block, Blocks, Computed, Kept, Precision, Shard, Spec, SweepError, fields_bytes,
     is_computed, print_csv, row_bytes, run_rows, stage_csv, stage_rows,

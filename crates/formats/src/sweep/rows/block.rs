@@ -20,6 +20,9 @@ impl<T: AsRef<[Block]> + ?Sized> Blocks for T {
     }
 }
 
+/// Sentence about a block that cannot have been computed.
+pub(crate) const NOT_HELD: &str = "it has models that are not known, or failures without reasons";
+
 /// Results of consecutive rows.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Block {

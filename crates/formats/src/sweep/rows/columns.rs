@@ -3,9 +3,9 @@
 use super::block::{Block, Blocks};
 use crate::quantities::Described;
 use crate::scene::keys::{SECTIONS, keys_of};
+use crate::schema::sweep::{FAILURE, MODEL, part};
 use crate::sweep::axes::{Column as Key, Values};
 use crate::sweep::fields::Precision;
-use crate::sweep::schema::{FAILURE, MODEL, part};
 use crate::sweep::spec::Spec;
 use output::Fault;
 use std::ops::Range;

@@ -10,11 +10,11 @@ use crate::hdf::{
     text, texts,
 };
 use crate::quantities::{Labels, QUANTITIES};
-use crate::results::schema::COORDINATES;
+use crate::schema::results::COORDINATES;
+use crate::schema::sweep::{self as schema, part};
 use crate::sweep::axes::{Axis, Column as Key, Values};
 use crate::sweep::fields::Precision;
 use crate::sweep::journal::results as kept_results;
-use crate::sweep::schema::{self, part};
 use crate::sweep::spec::Spec;
 use contact::{Choice, Model};
 use hdf5::types::OwnedDynValue;

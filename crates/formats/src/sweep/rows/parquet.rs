@@ -3,9 +3,9 @@
 use super::block::{Block, Blocks};
 use super::columns::{Cells, Column, What, columns, each_of};
 use super::footer::{DIGITS, FORMAT_VERSION, Footer, TAIL, footer_in, seal_in, sum_without};
+use crate::schema::sweep::{FILE_TYPE, part};
 use crate::sweep::axes::Values;
 use crate::sweep::fields::Precision;
-use crate::sweep::schema::{FILE_TYPE, part};
 use crate::sweep::spec::Spec;
 use bytes::Bytes;
 use contact::{Choice, Model};
