@@ -8,7 +8,8 @@ use formats::{Existing, Output, OutputError};
 use impact::KernelChoice;
 use lookup::TableFile;
 use output::{Role, apart};
-use serde_json::json;
+use serde::Serialize;
+use std::fmt::{self, Display, Formatter};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -129,11 +130,27 @@ pub(crate) fn is_text(path: &Path) -> bool {
     path.extension().is_some_and(|ending| ending == "csv")
 }
 
-/// What `--skip-complete` says where nothing is left to do.
+/// Report of `--skip-complete` where nothing is left to do.
+#[derive(Serialize)]
+struct Complete {
+    output: String,
+    complete: bool,
+}
+
+impl Display for Complete {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let text = format!("{}, nothing to do", self.output);
+        f.write_str(&lines([("complete", text)]))
+    }
+}
+
+/// Prints that an output is there already.
 pub(crate) fn say_complete(output: &Path, json: bool) -> Result<(), Failure> {
-    let output = output.display().to_string();
-    let text = lines([("complete", format!("{output}, nothing to do"))]);
-    show(json, &json!({ "output": output, "complete": true }), text)
+    let report = Complete {
+        output: output.display().to_string(),
+        complete: true,
+    };
+    show(json, &report)
 }
 
 /// One flag, the same in every command that can take much.

@@ -2,6 +2,7 @@
 
 use fault::{Class, Culprit, Fault, Remedy};
 use output::OutputError;
+use serde::Serialize;
 use serde_json::{Map, Value, json};
 use std::error::Error;
 use std::fmt::Display;
@@ -179,9 +180,13 @@ pub(crate) fn print(text: impl Display) -> Result<(), Failure> {
     }
 }
 
-/// Prints a report: one line of JSON, or text.
-pub(crate) fn show(json: bool, value: &Value, text: impl Display) -> Result<(), Failure> {
-    if json { print(value) } else { print(text) }
+/// Prints the report of a command: one value, written as one line of JSON or as its text.
+pub(crate) fn show(json: bool, report: &(impl Serialize + Display)) -> Result<(), Failure> {
+    if json {
+        print(serde_json::to_string(report).map_err(Failure::work)?)
+    } else {
+        print(report)
+    }
 }
 
 /// Lines of a report, each with its name.

@@ -6,7 +6,7 @@ use crate::failure::Failure;
 use crate::report::{short, si};
 use contact::{BodyError, HalfSpace, Material, Model, Plasticity, Striker};
 use impact::{Impact, Run};
-use serde_json::{Value, json};
+use serde::Serialize;
 
 /// The area dashpot's relative error in the loss over the square of the memory in collision times, and the memory up to
 /// which that holds: for Poisson's ratios from 0 to 0.45 and 0.02 to 0.99 of the compliance in the block 0.146 at most,
@@ -23,6 +23,15 @@ const OFF: f64 = 0.1 - 1e-3;
 const FURTHEST: f64 = 100.0;
 const FACTOR: f64 = 1.1;
 const MARGIN: f64 = 1e-3;
+
+/// Results of the force law of a file, and the velocities in m/s between which it holds.
+#[derive(Debug, Serialize)]
+pub(super) struct LawReport {
+    contact_time_s: f64,
+    peak_force_n: f64,
+    from_m_s: Option<f64>,
+    to_m_s: Option<f64>,
+}
 
 /// A particle code.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -120,14 +129,14 @@ impl Laws {
         Ok(laws)
     }
 
-    /// Its numbers, for `--json`.
-    pub(super) fn value(&self) -> Value {
-        json!({
-            "contact_time_s": self.contact_time_s,
-            "peak_force_n": self.peak_force_n,
-            "from_m_s": self.range_m_s.map(|range| range[0]),
-            "to_m_s": self.range_m_s.map(|range| range[1]),
-        })
+    /// Its numbers.
+    pub(super) fn report(&self) -> LawReport {
+        LawReport {
+            contact_time_s: self.contact_time_s,
+            peak_force_n: self.peak_force_n,
+            from_m_s: self.range_m_s.map(|range| range[0]),
+            to_m_s: self.range_m_s.map(|range| range[1]),
+        }
     }
 
     /// The law of striker and target, and where it holds.

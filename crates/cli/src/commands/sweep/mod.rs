@@ -18,8 +18,9 @@ use formats::sweep::{
 };
 use formats::{Existing, Output, OutputError, QUANTITIES};
 use output::{CSV, Fault, Staged, apart, behind, free_disk, is_standard};
-use serde_json::{Value, json};
+use serde::Serialize;
 use std::cell::RefCell;
+use std::fmt::{self, Display, Formatter};
 use std::io::{BufWriter, ErrorKind, Write};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -203,81 +204,122 @@ fn compute(arguments: &Run, sweep: &Path, output: &Path) -> Result<(), Failure> 
     let tally = Tally::of(&kept).map_err(|fault| OutputError::writing(&outputs.part, fault))?;
     outputs.write(&spec, &kept)?;
     let took_s = [start.elapsed().as_secs_f64(), computing_s];
-    let (value, text) = report(arguments, &spec, &outputs, &tally, took_s, kept.resumed);
+    let report = SweepReport::new(arguments, &spec, &outputs, &tally, took_s, kept.resumed);
     // where the rows or the report cannot be printed, the same command goes on with what is kept
     if outputs.print {
-        text.lines().for_each(say);
+        report.to_string().lines().for_each(say);
         print_rows(&spec, &kept)?;
     } else {
-        show(arguments.json, &value, text)?;
+        show(arguments.json, &report)?;
     }
     kept.remove();
     tally.verdict(arguments, spec.selected().len())
 }
 
-/// What was done, in how many s and s of computing, with how many rows of an earlier run.
-fn report(
-    arguments: &Run,
-    spec: &Spec,
-    outputs: &Outputs,
-    tally: &Tally,
-    [wall_s, computing_s]: [f64; 2],
+/// Rows that were computed and written.
+#[derive(Serialize)]
+struct SweepReport {
+    output: String,
+    csv: Option<String>,
+    shape: Vec<usize>,
+    rows: usize,
+    sweep_rows: usize,
+    sweep_sha256: String,
+    /// Rows that an earlier run had computed.
     resumed: usize,
-) -> (Value, String) {
-    let [yielding, cracking, untrusted] = tally.beyond;
-    let (rows, failed) = (spec.selected().len(), tally.failed);
-    let output = outputs.results.path.display().to_string();
-    let mut value = json!({
-        "output": output,
-        "csv": arguments.csv.as_ref().map(|path| path.display().to_string()),
-        "shape": spec.shape(),
-        "rows": rows,
-        "sweep_rows": spec.rows(),
-        "sweep_sha256": spec.sha256,
-        "resumed": resumed,
-        "failed": failed,
-        "yielding": yielding,
-        "cracking": cracking,
-        "untrusted": untrusted,
-        "wall_s": wall_s,
-        "computing_s": computing_s,
-    });
-    let axis = |axis: &Axis| format!("{} ({})", axis.name, axis.len);
-    let axes: Vec<String> = spec.axes.iter().map(axis).collect();
-    let mut text = vec![("axes", axes.join(" x "))];
-    if let Some(part) = &spec.selection {
-        let Range { start, end } = part.rows;
-        value["first_row"] = start.into();
-        let mut of = String::new();
-        if let Some(shard) = part.shard {
-            of = format!("shard {shard}: ");
-            value["shard"] = shard.to_string().into();
+    failed: usize,
+    yielding: usize,
+    cracking: usize,
+    untrusted: usize,
+    wall_s: f64,
+    computing_s: f64,
+    /// Of rows that are a part of the sweep.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    first_row: Option<usize>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    shard: Option<String>,
+    /// Rows whose fields were looked up, of a sweep with probes.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    looked_up: Option<usize>,
+    /// Name and length of each axis.
+    #[serde(skip)]
+    axes: Vec<String>,
+}
+
+impl SweepReport {
+    fn new(
+        arguments: &Run,
+        spec: &Spec,
+        outputs: &Outputs,
+        tally: &Tally,
+        [wall_s, computing_s]: [f64; 2],
+        resumed: usize,
+    ) -> Self {
+        let [yielding, cracking, untrusted] = tally.beyond;
+        let axis = |axis: &Axis| format!("{} ({})", axis.name, axis.len);
+        let part = spec.selection.as_ref();
+        Self {
+            output: outputs.results.path.display().to_string(),
+            csv: arguments
+                .csv
+                .as_ref()
+                .map(|path| path.display().to_string()),
+            shape: spec.shape(),
+            rows: spec.selected().len(),
+            sweep_rows: spec.rows(),
+            sweep_sha256: spec.sha256.clone(),
+            resumed,
+            failed: tally.failed,
+            yielding,
+            cracking,
+            untrusted,
+            wall_s,
+            computing_s,
+            first_row: part.map(|part| part.rows.start),
+            shard: part.and_then(|part| Some(part.shard?.to_string())),
+            looked_up: spec.has_probes().then_some(tally.looked_up),
+            axes: spec.axes.iter().map(axis).collect(),
         }
-        text.push(("part", format!("{of}rows {start}:{end} of {}", spec.rows())));
     }
-    let scenes = format!("{rows}, {failed} failed, {resumed} resumed");
-    text.push(("scenes", scenes));
-    if yielding + cracking > 0 {
-        let beyond = format!(
-            "{yielding} yield (yield_onset above 1), {cracking} may crack (cone_crack_onset above 1)"
+}
+
+impl Display for SweepReport {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let rows = self.rows;
+        let mut text = vec![("axes", self.axes.join(" x "))];
+        if let Some(start) = self.first_row {
+            let of = self.shard.as_ref();
+            let of = of.map_or_else(String::new, |shard| format!("shard {shard}: "));
+            let (end, all) = (start + rows, self.sweep_rows);
+            text.push(("part", format!("{of}rows {start}:{end} of {all}")));
+        }
+        let scenes = format!("{rows}, {} failed, {} resumed", self.failed, self.resumed);
+        text.push(("scenes", scenes));
+        if self.yielding + self.cracking > 0 {
+            let beyond = format!(
+                "{} yield (yield_onset above 1), {} may crack (cone_crack_onset above 1)",
+                self.yielding, self.cracking
+            );
+            text.push(("not elastic", beyond));
+        }
+        if self.untrusted > 0 {
+            let faster = format!(
+                "{} faster than plasticity = \"jackson_green\" is trusted (velocity_over_trusted above 1): use \"thornton\" or \"recovery\" there",
+                self.untrusted
+            );
+            text.push(("untrusted", faster));
+        }
+        if let Some(count) = self.looked_up {
+            let fields = format!("{count} of {rows} scenes looked up, the others computed");
+            text.push(("fields", fields));
+        }
+        let time = format!(
+            "{:.2} s, {:.2} s of it computing",
+            self.wall_s, self.computing_s
         );
-        text.push(("not elastic", beyond));
+        text.extend([("time", time), ("written", self.output.clone())]);
+        f.write_str(&lines(text))
     }
-    if untrusted > 0 {
-        let faster = format!(
-            "{untrusted} faster than plasticity = \"jackson_green\" is trusted (velocity_over_trusted above 1): use \"thornton\" or \"recovery\" there"
-        );
-        text.push(("untrusted", faster));
-    }
-    if spec.has_probes() {
-        let count = tally.looked_up;
-        value["looked_up"] = count.into();
-        let fields = format!("{count} of {rows} scenes looked up, the others computed");
-        text.push(("fields", fields));
-    }
-    let time = format!("{wall_s:.2} s, {computing_s:.2} s of it computing");
-    text.extend([("time", time), ("written", output)]);
-    (value, lines(text))
 }
 
 /// The sweep, and what of its results is written.
