@@ -5,7 +5,7 @@
 use figure::{Figure, Layer, measure};
 use formats::sweep::{Spec, run_rows, stage_rows};
 use formats::{Existing, Output};
-use plot::{Kind, Request, compose};
+use plot::{Kind, PlotError, Request, compose};
 use std::path::{Path, PathBuf};
 
 /// The results of a sweep of a steel ball on some targets.
@@ -217,11 +217,18 @@ fn what_cannot_be_shown_of_a_sweep_is_told() {
         names.join(",")
     );
     let path = sweep(folder.path(), "many.h5", &format!("{many}{TARGETS}"));
-    let refused = compose(&[path], &Request::default())
-        .unwrap_err()
-        .to_string();
+    let refused = compose(&[path], &Request::default()).unwrap_err();
+    let PlotError::TooManyCurves {
+        curves,
+        ref example,
+        ..
+    } = refused
+    else {
+        panic!("{refused}");
+    };
+    assert!(curves > 12 && example.is_some(), "{refused}");
     assert!(
-        refused.contains("choose among them, such as by --at"),
+        refused.to_string().ends_with("choose among them"),
         "{refused}"
     );
 }
@@ -381,12 +388,14 @@ fn advice_can_be_followed() {
     for _ in 0..3 {
         match compose(std::slice::from_ref(&path), &request) {
             Ok((figure, _)) => return check(&figure),
-            Err(error) => {
-                let said = error.to_string();
-                let (_, advice) = said.split_once("--at ").unwrap();
+            Err(PlotError::TooManyCurves {
+                example: Some(advice),
+                ..
+            }) => {
                 let (key, value) = advice.split_once('=').unwrap();
                 request.at.push((key.to_owned(), value.to_owned()));
             }
+            Err(other) => panic!("{other}"),
         }
     }
     unreachable!("the advice {:?} leads nowhere", request.at);

@@ -7,7 +7,7 @@ use clap::builder::PossibleValuesParser;
 use contact::Choice;
 use figure::{Figure, Scale, to_gif, to_pdf, to_png, to_svg};
 use output::Role;
-use plot::{Kind, Request, animate, compose};
+use plot::{Kind, PlotError, Request, animate, compose};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -136,11 +136,11 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         None => figure,
     };
     let (bytes, notes) = if ending == "gif" {
-        let (figures, notes) = animate(&arguments.files, &request)?;
+        let (figures, notes) = animate(&arguments.files, &request).map_err(failure)?;
         let figures: Vec<Figure> = figures.into_iter().map(size).collect();
         (to_gif(&figures, 1.0, FRAME_S), notes)
     } else {
-        let (figure, notes) = compose(&arguments.files, &request)?;
+        let (figure, notes) = compose(&arguments.files, &request).map_err(failure)?;
         let figure = size(figure);
         let bytes = match ending.as_str() {
             "png" => to_png(&figure, f32::from(arguments.scale.unwrap_or(PNG_SCALE))),
@@ -155,6 +155,20 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         say(format!("note: {note}"));
     }
     print(line(arguments.output.display()))
+}
+
+/// A picture that was not drawn, with what to do.
+fn failure(error: PlotError) -> Failure {
+    let hint = match &error {
+        PlotError::NoAxis(_) => "; sweep --csv writes its rows".to_owned(),
+        PlotError::TooManyCurves {
+            example: Some(example),
+            ..
+        } => format!(", such as by --at {example}"),
+        PlotError::NoSlice(_) => ": hertzlamb table verify says what is wrong with it".to_owned(),
+        _ => String::new(),
+    };
+    Failure::from(error).hint_if(true, &hint)
 }
 
 /// Pixels of a PNG for each of its own, unless asked for.

@@ -61,6 +61,37 @@ impl Shown<'_> {
     }
 }
 
+/// Pictures of a sweep.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum SweepPicture {
+    OverKeys,
+    Loss,
+    Restitution,
+    Histogram,
+}
+
+impl SweepPicture {
+    /// That of a kind; the kinds of other files do not come here.
+    fn of(kind: Kind) -> Self {
+        match kind {
+            Kind::Loss => Self::Loss,
+            Kind::Restitution => Self::Restitution,
+            Kind::Histogram => Self::Histogram,
+            Kind::Sweep
+            | Kind::Impact
+            | Kind::Loop
+            | Kind::Probes
+            | Kind::Spectrum
+            | Kind::Waves
+            | Kind::Peak
+            | Kind::Surface
+            | Kind::Depth
+            | Kind::Axis
+            | Kind::Errors => Self::OverKeys,
+        }
+    }
+}
+
 /// The figure of a sweep, and what its user should know.
 pub(crate) fn of_sweep(path: &Path, request: &Request) -> Drawn<Figure> {
     let sweep = &StoredSweep::open(path)?;
@@ -70,18 +101,15 @@ pub(crate) fn of_sweep(path: &Path, request: &Request) -> Drawn<Figure> {
         (None, Some(_)) => Kind::Histogram,
         (Some(_), _) | (None, None) => Kind::Sweep,
     };
-    let kind = request.kind_or(suits)?;
-    // where only draws vary, over the first of their keys
-    let along = match kind {
-        Kind::Sweep => along.or(view.drawn),
-        _ => along,
+    let picture = SweepPicture::of(request.kind_or(suits)?);
+    let (along, usual): (_, &[&str]) = match picture {
+        // where only draws vary, over the first of their keys
+        SweepPicture::OverKeys => (along.or(view.drawn), &USUAL),
+        SweepPicture::Loss => (along, &["loss"]),
+        SweepPicture::Restitution => (along, &["restitution"]),
+        SweepPicture::Histogram => (along, &USUAL),
     };
     let known = sweep.quantities();
-    let usual: &[&str] = match kind {
-        Kind::Loss => &["loss"],
-        Kind::Restitution => &["restitution"],
-        _ => &USUAL,
-    };
     let rows = view.shown();
     let mut panels = Vec::new();
     for number in chosen(path, &known, &request.quantities, usual)? {
@@ -93,14 +121,12 @@ pub(crate) fn of_sweep(path: &Path, request: &Request) -> Drawn<Figure> {
         let axis = axis(&result_words(quantity), &quantity.unit, scale);
         let view = &view;
         let shown = Shown { view, axis, values };
-        let mut panel = match kind {
-            Kind::Histogram => histogram(&shown)?,
-            Kind::Loss => loss(&shown)?,
-            Kind::Restitution => restitution(&shown)?,
-            _ => {
-                let hint = "a sweep over words alone has no axis to draw along; sweep --csv writes its rows";
-                let what = "key of numbers that varies";
-                let along = along.ok_or_else(|| PlotError::absent(path, what, hint))?;
+        let mut panel = match picture {
+            SweepPicture::Histogram => histogram(&shown)?,
+            SweepPicture::Loss => loss(&shown)?,
+            SweepPicture::Restitution => restitution(&shown)?,
+            SweepPicture::OverKeys => {
+                let along = along.ok_or_else(|| PlotError::NoAxis(path.to_owned()))?;
                 over_keys(&shown, along, request)?
             }
         };
@@ -110,7 +136,7 @@ pub(crate) fn of_sweep(path: &Path, request: &Request) -> Drawn<Figure> {
         }
         panels.push(panel);
     }
-    let subtitle = subtitle(&view, (kind, along), &rows)?;
+    let subtitle = subtitle(&view, (picture, along), &rows)?;
     let columns = if panels.len() == 1 { 1 } else { 2 };
     let title = title(path, sweep);
     let figure = request.figure(&title, &subtitle, columns);
@@ -131,7 +157,7 @@ fn title(path: &Path, sweep: &StoredSweep) -> String {
 /// How many scenes, how many of them fail or yield, and what bands are.
 fn subtitle(
     view: &View<'_>,
-    (kind, along): (Kind, Option<usize>),
+    (picture, along): (SweepPicture, Option<usize>),
     shown: &[usize],
 ) -> Result<String, PlotError> {
     let rows: usize = view.sweep.axes.iter().map(|axis| axis.len).product();
@@ -156,7 +182,7 @@ fn subtitle(
         text.push_str(&format!(", held: {held}"));
     }
     if let Some(axis) = view.drawn
-        && kind != Kind::Histogram
+        && picture != SweepPicture::Histogram
     {
         let draws = view.sweep.axes[axis].len;
         text.push_str(&match along == Some(axis) {
@@ -348,7 +374,7 @@ fn over_velocity(shown: &Shown<'_>) -> Result<Panel, PlotError> {
 fn points_of(panel: &mut Panel) -> impl Iterator<Item = &mut (f64, f64)> {
     let curves = panel.layers.iter_mut().filter_map(|layer| match layer {
         Layer::Line(line) => Some(&mut line.points),
-        _ => None,
+        Layer::Image(_) | Layer::Classes(_) | Layer::Mark { .. } | Layer::Point { .. } => None,
     });
     curves.flatten()
 }
@@ -437,12 +463,10 @@ fn few(view: &View<'_>, shown: &[usize], most: usize) -> Result<Vec<Slice>, Plot
     if slices.len() <= most {
         return Ok(slices);
     }
-    let path = view.sweep.path();
-    let sentence = format!(
-        "{} would give {} curves, and {most} can be told apart: choose among them, such as by --at {}",
-        path.display(),
-        slices.len(),
-        view.example(shown).unwrap_or_default()
-    );
-    Err(PlotError::refused(Some(path), sentence))
+    Err(PlotError::TooManyCurves {
+        file: view.sweep.path().to_owned(),
+        curves: slices.len(),
+        most,
+        example: view.example(shown),
+    })
 }
