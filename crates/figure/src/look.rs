@@ -109,7 +109,12 @@ impl Look {
                 let fill = if is_open { WHITE } else { colour };
                 symbol(scene, self.symbol % SYMBOLS, at, 4.2, [colour, fill]);
             }
-            _ => {}
+            Style::Plain
+            | Style::Heavy
+            | Style::HeavyDashed
+            | Style::Dotted
+            | Style::Rimmed
+            | Style::Bars => {}
         }
     }
 }

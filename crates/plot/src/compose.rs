@@ -158,12 +158,7 @@ fn show_sizes_of_curves(panel: &mut Panel) {
 
 /// A logarithmic axis has to have a value above zero to show.
 fn shows_something(panel: &Panel) -> Result<(), PlotError> {
-    let lines = || {
-        panel.layers.iter().filter_map(|layer| match layer {
-            Layer::Line(line) => Some(line),
-            _ => None,
-        })
-    };
+    let lines = || panel.layers.iter().filter_map(Layer::as_line);
     let shown = |line: &Line| line.points.iter().any(|p| panel.y.scale.shows(p.1));
     if panel.y.scale == Scale::Linear || lines().next().is_none() || lines().any(shown) {
         return Ok(());

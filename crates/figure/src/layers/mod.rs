@@ -69,6 +69,22 @@ impl Layer {
         Self::point(at, label, false)
     }
 
+    /// The curve, if it is one.
+    pub fn as_line(&self) -> Option<&Line> {
+        match self {
+            Self::Line(line) => Some(line),
+            Self::Image(_) | Self::Classes(_) | Self::Mark { .. } | Self::Point { .. } => None,
+        }
+    }
+
+    /// The image, if it is one.
+    fn as_image(&self) -> Option<&Image> {
+        match self {
+            Self::Image(image) => Some(image),
+            Self::Line(_) | Self::Classes(_) | Self::Mark { .. } | Self::Point { .. } => None,
+        }
+    }
+
     fn point(at: (f64, f64), label: &str, is_starred: bool) -> Self {
         Self::Point {
             at,
@@ -139,11 +155,7 @@ impl Layer {
 
 /// The colours of the first image among some layers, for the values of all images; none without an image.
 pub(crate) fn colours_of<'a>(layers: impl IntoIterator<Item = &'a Layer>) -> Option<Colours> {
-    let images = layers.into_iter().filter_map(|layer| match layer {
-        Layer::Image(image) => Some(image),
-        Layer::Line(_) | Layer::Classes(_) | Layer::Mark { .. } | Layer::Point { .. } => None,
-    });
-    let images: Vec<&Image> = images.collect();
+    let images: Vec<&Image> = layers.into_iter().filter_map(Layer::as_image).collect();
     let first = images.first()?;
     let values = images.iter().flat_map(|image| image.values.iter().copied());
     Some(Colours::new(&first.colours, first.map, &values))

@@ -28,8 +28,8 @@ fn lines<'a>(plan: &PanelPlan<'a>) -> impl Iterator<Item = (f64, &'a str)> {
     let interval = plan.intervals[0];
     let layers = plan.panel.layers.iter();
     layers.filter_map(move |layer| match layer {
-        Layer::Mark { x, label } if interval.contains(*x) => Some((*x, label.as_str())),
-        _ => None,
+        Layer::Mark { x, label } => interval.contains(*x).then_some((*x, label.as_str())),
+        Layer::Line(_) | Layer::Image(_) | Layer::Classes(_) | Layer::Point { .. } => None,
     })
 }
 

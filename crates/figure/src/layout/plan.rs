@@ -123,15 +123,13 @@ fn numbers(figure: &Figure) -> Vec<Vec<[usize; 2]>> {
 /// The name of each layer of a panel that has a colour of its own; one without a name is named by its number among them.
 fn names(panel: &Panel) -> Vec<Option<String>> {
     let mut coloured = 0;
-    let names = panel.layers.iter().map(|layer| match layer {
-        Layer::Line(line) if line.style.is_coloured() => {
-            coloured += 1;
-            Some(match line.name.as_str() {
-                "" => format!("\0{coloured}"),
-                name => name.to_owned(),
-            })
-        }
-        _ => None,
+    let names = panel.layers.iter().map(|layer| {
+        let line = layer.as_line().filter(|line| line.style.is_coloured())?;
+        coloured += 1;
+        Some(match line.name.as_str() {
+            "" => format!("\0{coloured}"),
+            name => name.to_owned(),
+        })
     });
     names.collect()
 }

@@ -165,7 +165,7 @@ fn read_settings(root: &Section<'_>) -> Result<Settings, SceneError> {
                     section.named(key.name, word, |word| set(&mut settings, word))?;
                 }
             }
-            _ => {}
+            Some(Set::Strike(_) | Set::Body(_) | Set::Ball(_)) | None => {}
         }
     }
     settings

@@ -265,7 +265,9 @@ impl Segment {
                 let whole = 0.5 * terms as f64 + WAVE;
                 (LEAST + part.sqrt() * (whole - LEAST)).ceil() as usize
             }
-            course => terms / 2 + SQUARE + (course.length() * (high - low)).ceil() as usize,
+            course @ (Course::Beside(_) | Course::Around(..)) => {
+                terms / 2 + SQUARE + (course.length() * (high - low)).ceil() as usize
+            }
         };
         let mut rule = gauss::rule(nodes).on(low, high);
         for _ in 0..nodes.div_ceil(FEW) {

@@ -101,8 +101,11 @@ impl Shown {
     fn draw(&self, ours: &[Curve], theirs: &[Curve], speeds: &WaveSpeeds) -> Figure {
         let (axis, scale) = match self.field {
             Field::DisplacementZ => (Axis::linear("axial displacement w").si("m"), 1.0),
+            Field::DisplacementR => (Axis::linear("radial displacement u").si("m"), 1.0),
             Field::StressRr => (Axis::linear("σ_{rr}/R_{m}"), STRENGTH_PA),
-            _ => (Axis::linear("σ_{zz}/R_{m}"), STRENGTH_PA),
+            Field::StressTt => (Axis::linear("σ_{tt}/R_{m}"), STRENGTH_PA),
+            Field::StressZz => (Axis::linear("σ_{zz}/R_{m}"), STRENGTH_PA),
+            Field::StressRz => (Axis::linear("σ_{rz}/R_{m}"), STRENGTH_PA),
         };
         let scaled = |curve: &Curve| curve.iter().map(|&(t, x)| (t, x / scale)).collect();
         let mut panel = Panel::new(Axis::linear("time").si("s"), axis)

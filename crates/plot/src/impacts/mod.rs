@@ -53,8 +53,11 @@ pub(crate) fn of_impacts(impacts: &[StoredImpact], request: &Request) -> Drawn<F
             figure.has_common_bar = true;
             return Ok((figure.sharing(Sharing::Both).panels(panels), notes));
         }
-        // kinds of other files do not come here
-        _ => return histories(impacts, kind, request),
+        Kind::Impact | Kind::Probes => return histories(impacts, kind, request),
+        // pictures of other files do not come here
+        Kind::Sweep | Kind::Loss | Kind::Restitution | Kind::Histogram | Kind::Errors => {
+            return histories(impacts, kind, request);
+        }
     };
     Ok((headed(impacts, request, 1).panel(panel), Vec::new()))
 }

@@ -98,7 +98,7 @@ impl<'a> View<'a> {
         let column = self.sweep.axes[free.next()?].columns.first()?;
         let value = match &column.values {
             Values::Texts(words) => words.first()?.clone(),
-            values => values.number(0)?.to_string(),
+            values @ (Values::Numbers(_) | Values::Drawn(_)) => values.number(0)?.to_string(),
         };
         Some(format!("{}={value}", column.name()))
     }
@@ -140,7 +140,7 @@ impl<'a> View<'a> {
             let (name, unit) = of_key(&column.name());
             match &column.values {
                 Values::Texts(values) => values[index].clone(),
-                values => {
+                values @ (Values::Numbers(_) | Values::Drawn(_)) => {
                     let number = values.number(index).unwrap_or(f64::NAN);
                     format!("{name} {}", with_unit(number, unit))
                 }
