@@ -4,6 +4,7 @@ use crate::schema::sweep::{FAILURE, MODEL};
 use crate::sweep::{Block, Footer, NO_MODEL, NOT_HELD, Part, Precision};
 use bytes::Bytes;
 use contact::{Choice, Model};
+use ledger::sha256_hex;
 use output::Fault;
 use parquet::column::reader::{ColumnReader, ColumnReaderImpl, get_column_reader};
 use parquet::data_type::{ByteArray, DataType};
@@ -13,7 +14,6 @@ use parquet::file::metadata::{
 };
 use parquet::file::serialized_reader::SerializedPageReader;
 use rayon::prelude::*;
-use sha2::{Digest, Sha256};
 use std::collections::HashMap;
 use std::fs::File;
 use std::io::{Read, Seek, SeekFrom};
@@ -72,7 +72,7 @@ fn each_group(
         file.seek(SeekFrom::Start(start))?;
         let mut bytes = Vec::new();
         (&file).take(end - start).read_to_end(&mut bytes)?;
-        if format!("{:x}", Sha256::digest(&bytes)) != *hash {
+        if sha256_hex([&bytes[..]]) != *hash {
             return Err(Fault::from(format!("the rows from {next} on were changed")));
         }
         next += usize::try_from(group.num_rows()).unwrap_or(0);

@@ -5,9 +5,9 @@
 use crate::scene::section::parse;
 use crate::sweep::fields::{Fields, Precision, stored_columns};
 use crate::sweep::shard::{Part, Selection};
+use ledger::sha256_hex;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
-use sha2::{Digest, Sha256};
 use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom};
 use std::ops::Range;
@@ -146,11 +146,11 @@ pub(super) fn seal_in(footer: &[u8]) -> Option<Range<usize>> {
 
 /// SHA-256 of a footer whose seal is blank.
 pub(super) fn sum_without(footer: &[u8], digits: &Range<usize>) -> String {
-    let mut hash = Sha256::new();
-    hash.update(&footer[..digits.start]);
-    hash.update([b'0'; DIGITS]);
-    hash.update(&footer[digits.end..]);
-    format!("{:x}", hash.finalize())
+    sha256_hex([
+        &footer[..digits.start],
+        &[b'0'; DIGITS],
+        &footer[digits.end..],
+    ])
 }
 
 fn find(bytes: &[u8], wanted: &[u8]) -> Option<usize> {

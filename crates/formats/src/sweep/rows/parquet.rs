@@ -9,6 +9,7 @@ use crate::sweep::fields::Precision;
 use crate::sweep::spec::Spec;
 use bytes::Bytes;
 use contact::{Choice, Model};
+use ledger::sha256_hex;
 use output::{Fault, Output, OutputError, Staged};
 use parquet::basic::{Compression, Encoding, LogicalType, Repetition, Type as Physical, ZstdLevel};
 use parquet::column::writer::{
@@ -22,7 +23,6 @@ use parquet::file::writer::{SerializedFileWriter, SerializedPageWriter, TrackedW
 use parquet::schema::types::{ColumnDescPtr, ColumnPath, Type, TypePtr};
 use rayon::prelude::*;
 use serde_json::json;
-use sha2::{Digest, Sha256};
 use std::fs::File;
 use std::io::{self, BufWriter, Seek, SeekFrom, Write};
 use std::sync::Arc;
@@ -110,14 +110,14 @@ fn write_group(
         })
         .collect();
     let mut group = writer.next_row_group().map_err(fault)?;
-    let mut hash = Sha256::new();
+    let mut written = Vec::with_capacity(encoded.len());
     for column in encoded {
         let (bytes, closed) = column?;
-        hash.update(&bytes);
         group.append_column(&bytes, closed).map_err(fault)?;
+        written.push(bytes);
     }
     group.close().map_err(fault)?;
-    Ok(format!("{:x}", hash.finalize()))
+    Ok(sha256_hex(written.iter().map(|bytes| &bytes[..])))
 }
 
 /// What the file says of itself, but for its groups.
