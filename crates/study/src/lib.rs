@@ -8,10 +8,11 @@
 //!
 //! Used by the command `hertzlamb chart` and by tests, by no other crate.
 //!
-//! In reading order: `chart`; `measure` (a method at a setting, timed) and `record` (its row); the questions, with
-//! `scenes` and `inversion` for them; the maps; `ranking`, `picture` and `report`.
+//! In reading order: `chart`; `method` (the table of methods), `measure` (one at a setting, timed) and `record` (its row);
+//! the questions, with `scenes` and `inversion` for them; the maps; `ranking`, `picture` and `report`.
 
 // From the bottom up: a module uses only those above it.
+mod method;
 mod record;
 mod measure;
 mod scenes;
@@ -25,6 +26,7 @@ mod report;
 
 pub use chart::Chart;
 pub use measure::Effort;
+pub use method::ComparedMethod;
 pub use picture::Picture;
 pub use record::{Question, Record};
 pub use report::PICTURE_COLUMNS;

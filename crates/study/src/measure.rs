@@ -1,5 +1,6 @@
 //! How a method is measured: its error against what is exact, and the median time of repeated runs.
 
+use crate::method::ComparedMethod;
 use crate::record::{Question, Record, sizes};
 use fault::AnyError;
 use std::hint::black_box;
@@ -83,7 +84,7 @@ impl<T> Scene<'_, T> {
     /// fails is a row that says why.
     pub(crate) fn add(
         &mut self,
-        method: &'static str,
+        method: ComparedMethod,
         setting: impl Into<String>,
         run: impl Fn() -> Run<T>,
     ) -> Result<&mut Record, AnyError> {

@@ -12,6 +12,7 @@
 
 use super::kernels::{ALL, POISSON_RATIO};
 use crate::measure::{Effort, Rows, Run, Scene};
+use crate::method::ComparedMethod;
 use crate::record::{Question, off, peaks};
 use crate::scenes::Density;
 use fault::AnyError;
@@ -110,14 +111,14 @@ pub(crate) fn computed(
 
 /// Cells computed for the point itself, for a force that is linear or smooth between samples.
 fn exact_cells(pulse: &PulseReference, rows: &mut Scene<'_, Vec<Six>>) -> Result<(), AnyError> {
+    use ComparedMethod::{Direct, DirectLinear};
     let medium = Medium::new(POISSON_RATIO)?;
-    let linear = "direct, linear cells";
     // method, smoothness, kernel tolerance and halvings of the step; the program's own tolerance goes with the scene's
     let settings: [(_, _, f64, [&[i32]; 2]); 4] = [
-        ("direct", Smooth, 1e-8, [&[1, 3], &[0, 1, 2, 3, 4, 5]]),
-        ("direct", Smooth, 1e-12, [&[], &[2, 3, 4, 5]]),
-        ("direct", Smooth, 1e-4, [&[], &[1, 2, 3]]),
-        (linear, Linear, 1e-8, [&[3], &[0, 1, 2, 3, 4, 5]]),
+        (Direct, Smooth, 1e-8, [&[1, 3], &[0, 1, 2, 3, 4, 5]]),
+        (Direct, Smooth, 1e-12, [&[], &[2, 3, 4, 5]]),
+        (Direct, Smooth, 1e-4, [&[], &[1, 2, 3]]),
+        (DirectLinear, Linear, 1e-8, [&[3], &[0, 1, 2, 3, 4, 5]]),
     ];
     for (method, smoothness, tolerance, [quick, full]) in settings {
         let source = KernelSource::direct(&medium, tolerance)?;
@@ -151,12 +152,17 @@ fn looked_up(
     use Method::{Direct, Transform};
     // for which forces, and how they are summed: none is by running sums of the two exponentials of the pulse
     let own = [
-        ("table, direct sums", Smooth, Some(Direct), true),
-        ("table, FFT", Smooth, Some(Transform), true),
-        ("table, linear cells", Linear, Some(Transform), false),
-        ("table, sums for this pulse only", Smooth, None, false),
+        (ComparedMethod::TableDirectSums, Smooth, Some(Direct), true),
+        (
+            ComparedMethod::TableTransform,
+            Smooth,
+            Some(Transform),
+            true,
+        ),
+        (ComparedMethod::TableLinear, Linear, Some(Transform), false),
+        (ComparedMethod::TableOfPulse, Smooth, None, false),
     ];
-    let method = "table, other nodes or points";
+    let method = ComparedMethod::TableOther;
     let other = [(method, Smooth, Some(Transform), false)];
     let (effort, [r, z]) = (rows.effort, pulse.place);
     for density in densities {
@@ -325,8 +331,8 @@ fn interpolations(pulse: &PulseReference, rows: &mut Scene<'_, Vec<Six>>) -> Res
             }
             // what of the static part is interpolated
             for (method, inside) in [
-                ("interpolated whole response", 1.0),
-                ("interpolated remainder", 0.0),
+                (ComparedMethod::WholeResponse, 1.0),
+                (ComparedMethod::RemainderAlone, 0.0),
             ] {
                 let run = || {
                     let mut sum = vec![[0.0; 6]; count];

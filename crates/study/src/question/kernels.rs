@@ -5,6 +5,7 @@
 
 use crate::inversion::Inversion;
 use crate::measure::{Effort, Rows, Scene, at};
+use crate::method::ComparedMethod;
 use crate::record::{Question, off, peaks, sizes};
 use crate::scenes::Density;
 use fault::AnyError;
@@ -171,24 +172,24 @@ pub(crate) fn measure(effort: Effort, densities: &[Density], progress: &dyn Prog
             let tolerance = 10.0_f64.powi(-digits);
             let kernel = Kernel::new(&medium, Profile::Hertz, tolerance)?;
             let run = || Ok((scene.by_kernel(&kernel)?, None));
-            let row = rows.add("single integral", at(tolerance), run)?;
+            let row = rows.add(ComparedMethod::SingleIntegral, at(tolerance), run)?;
             row.default_path = scene.place[1] > 0.0;
         }
         progress.advance(1);
         for inversion in &inversions {
             let run = || inversion.run(&medium, scene.place, &scene.times);
-            rows.add(inversion.name, &inversion.setting, run)?;
+            rows.add(inversion.method, &inversion.setting, run)?;
             progress.advance(1);
         }
         if scene.place == [0.0, 0.0] {
             // what the impact equation uses, and what it is compared with
             let response = SurfaceResponse::new(&medium, Deflection::Centre);
             let fitted = || Ok((scene.at_centre(|t| response.step(t)), None));
-            let row = rows.add("surface response", "fitted once", fitted)?;
+            let row = rows.add(ComparedMethod::SurfaceResponse, "fitted once", fitted)?;
             row.default_path = true;
             let kausel = |t: f64| kausel::centre_step(&medium, medium.kappa() * t);
             let closed = || Ok((scene.at_centre(kausel), None));
-            let reference = "closed form (Kausel): the reference";
+            let reference = ComparedMethod::Kausel;
             rows.add(reference, "no settings", closed)?;
         }
     }
@@ -226,7 +227,8 @@ fn tables(scene: &KernelScene, densities: &[Density], effort: Effort) -> Rows {
                 records: &mut records,
             };
             let setting = format!("{}, {points} points", density.label());
-            rows.add("table", setting, run)?.default_path = density.is_default(points);
+            rows.add(ComparedMethod::TableOfKernels, setting, run)?
+                .default_path = density.is_default(points);
         }
     }
     Ok(records)
