@@ -94,18 +94,22 @@ fn field<'a>(
     words: Option<&'a Vec<String>>,
     row: usize,
 ) -> &'a str {
-    let number: &dyn Display = match cells {
-        Cells::Whole(rows) => &rows[row],
-        Cells::Double(numbers) if numbers[row].is_finite() => &numbers[row],
-        Cells::Single(numbers) if numbers[row].is_finite() => &numbers[row],
-        Cells::Double(_) | Cells::Single(_) => return "",
-        Cells::Words(places) => return words.map_or("", |words| &words[places[row] as usize]),
+    match cells {
+        Cells::Whole(rows) => shown(digits, rows[row]),
+        Cells::Double(numbers) if numbers[row].is_finite() => shown(digits, numbers[row]),
+        Cells::Single(numbers) if numbers[row].is_finite() => shown(digits, numbers[row]),
+        Cells::Double(_) | Cells::Single(_) => "",
+        Cells::Words(places) => words.map_or("", |words| &words[places[row] as usize]),
         Cells::Models(models) => {
             let model = Model::ALL.get(usize::from(models[row]));
-            return model.map_or("", |model| model.name());
+            model.map_or("", |model| model.name())
         }
-        Cells::Reasons(reasons) => return reasons[row].unwrap_or(""),
-    };
+        Cells::Reasons(reasons) => reasons[row].unwrap_or(""),
+    }
+}
+
+/// A number as text.
+fn shown(digits: &mut String, number: impl Display) -> &str {
     digits.clear();
     // writing to a string cannot fail
     let _ = write!(digits, "{number}");
