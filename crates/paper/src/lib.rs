@@ -20,5 +20,5 @@ mod report;
 
 pub use case::{PRINTED_PA, RADIUS_M, TABLE_1_PA, coupled, growing};
 pub use figures::{Claim, Redrawn};
-pub use numbers::{Numbers, Row, Section};
+pub use numbers::{Numbers, PrintedSection, Row};
 pub use report::{Redone, csv_file, drawn};

@@ -54,7 +54,7 @@ impl Row {
 
 /// Rows that belong together.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Section {
+pub struct PrintedSection {
     /// What they are.
     pub title: &'static str,
     /// The rows.
@@ -65,7 +65,7 @@ pub struct Section {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Numbers {
     /// The rows, in the order of the paper.
-    pub sections: Vec<Section>,
+    pub sections: Vec<PrintedSection>,
     /// What no row can hold, a sentence each.
     pub remarks: Vec<String>,
 }
@@ -103,10 +103,10 @@ impl Numbers {
     }
 }
 
-fn lines(sections: &[Section]) -> Vec<String> {
+fn lines(sections: &[PrintedSection]) -> Vec<String> {
     let head = ["paper", "this program", "difference"];
     let mut lines = vec![line("", head.map(str::to_owned), "")];
-    for Section { title, rows } in sections {
+    for PrintedSection { title, rows } in sections {
         lines.push((*title).to_owned());
         let told = |row: &Row| line(row.what, row.told(), row.unit);
         lines.extend(rows.iter().map(told));
@@ -270,7 +270,7 @@ fn drop_percent(run: &Run, ours: &Ours<'_>) -> f64 {
 }
 
 /// The printed numbers with ours.
-fn sections(runs: &Runs) -> Result<Vec<Section>, AnyError> {
+fn sections(runs: &Runs) -> Result<Vec<PrintedSection>, AnyError> {
     let ours = Ours {
         runs,
         copper: Material::named("copper")?,
@@ -290,7 +290,7 @@ fn sections(runs: &Runs) -> Result<Vec<Section>, AnyError> {
     };
     let section = |(title, rows): &(&'static str, &[Printed])| {
         let rows = rows.iter().map(row).collect::<Result<_, AnyError>>()?;
-        Ok(Section { title, rows })
+        Ok(PrintedSection { title, rows })
     };
     PRINTED.iter().map(section).collect()
 }

@@ -1,6 +1,6 @@
 //! `hertzlamb impact`: one scene.
 
-use crate::arguments::{AS_TEXT, Kernels, MemoryLimit, Overwrite, is_text, say_complete};
+use crate::arguments::{AS_TEXT, KernelOptions, MemoryLimit, Overwrite, is_text, say_complete};
 use crate::failure::{Failure, lines, say, show};
 use crate::progress::Bar;
 use crate::report::{text_report, understood};
@@ -27,7 +27,7 @@ pub(crate) struct Arguments {
     /// Scene file (TOML, see data-schema/scene.md); - is standard input.
     scene: PathBuf,
     #[command(flatten)]
-    kernels: Kernels,
+    kernels: KernelOptions,
     /// Results file (HDF5, see data-schema/results.md).
     #[arg(short, long, value_name = "OUT.h5")]
     output: Option<PathBuf>,

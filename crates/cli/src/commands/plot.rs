@@ -7,7 +7,7 @@ use clap::builder::PossibleValuesParser;
 use contact::Choice;
 use figure::{Figure, Scale, to_gif, to_pdf, to_png, to_svg};
 use output::Role;
-use plot::{Kind, PlotError, Request, animate, compose};
+use plot::{PictureKind, PlotError, Request, animate, compose};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -92,8 +92,9 @@ fn number(text: &str) -> Result<f64, String> {
 }
 
 fn kinds() -> PossibleValuesParser {
-    let value = |kind: &Kind| clap::builder::PossibleValue::new(kind.name()).help(kind.meaning());
-    PossibleValuesParser::new(Kind::ALL.iter().map(value))
+    let value =
+        |kind: &PictureKind| clap::builder::PossibleValue::new(kind.name()).help(kind.meaning());
+    PossibleValuesParser::new(PictureKind::ALL.iter().map(value))
 }
 
 /// The end of a picture's name, which says what it becomes.
@@ -116,7 +117,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let inputs: Vec<Role> = files.map(|path| ("a file", path)).collect();
     let output = arguments.overwrite.claim(&arguments.output, &inputs)?;
     let request = Request {
-        kind: arguments.kind.as_deref().and_then(Kind::named),
+        kind: arguments.kind.as_deref().and_then(PictureKind::named),
         quantities: arguments.quantity.clone(),
         times_s: arguments.times.clone(),
         frames: arguments.frames.map(usize::from),

@@ -24,14 +24,14 @@ const EXAMPLES: &str = "Examples:
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Arguments {
     #[command(subcommand)]
-    action: Action,
+    action: TableAction,
     /// Print one JSON object instead of text.
     #[arg(long, global = true)]
     json: bool,
 }
 
 #[derive(Debug, Subcommand)]
-enum Action {
+enum TableAction {
     /// Says what a table covers, how it was made and how exact it is.
     Info {
         /// Kernel table.
@@ -70,14 +70,14 @@ enum Action {
 
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     match &arguments.action {
-        Action::Info { table } => info(table, arguments.json),
-        Action::Verify {
+        TableAction::Info { table } => info(table, arguments.json),
+        TableAction::Verify {
             table,
             sample,
             seed,
         } => verify(table, *sample, *seed, arguments.json),
-        Action::Diff { first, second } => diff(first, second, arguments.json),
-        Action::Merge {
+        TableAction::Diff { first, second } => diff(first, second, arguments.json),
+        TableAction::Merge {
             shards,
             output,
             overwrite,

@@ -3,9 +3,9 @@
 use super::{Colours, count};
 use crate::axis::Axis;
 use crate::colour::ColourMap;
+use crate::drawing::Bitmap;
 use crate::error::FigureError;
 use crate::geometry::{Frame, Point};
-use crate::scene::Picture;
 
 /// A field on a grid, which need not be even.
 #[derive(Debug, Clone, PartialEq)]
@@ -50,7 +50,7 @@ impl Image {
     }
 
     /// A pixel for every place of the plot, so that uneven grids, logarithmic axes and mirrors need nothing else.
-    pub(super) fn pixels(&self, frame: &Frame, colours: &Colours) -> Picture {
+    pub(super) fn pixels(&self, frame: &Frame, colours: &Colours) -> Bitmap {
         /// Pixels of the image for each pixel of the canvas.
         const FINE: f64 = 2.0;
         /// Most pixels along a side.
@@ -65,7 +65,7 @@ impl Image {
             colours.of_value(self.at(x, y))
         };
         let places = (0..rows as u32).flat_map(|row| (0..columns as u32).map(move |i| (i, row)));
-        Picture {
+        Bitmap {
             area: frame.area,
             columns: columns as u32,
             rows: rows as u32,

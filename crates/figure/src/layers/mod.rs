@@ -15,10 +15,10 @@ pub use image::Image;
 pub(crate) use colours::Colours;
 pub(crate) use curves::{BAND, draw_run};
 
+use crate::drawing::{Drawing, Item};
 use crate::error::FigureError;
 use crate::geometry::{Frame, Point};
 use crate::look::{Look, Style};
-use crate::scene::{Item, Scene};
 
 /// One layer of a panel; later ones lie over earlier ones.
 #[derive(Debug, Clone, PartialEq)]
@@ -136,18 +136,18 @@ impl Layer {
     /// Draws it, an image in the colours of its panel; labels come later, over everything else.
     pub(crate) fn draw(
         &self,
-        scene: &mut Scene,
+        drawing: &mut Drawing,
         frame: &Frame,
         colours: Option<&Colours>,
         numbers: [usize; 2],
     ) {
         match self {
-            Self::Line(line) => line.draw(scene, frame, numbers),
+            Self::Line(line) => line.draw(drawing, frame, numbers),
             Self::Image(image) => {
                 let picture = colours.map(|colours| image.pixels(frame, colours));
-                scene.items.extend(picture.map(Item::Picture));
+                drawing.items.extend(picture.map(Item::Bitmap));
             }
-            Self::Classes(classes) => classes.draw(scene, frame.area),
+            Self::Classes(classes) => classes.draw(drawing, frame.area),
             Self::Mark { .. } | Self::Point { .. } => {}
         }
     }

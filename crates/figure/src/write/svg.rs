@@ -1,12 +1,12 @@
 //! SVG.
 
 use super::png::{encode, pixels};
+use crate::drawing::{Bitmap, DrawnPath, Item, OutlinePart, Text};
 use crate::error::FigureError;
 use crate::figure::Figure;
 use crate::font;
 use crate::geometry::{Point, Rect};
 use crate::layout::draw;
-use crate::scene::{Item, Picture, Segment, Shape, Text};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use std::collections::BTreeSet;
@@ -21,15 +21,15 @@ use tiny_skia::PathSegment;
 /// # Errors
 /// [`FigureError`] for a figure that cannot be drawn.
 pub fn to_svg(figure: &Figure) -> Result<String, FigureError> {
-    let scene = draw(figure)?;
+    let drawing = draw(figure)?;
     // the different areas outside of which something is not drawn
     let mut clips: Vec<Rect> = Vec::new();
     let mut letters: BTreeSet<char> = BTreeSet::new();
-    let mut drawn: Vec<Box<dyn Node>> = Vec::with_capacity(scene.items.len());
-    for item in &scene.items {
+    let mut drawn: Vec<Box<dyn Node>> = Vec::with_capacity(drawing.items.len());
+    for item in &drawing.items {
         drawn.push(match item {
-            Item::Shape(shape) => path(shape, &mut clips).into(),
-            Item::Picture(picture) => image(picture)?.into(),
+            Item::DrawnPath(shape) => path(shape, &mut clips).into(),
+            Item::Bitmap(picture) => image(picture)?.into(),
             Item::Text(text) => label(text, &mut letters).into(),
         });
     }
@@ -44,7 +44,10 @@ pub fn to_svg(figure: &Figure) -> Result<String, FigureError> {
             definitions = definitions.add(path);
         }
     }
-    let (width, height) = (number(scene.canvas.width()), number(scene.canvas.height()));
+    let (width, height) = (
+        number(drawing.canvas.width()),
+        number(drawing.canvas.height()),
+    );
     let document = Document::new()
         .set("viewBox", format!("0 0 {width} {height}"))
         .set("width", width)
@@ -65,7 +68,7 @@ fn placed<N: Node>(mut node: N, area: Rect) -> N {
     node
 }
 
-fn path(shape: &Shape, clips: &mut Vec<Rect>) -> Path {
+fn path(shape: &DrawnPath, clips: &mut Vec<Rect>) -> Path {
     let fill = shape.fill.map_or("none".to_owned(), |fill| hex(fill.0));
     let mut path = Path::new()
         .set("d", outline(&shape.segments))
@@ -94,17 +97,17 @@ fn hex(colour: u32) -> String {
     format!("#{colour:06x}")
 }
 
-fn outline(segments: &[Segment]) -> String {
+fn outline(segments: &[OutlinePart]) -> String {
     let written = segments.iter().map(|segment| match *segment {
-        Segment::Move(x, y) => format!("M{} {}", number(x), number(y)),
-        Segment::Line(x, y) => format!("L{} {}", number(x), number(y)),
-        Segment::Curve(points) => format!("C{}", points.map(number).join(" ")),
-        Segment::Close => "Z".to_owned(),
+        OutlinePart::Move(x, y) => format!("M{} {}", number(x), number(y)),
+        OutlinePart::Line(x, y) => format!("L{} {}", number(x), number(y)),
+        OutlinePart::Curve(points) => format!("C{}", points.map(number).join(" ")),
+        OutlinePart::Close => "Z".to_owned(),
     });
     written.collect()
 }
 
-fn image(picture: &Picture) -> Result<Image, FigureError> {
+fn image(picture: &Bitmap) -> Result<Image, FigureError> {
     let png = encode(&pixels(picture)?)?;
     let data = format!("data:image/png;base64,{}", STANDARD.encode(png));
     Ok(placed(Image::new(), picture.area)

@@ -23,7 +23,7 @@ pub(super) fn spectrum(impacts: &[StoredImpact], labels: &[String]) -> Result<Pa
     .height(380.0);
     let mut plateau = 0.0_f64;
     let pulses = impacts.iter().map(|impact| {
-        let pulse = Pulse::new(&impact.series.time_s, &impact.series.force_n);
+        let pulse = ForcePulse::new(&impact.series.time_s, &impact.series.force_n);
         let found = pulse.frequencies();
         found.map(|frequencies| (pulse, frequencies))
     });
@@ -57,7 +57,7 @@ pub(super) fn spectrum(impacts: &[StoredImpact], labels: &[String]) -> Result<Pa
 }
 
 /// A force that is linear between samples, from its first sample that is not zero to its last.
-struct Pulse {
+struct ForcePulse {
     time_s: Vec<f64>,
     force_n: Vec<f64>,
     /// Integral of the squared force over the square of the largest, in s.
@@ -66,7 +66,7 @@ struct Pulse {
     step_s: f64,
 }
 
-impl Pulse {
+impl ForcePulse {
     /// The samples; of more than [`MOST_SAMPLES`] those that straight lines between the others miss by most.
     fn new(time_s: &[f64], force_n: &[f64]) -> Self {
         let range = loaded(force_n);
@@ -222,12 +222,12 @@ mod tests {
     #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
     use super::*;
 
-    fn pulse(force: impl Fn(f64) -> f64, samples: usize) -> Pulse {
+    fn pulse(force: impl Fn(f64) -> f64, samples: usize) -> ForcePulse {
         let time_s: Vec<f64> = (0..=samples)
             .map(|i| 5e-6 * i as f64 / samples as f64)
             .collect();
         let force_n: Vec<f64> = time_s.iter().map(|t| force(t / 5e-6)).collect();
-        Pulse::new(&time_s, &force_n)
+        ForcePulse::new(&time_s, &force_n)
     }
 
     #[test]
@@ -275,11 +275,11 @@ mod tests {
                 + force((t - 4.9e-3) / 5e-6) * f64::from(u8::from((4.9e-3..4.905e-3).contains(t)))
         };
         let force_n: Vec<f64> = time_s.iter().enumerate().map(of).collect();
-        let long = Pulse::new(&time_s, &force_n);
+        let long = ForcePulse::new(&time_s, &force_n);
         assert!(long.time_s.len() <= MOST_SAMPLES);
         let [high, same] = [&long, &alone].map(|pulse| pulse.frequencies().unwrap()[1]);
         assert!((high / same - 1.0).abs() < 0.02, "{high} {same}");
-        let corner = |pulse: &Pulse| {
+        let corner = |pulse: &ForcePulse| {
             let points = pulse.spectrum(pulse.frequencies().unwrap());
             pulse.corner(&points).unwrap().0
         };

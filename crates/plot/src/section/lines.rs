@@ -1,9 +1,9 @@
 //! What is seen along the surface and down the axis of a section: distance against time, and the axis beside the static
 //! field.
 
-use super::frames::{Quantity, Section, between};
+use super::frames::{SectionQuantity, SectionView, between};
 use crate::error::{Drawn, PlotError};
-use crate::request::{Kind, Request};
+use crate::request::{PictureKind, Request};
 use crate::series::curve;
 use crate::words::{axis, of_quantity, with_unit};
 use contact::KernelUnits;
@@ -19,9 +19,13 @@ const MOST_INSTANTS: usize = 600;
 const SMOOTH: f64 = 8.0;
 
 /// Distances along the surface against time, or depths on the axis, with the fronts that pass there.
-pub(crate) fn space_time(impact: &StoredImpact, request: &Request, kind: Kind) -> Drawn<Panel> {
-    let is_surface = kind == Kind::Surface;
-    let section = Section::of(impact)?;
+pub(crate) fn space_time(
+    impact: &StoredImpact,
+    request: &Request,
+    kind: PictureKind,
+) -> Drawn<Panel> {
+    let is_surface = kind == PictureKind::Surface;
+    let section = SectionView::of(impact)?;
     let width = section.stored.r_m.len();
     let speeds = section.speeds;
     let distance = Axis::linear("distance from the axis").si("m");
@@ -98,7 +102,7 @@ fn chosen(known: &[f64], [from_s, to_s]: [f64; 2], around_s: f64) -> impl Iterat
 }
 
 /// What the user should know of frames that are too far apart.
-fn coarse(section: &Section<'_>, times: &[f64]) -> Vec<String> {
+fn coarse(section: &SectionView<'_>, times: &[f64]) -> Vec<String> {
     let Some(step_s) = times
         .windows(2)
         .map(|pair| pair[1] - pair[0])
@@ -188,7 +192,7 @@ const DECADES: f64 = 1e-6;
 ///
 /// Sizes on logarithmic axes: the static field falls with the square of the depth, and waves run ahead of it.
 pub(crate) fn axis_profile(impact: &StoredImpact, request: &Request) -> Result<Panel, PlotError> {
-    let section = Section::of(impact)?;
+    let section = SectionView::of(impact)?;
     let quantity = section.quantity(request, "stress_zz")?;
     let frames = match request.times_s.as_slice() {
         [] => SHARES
@@ -237,8 +241,8 @@ pub(crate) fn axis_profile(impact: &StoredImpact, request: &Request) -> Result<P
 
 /// Sizes of the static field on the axis under the largest force, over depths in mm; none for rates.
 fn static_points(
-    section: &Section<'_>,
-    quantity: &Quantity,
+    section: &SectionView<'_>,
+    quantity: &SectionQuantity,
 ) -> Result<Option<Vec<(f64, f64)>>, PlotError> {
     let force_n = section.impact.number("peak_force_n");
     let Some(force_n) = force_n.filter(|_| section.disc_radius_m > 0.0) else {

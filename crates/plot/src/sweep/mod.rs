@@ -3,14 +3,14 @@
 mod view;
 
 use crate::error::{Drawn, PlotError, chosen};
-use crate::request::{Kind, Request};
+use crate::request::{PictureKind, Request};
 use crate::words::{axis, of_key, stem};
 use contact::fall_velocity_m_s;
 use figure::{Axis, ColourMap, Figure, Image, Layer, Legend, Line, Panel, Scale, Style};
 use formats::quantities::Described;
 use formats::stored::StoredSweep;
 use std::path::Path;
-use view::{Slice, View, quantiles};
+use view::{SweepSlice, View, quantiles};
 
 /// Results that are shown when none is asked for.
 const USUAL: [&str; 4] = [
@@ -46,16 +46,16 @@ const YIELD_ONSET: &str = "yield_onset";
 const AT_YIELD: &str = "yield_velocity_m_s";
 
 /// A result of all rows of a sweep, with its axis.
-struct Shown<'a> {
+struct SweptQuantity<'a> {
     view: &'a View<'a>,
     axis: Axis,
     values: Vec<f64>,
 }
 
-impl Shown<'_> {
+impl SweptQuantity<'_> {
     /// Quantiles of the draws of a slice at a place along the axes that are shown; those of a single value without
     /// draws.
-    fn quantiles(&self, slice: &Slice, at: &[(usize, usize)]) -> Option<[f64; 3]> {
+    fn quantiles(&self, slice: &SweepSlice, at: &[(usize, usize)]) -> Option<[f64; 3]> {
         let rows = self.view.rows(slice, at).into_iter();
         quantiles(rows.map(|row| self.values[row]))
     }
@@ -72,22 +72,22 @@ enum SweepPicture {
 
 impl SweepPicture {
     /// That of a kind; the kinds of other files do not come here.
-    fn of(kind: Kind) -> Self {
+    fn of(kind: PictureKind) -> Self {
         match kind {
-            Kind::Loss => Self::Loss,
-            Kind::Restitution => Self::Restitution,
-            Kind::Histogram => Self::Histogram,
-            Kind::Sweep
-            | Kind::Impact
-            | Kind::Loop
-            | Kind::Probes
-            | Kind::Spectrum
-            | Kind::Waves
-            | Kind::Peak
-            | Kind::Surface
-            | Kind::Depth
-            | Kind::Axis
-            | Kind::Errors => Self::OverKeys,
+            PictureKind::Loss => Self::Loss,
+            PictureKind::Restitution => Self::Restitution,
+            PictureKind::Histogram => Self::Histogram,
+            PictureKind::Sweep
+            | PictureKind::Impact
+            | PictureKind::Loop
+            | PictureKind::Probes
+            | PictureKind::Spectrum
+            | PictureKind::Waves
+            | PictureKind::Peak
+            | PictureKind::Surface
+            | PictureKind::Depth
+            | PictureKind::Axis
+            | PictureKind::Errors => Self::OverKeys,
         }
     }
 }
@@ -98,8 +98,8 @@ pub(crate) fn of_sweep(path: &Path, request: &Request) -> Drawn<Figure> {
     let view = View::new(sweep, request)?;
     let along = view.along(request.along.as_deref())?;
     let suits = match (along, view.drawn) {
-        (None, Some(_)) => Kind::Histogram,
-        (Some(_), _) | (None, None) => Kind::Sweep,
+        (None, Some(_)) => PictureKind::Histogram,
+        (Some(_), _) | (None, None) => PictureKind::Sweep,
     };
     let picture = SweepPicture::of(request.kind_or(suits)?);
     let (along, usual): (_, &[&str]) = match picture {
@@ -120,7 +120,7 @@ pub(crate) fn of_sweep(path: &Path, request: &Request) -> Drawn<Figure> {
         let scale = request.scale.unwrap_or(usual);
         let axis = axis(&result_words(quantity), &quantity.unit, scale);
         let view = &view;
-        let shown = Shown { view, axis, values };
+        let shown = SweptQuantity { view, axis, values };
         let mut panel = match picture {
             SweepPicture::Histogram => histogram(&shown)?,
             SweepPicture::Loss => loss(&shown)?,
@@ -241,7 +241,11 @@ fn rising(nodes: &[f64]) -> Vec<(usize, f64)> {
 }
 
 /// Lines over a key, or a heat map where a second key has many values.
-fn over_keys(shown: &Shown<'_>, along: usize, request: &Request) -> Result<Panel, PlotError> {
+fn over_keys(
+    shown: &SweptQuantity<'_>,
+    along: usize,
+    request: &Request,
+) -> Result<Panel, PlotError> {
     let view = shown.view;
     let others = view.free().into_iter().filter(|&i| i != along);
     let second = others
@@ -256,7 +260,7 @@ fn over_keys(shown: &Shown<'_>, along: usize, request: &Request) -> Result<Panel
 }
 
 fn lines(
-    shown: &Shown<'_>,
+    shown: &SweptQuantity<'_>,
     along: usize,
     asked: (Option<&str>, Option<Scale>),
 ) -> Result<Panel, PlotError> {
@@ -289,7 +293,7 @@ fn lines(
 }
 
 /// Draws over one of their own keys: a point each, or of many the median and 90 % in bins of as many draws.
-fn over_draws(panel: Panel, shown: &Shown<'_>, slice: &Slice, nodes: &[f64]) -> Panel {
+fn over_draws(panel: Panel, shown: &SweptQuantity<'_>, slice: &SweepSlice, nodes: &[f64]) -> Panel {
     let rows = shown.view.rows(slice, &[]);
     let pairs = nodes
         .iter()
@@ -309,9 +313,9 @@ fn over_draws(panel: Panel, shown: &Shown<'_>, slice: &Slice, nodes: &[f64]) -> 
 }
 
 fn heat_map(
-    shown: &Shown<'_>,
+    shown: &SweptQuantity<'_>,
     axes: [usize; 2],
-    slice: &Slice,
+    slice: &SweepSlice,
     scale: Option<Scale>,
 ) -> Result<Panel, PlotError> {
     let [along, second] = axes;
@@ -347,7 +351,7 @@ fn heat_map(
 }
 
 /// Results over the velocity of approach, on logarithmic axes.
-fn over_velocity(shown: &Shown<'_>) -> Result<Panel, PlotError> {
+fn over_velocity(shown: &SweptQuantity<'_>) -> Result<Panel, PlotError> {
     let axes = &shown.view.sweep.axes;
     let mut columns = axes.iter().flat_map(|axis| &axis.columns);
     let is_height = columns.any(|column| column.name() == DROP_HEIGHT);
@@ -380,7 +384,7 @@ fn points_of(panel: &mut Panel) -> impl Iterator<Item = &mut (f64, f64)> {
 }
 
 /// Losses over the velocity of approach, with the slope of Hunter's law beside them.
-fn loss(shown: &Shown<'_>) -> Result<Panel, PlotError> {
+fn loss(shown: &SweptQuantity<'_>) -> Result<Panel, PlotError> {
     let mut panel = over_velocity(shown)?;
     let (mut first, mut last) = (f64::INFINITY, 0.0_f64);
     let (mut lowest, mut highest) = (f64::INFINITY, 0.0_f64);
@@ -401,7 +405,7 @@ fn loss(shown: &Shown<'_>) -> Result<Panel, PlotError> {
 
 /// Restitution over the velocity of approach; where a law of flow yields, over the velocity at which the first row does,
 /// with Johnson's slope.
-fn restitution(shown: &Shown<'_>) -> Result<Panel, PlotError> {
+fn restitution(shown: &SweptQuantity<'_>) -> Result<Panel, PlotError> {
     let mut panel = over_velocity(shown)?;
     let sweep = shown.view.sweep;
     let mut known = sweep.quantities().into_iter();
@@ -426,7 +430,7 @@ fn restitution(shown: &Shown<'_>) -> Result<Panel, PlotError> {
 }
 
 /// How often values occur, with their quantiles where they are draws: those of a design say nothing.
-fn histogram(shown: &Shown<'_>) -> Result<Panel, PlotError> {
+fn histogram(shown: &SweptQuantity<'_>) -> Result<Panel, PlotError> {
     let view = shown.view;
     let scale = shown.axis.scale;
     let mut panel = Panel::new(shown.axis.clone(), Axis::linear("scenes")).height(240.0);
@@ -434,7 +438,7 @@ fn histogram(shown: &Shown<'_>) -> Result<Panel, PlotError> {
     let groups: Vec<(String, Vec<f64>)> = match view.drawn {
         Some(_) => {
             let slices = few(view, &[], MOST_HISTOGRAMS)?.into_iter();
-            let of = |slice: Slice| {
+            let of = |slice: SweepSlice| {
                 let found = values(view.rows(&slice, &[]));
                 (slice.label, found)
             };
@@ -458,7 +462,7 @@ fn histogram(shown: &Shown<'_>) -> Result<Panel, PlotError> {
 }
 
 /// The slices beside the axes that are shown, if they are few enough for one panel.
-fn few(view: &View<'_>, shown: &[usize], most: usize) -> Result<Vec<Slice>, PlotError> {
+fn few(view: &View<'_>, shown: &[usize], most: usize) -> Result<Vec<SweepSlice>, PlotError> {
     let slices = view.slices(shown);
     if slices.len() <= most {
         return Ok(slices);

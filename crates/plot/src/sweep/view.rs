@@ -11,7 +11,7 @@ const SHARES: [f64; 3] = [0.05, 0.5, 0.95];
 
 /// A choice along every axis but those that are shown.
 #[derive(Debug, Clone)]
-pub(super) struct Slice {
+pub(super) struct SweepSlice {
     /// What is chosen, in words; empty where there is nothing to choose.
     pub(super) label: String,
     /// Index along each axis; none along those that are shown.
@@ -104,14 +104,14 @@ impl<'a> View<'a> {
     }
 
     /// All choices along the free axes that are not shown.
-    pub(super) fn slices(&self, shown: &[usize]) -> Vec<Slice> {
-        let mut found = vec![Slice {
+    pub(super) fn slices(&self, shown: &[usize]) -> Vec<SweepSlice> {
+        let mut found = vec![SweepSlice {
             label: String::new(),
             fixed: self.fixed.clone(),
         }];
         for axis in self.free().into_iter().filter(|axis| !shown.contains(axis)) {
             let count = self.sweep.axes[axis].len;
-            let at = |(slice, index): (&Slice, usize)| {
+            let at = |(slice, index): (&SweepSlice, usize)| {
                 let mut slice = slice.clone();
                 slice.fixed[axis] = Some(index);
                 let comma = if slice.label.is_empty() { "" } else { ", " };
@@ -150,7 +150,7 @@ impl<'a> View<'a> {
     }
 
     /// The rows of a slice at a place along the axes that are shown, over all draws.
-    pub(super) fn rows(&self, slice: &Slice, at: &[(usize, usize)]) -> Vec<usize> {
+    pub(super) fn rows(&self, slice: &SweepSlice, at: &[(usize, usize)]) -> Vec<usize> {
         let axes = &self.sweep.axes;
         let index = |i: usize, draw: usize| {
             let shown = at.iter().find(|(axis, _)| *axis == i);

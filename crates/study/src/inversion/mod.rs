@@ -13,7 +13,7 @@ mod framework;
 mod hankel;
 mod series;
 
-use crate::measure::{Effort, Run};
+use crate::measure::{Effort, Found};
 use crate::method::ComparedMethod;
 use framework::{euler, invert, stehfest, talbot};
 use halfspace::{Medium, Six};
@@ -115,7 +115,7 @@ impl Inversion {
 
     /// Step responses at ascending times, and the integrand evaluations they took; at the centre of the surface only
     /// w over its static value.
-    pub(crate) fn run(&self, medium: &Medium, place: [f64; 2], times: &[f64]) -> Run<Vec<Six>> {
+    pub(crate) fn run(&self, medium: &Medium, place: [f64; 2], times: &[f64]) -> Found<Vec<Six>> {
         let hankel = Hankel::new(medium, place, self.digits);
         let values = (self.invert)(&hankel, times);
         Ok((values, Some(hankel.evaluations.get())))

@@ -11,7 +11,7 @@
 //! ```
 
 use super::kernels::{ALL, POISSON_RATIO};
-use crate::measure::{Effort, Rows, Run, Scene};
+use crate::measure::{Effort, Found, MeasuredScene, Rows};
 use crate::method::ComparedMethod;
 use crate::record::{Question, off, peaks};
 use crate::scenes::Density;
@@ -59,7 +59,7 @@ pub(crate) fn measure(effort: Effort, densities: &[Density], advance: &dyn Fn())
     let mut records = Vec::new();
     for (name, interpolation, place, length) in &SCENES[..effort.pick(1, 3)] {
         let pulse = &PulseReference::new(&medium, *place, *length, EVERY, count)?;
-        let mut rows = Scene {
+        let mut rows = MeasuredScene {
             effort,
             question: Question::Fields,
             name,
@@ -79,7 +79,7 @@ pub(crate) fn measure(effort: Effort, densities: &[Density], advance: &dyn Fn())
 }
 
 /// Samples with their number, the work.
-fn counted(samples: Vec<Six>) -> Run<Vec<Six>> {
+fn counted(samples: Vec<Six>) -> Found<Vec<Six>> {
     let count = samples.len() as u64;
     Ok((samples, Some(count)))
 }
@@ -110,7 +110,10 @@ pub(crate) fn computed(
 }
 
 /// Cells computed for the point itself, for a force that is linear or smooth between samples.
-fn exact_cells(pulse: &PulseReference, rows: &mut Scene<'_, Vec<Six>>) -> Result<(), AnyError> {
+fn exact_cells(
+    pulse: &PulseReference,
+    rows: &mut MeasuredScene<'_, Vec<Six>>,
+) -> Result<(), AnyError> {
     use ComparedMethod::{Direct, DirectLinear};
     let medium = Medium::new(POISSON_RATIO)?;
     // method, smoothness, kernel tolerance and halvings of the step; the program's own tolerance goes with the scene's
@@ -147,7 +150,7 @@ fn exact_cells(pulse: &PulseReference, rows: &mut Scene<'_, Vec<Six>>) -> Result
 fn looked_up(
     densities: &[Density],
     pulse: &PulseReference,
-    rows: &mut Scene<'_, Vec<Six>>,
+    rows: &mut MeasuredScene<'_, Vec<Six>>,
 ) -> Result<(), AnyError> {
     use Method::{Direct, Transform};
     // for which forces, and how they are summed: none is by running sums of the two exponentials of the pulse
@@ -303,7 +306,10 @@ pub(crate) fn series(point: &lookup::Numbers, width: f64, count: usize) -> Vec<S
 
 /// Interpolating the whole response against interpolating the remainder beside the exact static part: by the same stencils
 /// over the same exact kernels in double precision.
-fn interpolations(pulse: &PulseReference, rows: &mut Scene<'_, Vec<Six>>) -> Result<(), AnyError> {
+fn interpolations(
+    pulse: &PulseReference,
+    rows: &mut MeasuredScene<'_, Vec<Six>>,
+) -> Result<(), AnyError> {
     let [r, z] = pulse.place;
     let width = 0.1;
     let count = pulse.force(width).len();

@@ -3,8 +3,8 @@
 //! One value is one impact; its error is the largest over peak force, contact time, restitution and
 //! peak displacement against the converged march of the fullest model of its family.
 
-use super::marching::{Order, errors, march};
-use crate::measure::{Effort, Rows, Run, Scene, at};
+use super::marching::{MarchOrder, errors, march};
+use crate::measure::{Effort, Found, MeasuredScene, Rows, at};
 use crate::method::ComparedMethod;
 use crate::record::{Question, Record};
 use crate::scenes::{ball, paper_disc, paper_response};
@@ -46,7 +46,7 @@ pub(crate) fn measure(effort: Effort, advance: &dyn Fn()) -> Rows {
     let growing_exact = solve_growing(&growing, &Accuracy::of_contact(1e-10, None))?.summary;
 
     let mut records = Vec::new();
-    let mut scene = Scene {
+    let mut scene = MeasuredScene {
         effort,
         question: Question::Force,
         name: DISC,
@@ -77,7 +77,7 @@ fn work(history: &History, memory: f64) -> u64 {
 }
 
 /// The results of a march with so much memory, and its work.
-fn measured(history: &History, memory: f64) -> Run<Summary> {
+fn measured(history: &History, memory: f64) -> Found<Summary> {
     Ok((Summary::new(history)?, Some(work(history, memory))))
 }
 
@@ -85,11 +85,11 @@ fn measured(history: &History, memory: f64) -> Run<Summary> {
 ///
 /// The program halves its step instead: nobody tells it how many are enough.
 fn stepped(
-    scene: &mut Scene<'_, Summary>,
+    scene: &mut MeasuredScene<'_, Summary>,
     method: ComparedMethod,
     duration: f64,
     [quick, full]: [&[usize]; 2],
-    march: impl Fn(f64) -> Run<Summary>,
+    march: impl Fn(f64) -> Found<Summary>,
 ) -> Result<(), AnyError> {
     for &n in scene.effort.pick(quick, full) {
         scene.add(method, format!("{n} steps"), || march(duration / n as f64))?;
@@ -98,7 +98,7 @@ fn stepped(
 }
 
 /// The marches of a fixed disc by their numbers of steps, and the closed forms.
-fn on_disc(scene: &mut Scene<'_, Summary>, disc: &FixedDisc<'_>) -> Result<(), AnyError> {
+fn on_disc(scene: &mut MeasuredScene<'_, Summary>, disc: &FixedDisc<'_>) -> Result<(), AnyError> {
     let (duration, memory) = (quasi_static(disc.coupling).0.contact_time, disc.memory());
     let steps: [&[usize]; 2] = [
         &[16, 64, 256],
@@ -113,8 +113,8 @@ fn on_disc(scene: &mut Scene<'_, Summary>, disc: &FixedDisc<'_>) -> Result<(), A
         implicit,
     )?;
     for (method, order) in [
-        (ComparedMethod::ImplicitFirst, Order::First),
-        (ComparedMethod::ImplicitSecond, Order::Second),
+        (ComparedMethod::ImplicitFirst, MarchOrder::First),
+        (ComparedMethod::ImplicitSecond, MarchOrder::Second),
     ] {
         let steps: [&[usize]; 2] = [&[32, 256], &[16, 64, 256, 1024, 4096]];
         let march = |step| Ok(march(disc, step, order));
@@ -146,7 +146,7 @@ fn on_disc(scene: &mut Scene<'_, Summary>, disc: &FixedDisc<'_>) -> Result<(), A
 
 /// A closed form.
 fn closed<'a>(
-    scene: &'a mut Scene<'_, Summary>,
+    scene: &'a mut MeasuredScene<'_, Summary>,
     method: ComparedMethod,
     setting: &str,
     found: impl Fn() -> Summary,
@@ -156,7 +156,7 @@ fn closed<'a>(
 
 /// A march whose step is halved until a tolerance is met, over a contact of some duration with some memory.
 fn halved<'a>(
-    scene: &'a mut Scene<'_, Summary>,
+    scene: &'a mut MeasuredScene<'_, Summary>,
     method: ComparedMethod,
     tolerance: f64,
     [duration, memory]: [f64; 2],
@@ -181,7 +181,10 @@ fn tolerances(digits: impl IntoIterator<Item = i32>) -> impl Iterator<Item = f64
 }
 
 /// The marches whose step is halved until a tolerance is met: for one scene, and for the scenes of a sweep.
-fn to_tolerance(scene: &mut Scene<'_, Summary>, disc: &FixedDisc<'_>) -> Result<(), AnyError> {
+fn to_tolerance(
+    scene: &mut MeasuredScene<'_, Summary>,
+    disc: &FixedDisc<'_>,
+) -> Result<(), AnyError> {
     let (duration, memory) = (quasi_static(disc.coupling).0.contact_time, disc.memory());
     let table = ResponseTable::new(disc.response);
     for tolerance in tolerances(3..=scene.effort.pick(5, 9)) {
@@ -213,7 +216,7 @@ fn to_tolerance(scene: &mut Scene<'_, Summary>, disc: &FixedDisc<'_>) -> Result<
 }
 
 /// What sweeps do with many contacts of two materials: series for a million alike, made before they are timed.
-fn from_series(scene: &mut Scene<'_, Summary>, impact: &Impact) -> Result<(), AnyError> {
+fn from_series(scene: &mut MeasuredScene<'_, Summary>, impact: &Impact) -> Result<(), AnyError> {
     const CONTACTS: usize = 1_000_000;
     let (collision, responses) = (impact.collision(), Tabulated::default());
     for tolerance in tolerances(3..=scene.effort.pick(4, 8)) {
@@ -234,7 +237,7 @@ fn from_series(scene: &mut Scene<'_, Summary>, impact: &Impact) -> Result<(), An
 
 /// A contact that follows the load: closed forms, the march with a uniform step, polynomial pieces.
 fn following(
-    scene: &mut Scene<'_, Summary>,
+    scene: &mut MeasuredScene<'_, Summary>,
     growing: &GrowingContact<'_>,
     lag: f64,
 ) -> Result<(), AnyError> {

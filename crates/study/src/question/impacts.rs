@@ -5,7 +5,7 @@
 
 use super::fields;
 use super::kernels::POISSON_RATIO;
-use crate::measure::{Effort, Rows, Scene, at};
+use crate::measure::{Effort, MeasuredScene, Rows, at};
 use crate::method::ComparedMethod;
 use crate::record::{Question, peaks};
 use crate::scenes::Density;
@@ -38,7 +38,7 @@ pub(crate) fn measure(effort: Effort, densities: &[Density], advance: &dyn Fn())
     let own = densities.iter().find(|d| d.is_default(Density::points()));
     let mut records = Vec::new();
     for probed in scenes()? {
-        let mut scene = Scene {
+        let mut scene = MeasuredScene {
             effort,
             question: Question::Impacts,
             name: probed.name,

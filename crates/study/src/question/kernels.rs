@@ -4,7 +4,7 @@
 //! integral at a tolerance of 1e-14, or the closed form of Kausel (2012) at the centre of the surface.
 
 use crate::inversion::Inversion;
-use crate::measure::{Effort, Rows, Scene, at};
+use crate::measure::{Effort, MeasuredScene, Rows, at};
 use crate::method::ComparedMethod;
 use crate::record::{Question, off, peaks, sizes};
 use crate::scenes::Density;
@@ -160,7 +160,7 @@ pub(crate) fn measure(effort: Effort, densities: &[Density], progress: &dyn Prog
     let inversions = Inversion::all(effort);
     progress.total("kernels", (scenes.len() * (inversions.len() + 1)) as u64);
     for scene in &scenes {
-        let mut rows = Scene {
+        let mut rows = MeasuredScene {
             effort,
             question: Question::Kernels,
             name: scene.name,
@@ -218,7 +218,7 @@ fn tables(scene: &KernelScene, densities: &[Density], effort: Effort) -> Rows {
                 table.trace(linear, nu, r, z, 0, &mut cells)?;
                 Ok((cells, Some(0)))
             };
-            let mut rows = Scene {
+            let mut rows = MeasuredScene {
                 effort,
                 question: Question::Kernels,
                 name: scene.name,

@@ -49,7 +49,7 @@ impl Code {
 
 /// A law: Hertz's spring of E*, and what it loses.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Law {
+pub(super) struct PairLaw {
     pub(super) modulus_pa: f64,
     /// Restitution at the velocity of the scene.
     pub(super) restitution: f64,
@@ -62,9 +62,9 @@ pub(super) struct Law {
 /// The laws of a file.
 pub(super) struct Laws {
     /// Of striker and target.
-    pub(super) both: Law,
+    pub(super) both: PairLaw,
     /// Of two balls of the striker's material, and of two of the target's where it is a ball.
-    pub(super) like: Vec<Law>,
+    pub(super) like: Vec<PairLaw>,
     /// Contact time of `both` at the velocity of the scene in s.
     pub(super) contact_time_s: f64,
     /// Its largest force there in N.
@@ -84,7 +84,7 @@ impl Laws {
             Damping::Area(lag) => lag,
             Damping::None | Damping::Ratio(_) => 0.0,
         };
-        let both = Law {
+        let both = PairLaw {
             modulus_pa: collision.effective_modulus_pa,
             restitution: case.run.restitution,
             lag_m_s_n: lag * units.length_m * units.time_s / units.force_n,
@@ -254,9 +254,9 @@ fn alike(
     name: &str,
     material: &Material,
     ball: [f64; 2],
-) -> Result<(Law, String), Failure> {
+) -> Result<(PairLaw, String), Failure> {
     let modulus_pa = 0.5 * material.plane_modulus_pa();
-    let elastic = Law {
+    let elastic = PairLaw {
         modulus_pa,
         restitution: 1.0,
         lag_m_s_n: 0.0,
@@ -288,7 +288,7 @@ fn alike(
             return Ok((elastic, note));
         }
     };
-    let law = Law {
+    let law = PairLaw {
         restitution: run.restitution,
         ratio: ratio(Damping::of_restitution(run.restitution, code.pulls())),
         ..elastic

@@ -4,7 +4,7 @@ mod merge;
 mod plan;
 mod status;
 
-use crate::arguments::{Kernels, MemoryLimit, Overwrite, check_rows, say_complete};
+use crate::arguments::{KernelOptions, MemoryLimit, Overwrite, check_rows, say_complete};
 use crate::failure::{Failure, check_stdout, lines, say, show};
 use crate::process;
 use crate::progress::Bar;
@@ -48,13 +48,13 @@ Recipes for Slurm, Snakemake and dask are in docs/cluster.md.";
 )]
 pub(crate) struct Arguments {
     #[command(subcommand)]
-    action: Option<Action>,
+    action: Option<SweepAction>,
     #[command(flatten)]
-    run: Run,
+    run: RunArguments,
 }
 
 #[derive(Debug, Subcommand)]
-pub(crate) enum Action {
+pub(crate) enum SweepAction {
     /// Says which parts of a sweep a folder has, which are missing and what else lies there.
     Status(status::Arguments),
     /// Joins the parts of a sweep: byte by byte the file that one run would have written.
@@ -62,7 +62,7 @@ pub(crate) enum Action {
 }
 
 #[derive(Debug, Args)]
-pub(crate) struct Run {
+pub(crate) struct RunArguments {
     /// Sweep file (TOML, see data-schema/sweep.md); - is standard input.
     #[arg(required = true)]
     sweep: Option<PathBuf>,
@@ -73,7 +73,7 @@ pub(crate) struct Run {
     #[arg(long, value_name = "OUT.csv")]
     csv: Option<PathBuf>,
     #[command(flatten)]
-    kernels: Kernels,
+    kernels: KernelOptions,
     /// Compute part I of N into the output, which is then a part for `hertzlamb sweep merge`.
     #[arg(long, value_name = "I/N")]
     shard: Option<Shard>,
@@ -121,8 +121,8 @@ fn range(text: &str) -> Result<Range<usize>, String> {
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let run = &arguments.run;
     match (&arguments.action, &run.sweep, &run.output) {
-        (Some(Action::Status(arguments)), _, _) => status::run(arguments),
-        (Some(Action::Merge(arguments)), _, _) => merge::run(arguments),
+        (Some(SweepAction::Status(arguments)), _, _) => status::run(arguments),
+        (Some(SweepAction::Merge(arguments)), _, _) => merge::run(arguments),
         (None, Some(sweep), _) if run.plan => plan::run(run, sweep, &spec(run, sweep)?),
         (None, Some(sweep), Some(output)) => compute(run, sweep, output),
         (None, Some(sweep), None) if run.csv.as_deref().is_some_and(is_standard) => {
@@ -135,7 +135,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 /// The sweep with the rows that are asked for, within the memory that there is.
-fn selected(arguments: &Run, sweep: &Path) -> Result<Spec, Failure> {
+fn selected(arguments: &RunArguments, sweep: &Path) -> Result<Spec, Failure> {
     let mut spec = spec(arguments, sweep)?;
     let (memory, needed) = (arguments.memory, spec.memory_bytes());
     memory.check(needed, "the sweep", "ask for fewer values")?;
@@ -151,7 +151,7 @@ fn selected(arguments: &Run, sweep: &Path) -> Result<Spec, Failure> {
 }
 
 /// Writes rows to standard output as they are computed; none of them is kept.
-fn stream(arguments: &Run, sweep: &Path) -> Result<(), Failure> {
+fn stream(arguments: &RunArguments, sweep: &Path) -> Result<(), Failure> {
     if arguments.json {
         return Err(Failure::input(STREAMED));
     }
@@ -189,7 +189,7 @@ impl Blocks for Watched<'_> {
     }
 }
 
-fn compute(arguments: &Run, sweep: &Path, output: &Path) -> Result<(), Failure> {
+fn compute(arguments: &RunArguments, sweep: &Path, output: &Path) -> Result<(), Failure> {
     let start = Instant::now();
     let spec = selected(arguments, sweep)?;
     let Some(outputs) = Outputs::claim(arguments, sweep, output, &spec)? else {
@@ -248,7 +248,7 @@ struct SweepReport {
 
 impl SweepReport {
     fn new(
-        arguments: &Run,
+        arguments: &RunArguments,
         spec: &Spec,
         outputs: &Outputs,
         tally: &Tally,
@@ -323,7 +323,7 @@ impl Display for SweepReport {
 }
 
 /// The sweep, and what of its results is written.
-fn spec(arguments: &Run, sweep: &Path) -> Result<Spec, Failure> {
+fn spec(arguments: &RunArguments, sweep: &Path) -> Result<Spec, Failure> {
     let read = match is_standard(sweep) {
         true => Spec::from_standard_input(),
         false => Spec::from_file(sweep),
@@ -382,7 +382,7 @@ struct Outputs {
 impl Outputs {
     /// Claims all outputs; nothing where they are there already and that is enough.
     fn claim(
-        arguments: &Run,
+        arguments: &RunArguments,
         sweep: &Path,
         output: &Path,
         spec: &Spec,
@@ -507,7 +507,7 @@ impl Tally {
     }
 
     /// Warns of scenes that failed; an error where all of them did, or one where that is asked for.
-    fn verdict(&self, arguments: &Run, rows: usize) -> Result<(), Failure> {
+    fn verdict(&self, arguments: &RunArguments, rows: usize) -> Result<(), Failure> {
         let Some((row, reason)) = &self.first else {
             return Ok(());
         };

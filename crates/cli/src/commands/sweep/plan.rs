@@ -1,6 +1,6 @@
 //! `hertzlamb sweep --plan`: what a sweep takes, measured on a few of its rows.
 
-use super::Run;
+use super::RunArguments;
 use crate::failure::{Failure, lines, show};
 use formats::sweep::{Spec, column_names, compute_rows, grain, row_bytes};
 use output::processor_s;
@@ -18,7 +18,7 @@ const MEASURED_S: f64 = 1.0;
 /// Rows of the first measurement.
 const FIRST_ROWS: usize = 64;
 
-pub(crate) fn run(arguments: &Run, sweep: &Path, spec: &Spec) -> Result<(), Failure> {
+pub(crate) fn run(arguments: &RunArguments, sweep: &Path, spec: &Spec) -> Result<(), Failure> {
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     let (measured_rows, rows_per_second) =
         measure(spec, threads).map_err(|error| error.in_file(sweep))?;

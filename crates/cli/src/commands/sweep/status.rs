@@ -1,7 +1,7 @@
 //! `hertzlamb sweep status`: what a folder of parts has and lacks.
 
 use super::failure;
-use crate::arguments::Kernels;
+use crate::arguments::KernelOptions;
 use crate::failure::{Failure, lines, print, show};
 use clap::Args;
 use formats::parts::Parts;
@@ -18,7 +18,7 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "SWEEP.toml")]
     sweep: Option<PathBuf>,
     #[command(flatten)]
-    kernels: Kernels,
+    kernels: KernelOptions,
     /// Into how many shards it is divided; as the parts say otherwise.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=Shard::MOST as i64))]
     shards: Option<u32>,
@@ -55,7 +55,7 @@ struct Status {
     failed: usize,
     complete: bool,
     shards: Option<usize>,
-    parts: Vec<StoredPart>,
+    parts: Vec<PartReport>,
     missing_rows: Vec<[usize; 2]>,
     missing_shards: Option<Vec<usize>>,
     overlap: Option<String>,
@@ -64,7 +64,7 @@ struct Status {
 }
 
 #[derive(Serialize)]
-struct StoredPart {
+struct PartReport {
     file: String,
     shard: Option<String>,
     first_row: usize,
@@ -93,7 +93,7 @@ impl Status {
     fn of(parts: &Parts, shards: Option<usize>, missing_shards: Option<Vec<usize>>) -> Self {
         let gaps = parts.missing();
         let overlap = parts.overlap().map(|error| error.to_string());
-        let stored = parts.parts.iter().map(|part| StoredPart {
+        let stored = parts.parts.iter().map(|part| PartReport {
             file: part.path.display().to_string(),
             shard: part.selection.shard.map(|shard| shard.to_string()),
             first_row: part.selection.rows.start,
