@@ -60,7 +60,7 @@ impl Failure {
 
     /// Standard output does not take what is written.
     pub(crate) fn unprintable(error: std::io::Error) -> Self {
-        let output::Fault { reason, full } = error.into();
+        let output::OutputFault { reason, full } = error.into();
         let told = format!("cannot write to standard output: {reason}");
         if full {
             Self::until_later(told)

@@ -33,7 +33,7 @@ mod folder;
 mod room;
 
 pub use claim::{Existing, Output, Staged, write_whole};
-pub use error::{Fault, OutputError};
+pub use error::{OutputError, OutputFault};
 pub use folder::{Folder, is_hidden};
 pub use journal::{Journal, Record, Records, Title, packed, unpacked};
 pub use place::{

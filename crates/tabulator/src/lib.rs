@@ -40,7 +40,7 @@ mod extend;
 mod shard;
 mod measure;
 
-pub use assemble::Summary;
+pub use assemble::BuildSummary;
 pub use build::{build, build_over};
 pub use error::BuildError;
 pub use extend::{Extension, extend};
@@ -52,7 +52,7 @@ pub use measure::difference::differences;
 pub use measure::refine::refine;
 pub use numbers::NUMBERS_REVISION;
 pub use output::{Existing, OutputError};
-pub use plan::Plan;
+pub use plan::TableCost;
 pub use point::PointPlan;
 pub use progress::{Progress, Silent};
 pub use shard::{build_shard, merge};

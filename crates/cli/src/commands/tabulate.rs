@@ -12,7 +12,7 @@ use serde::Serialize;
 use serde_json::Value;
 use std::fmt::{self, Display, Formatter};
 use std::path::{Path, PathBuf};
-use tabulator::{BuildError, Extension, Grid, NUMBERS_REVISION, Shard, Summary};
+use tabulator::{BuildError, BuildSummary, Extension, Grid, NUMBERS_REVISION, Shard};
 use tabulator::{build_over, build_shard, extend, refine};
 
 const EXAMPLES: &str = "Examples:
@@ -269,7 +269,7 @@ struct TableReport {
 }
 
 impl TableReport {
-    fn new(grid: &Grid, output: &Path, summary: Summary) -> Self {
+    fn new(grid: &Grid, output: &Path, summary: BuildSummary) -> Self {
         let accuracy = summary.accuracy;
         let p99 = accuracy.iter().map(|errors| worst(&errors.on_slices).1.p99);
         Self {

@@ -9,7 +9,7 @@ use crate::scene::resolved;
 use crate::schema::results as schema;
 use hdf5::{Dataset, File};
 use impact::{EnergySeries, Outcome, Peaks, ProbeFields, Scene};
-use output::{Existing, Fault, Output, OutputError, Staged};
+use output::{Existing, Output, OutputError, OutputFault, Staged};
 use std::io::{BufWriter, Write};
 use std::path::Path;
 
@@ -32,7 +32,7 @@ pub fn stage_results<'a>(
 ) -> Result<Staged<'a>, OutputError> {
     output.stage_made(|name| {
         new_file(name, |file, _| {
-            fill(file, scene, outcome).map_err(|error| Fault::from(reason(&error)))
+            fill(file, scene, outcome).map_err(|error| OutputFault::from(reason(&error)))
         })
     })
 }

@@ -5,7 +5,7 @@ use crate::sweep::{Block, Footer, NO_MODEL, NOT_HELD, Part, Precision};
 use bytes::Bytes;
 use contact::{Choice, Model};
 use ledger::sha256_hex;
-use output::Fault;
+use output::OutputFault;
 use parquet::column::reader::{ColumnReader, ColumnReaderImpl, get_column_reader};
 use parquet::data_type::{ByteArray, DataType};
 use parquet::errors::ParquetError;
@@ -23,9 +23,9 @@ use std::sync::Arc;
 pub(super) fn each(
     part: &Part,
     hashes: &[String],
-    visit: &mut dyn FnMut(&Block) -> Result<(), Fault>,
-) -> Result<(), Fault> {
-    let damaged = |what: String| Fault::from(format!("{}: {what}", part.path.display()));
+    visit: &mut dyn FnMut(&Block) -> Result<(), OutputFault>,
+) -> Result<(), OutputFault> {
+    let damaged = |what: String| OutputFault::from(format!("{}: {what}", part.path.display()));
     let metadata = metadata(part).map_err(damaged)?;
     let places = places(part, &metadata).map_err(damaged)?;
     let mut next = part.selection.rows.start;
@@ -46,7 +46,7 @@ pub(super) fn each(
 }
 
 /// Compares the rows of a file with the hashes of their groups.
-pub(super) fn check(part: &Part, hashes: &[String]) -> Result<(), Fault> {
+pub(super) fn check(part: &Part, hashes: &[String]) -> Result<(), OutputFault> {
     each_group(part, hashes, &metadata(part)?, |_, _| Ok(()))
 }
 
@@ -60,11 +60,11 @@ fn each_group(
     part: &Part,
     hashes: &[String],
     metadata: &ParquetMetaData,
-    mut visit: impl FnMut(&RowGroupMetaData, &Arc<Bytes>) -> Result<(), Fault>,
-) -> Result<(), Fault> {
+    mut visit: impl FnMut(&RowGroupMetaData, &Arc<Bytes>) -> Result<(), OutputFault>,
+) -> Result<(), OutputFault> {
     let mut file = File::open(&part.path)?;
     if metadata.num_row_groups() != hashes.len() {
-        return Err(Fault::from("it has other groups of rows".to_owned()));
+        return Err(OutputFault::from("it has other groups of rows".to_owned()));
     }
     let mut next = part.selection.rows.start;
     for (group, hash) in metadata.row_groups().iter().zip(hashes) {
@@ -73,7 +73,9 @@ fn each_group(
         let mut bytes = Vec::new();
         (&file).take(end - start).read_to_end(&mut bytes)?;
         if sha256_hex([&bytes[..]]) != *hash {
-            return Err(Fault::from(format!("the rows from {next} on were changed")));
+            return Err(OutputFault::from(format!(
+                "the rows from {next} on were changed"
+            )));
         }
         next += usize::try_from(group.num_rows()).unwrap_or(0);
         visit(group, &Arc::new(bytes.into()))?;

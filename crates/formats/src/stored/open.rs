@@ -5,7 +5,7 @@ use crate::quantities::Described;
 use crate::scene::section::parse;
 use crate::schema::sweep::{TEXTS, part};
 use crate::schema::{results, sweep};
-use crate::sweep::{Fields, Footer, MAGIC, Part, Precision, stored_columns};
+use crate::sweep::{Footer, MAGIC, Part, Precision, WrittenResults, stored_columns};
 use ledger::{Dataset, Group, H5Type, HdfError, HdfFile};
 use std::fmt;
 use std::io::{self, Read};
@@ -178,8 +178,12 @@ impl Stored {
     }
 
     /// Which results a group has as datasets of a shape, and how exactly.
-    pub(super) fn fields(&self, group: &str, shape: &[usize]) -> Result<Fields, SceneError> {
-        let mut fields = Fields::all(self.probed()?);
+    pub(super) fn fields(
+        &self,
+        group: &str,
+        shape: &[usize],
+    ) -> Result<WrittenResults, SceneError> {
+        let mut fields = WrittenResults::all(self.probed()?);
         let (mut single, mut double) = (true, true);
         fields.retain(|name| {
             let dataset = self.dataset(&format!("{group}/{name}"));

@@ -2,7 +2,7 @@
 
 use crate::error::SceneError;
 use crate::quantities::{Described, Labels, QUANTITIES, labels_of};
-use crate::scene::section::Section;
+use crate::scene::section::TomlSection;
 use crate::schema::results::beside;
 use crate::schema::sweep::FIELDS as SECTION;
 use impact::{ProbePeaks, Quantity};
@@ -11,7 +11,7 @@ use toml::{Table, Value};
 
 /// Results that are written; the model and the reason of a failure always are.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Fields {
+pub struct WrittenResults {
     /// Places among the known ones; ascending.
     pub(crate) places: Vec<usize>,
     /// All that could be written.
@@ -30,13 +30,13 @@ pub enum Precision {
     Single = 32,
 }
 
-impl Default for Fields {
+impl Default for WrittenResults {
     fn default() -> Self {
         Self::all(Vec::new())
     }
 }
 
-impl Fields {
+impl WrittenResults {
     /// All results, with the columns of some probes.
     pub(crate) fn all(probed: Vec<Described>) -> Self {
         let own = QUANTITIES.iter();
@@ -98,7 +98,7 @@ const TABLE: (&str, &str, &str) = (
 
 /// The columns of the probes of a base scene: peaks of fields, their instants and errors; none without probes.
 pub(super) fn columns_of_probes(scene: &Table) -> Result<Vec<Described>, SceneError> {
-    let root = Section::root(scene);
+    let root = TomlSection::root(scene);
     let probes = root.list("probe")?.len();
     if probes == 0 {
         return Ok(Vec::new());

@@ -21,11 +21,11 @@ mod shard;
 mod spec;
 mod template;
 
-pub use axes::{Axis, Column, Values};
+pub use axes::{SweepAxis, SweptKey, Values};
 pub use draws::Drawn;
 pub use error::SweepError;
 pub(crate) use fields::stored_columns;
-pub use fields::{Fields, Precision};
+pub use fields::{Precision, WrittenResults};
 pub use journal::{Kept, Unfinished, is_computed, kept_places};
 pub use ledger::Shard;
 pub use rows::{

@@ -20,7 +20,7 @@
 //! Theory: `docs/theory.md` (T18).
 
 use crate::field::{Point, Sense};
-use crate::integral::panels::Strength;
+use crate::integral::panels::SingularityStrength;
 use crate::integral::setting::Setting;
 use crate::integral::singularities::Singularities;
 use crate::integral::spectrum::Wave;
@@ -44,7 +44,11 @@ pub(crate) fn singular<const N: i32>(
     } else {
         &fixed.slow
     };
-    singularities.take(own, Strength::of::<N>(profile), setting.front_rounding(at));
+    singularities.take(
+        own,
+        SingularityStrength::of::<N>(profile),
+        setting.front_rounding(at),
+    );
     let shallow = shallow::applies::<N>(profile, at);
     for at in [at]
         .into_iter()

@@ -34,12 +34,12 @@ use crate::potentials::far_front::{ALL, FAR};
 use crate::potentials::{STEP, STEP_INTEGRAL, shallow};
 use crate::profile::Profile;
 use num_complex::Complex64;
-use panels::Nodes;
+use panels::PanelNodes;
 use setting::Setting;
 use singularities::Singularities;
 use spectrum::Wave;
 use std::f64::consts::PI;
-use sum::{Panel, Sum};
+use sum::{QuadraturePanel, Sum};
 
 impl Setting {
     /// The remainder or one of its time integrals, continued to the axis where the fronts of a point force or a punch
@@ -93,13 +93,13 @@ impl Setting {
         at: Point,
         wave: Wave,
         sense: Option<Sense>,
-        nodes: &Nodes,
+        nodes: &PanelNodes,
         shallow: bool,
         sum: &mut Sum,
     ) {
         // many are step responses and velocities, time integrals are not worth so much code
         if N != STEP_INTEGRAL && !shallow {
-            dispatch(Panel::<N> {
+            dispatch(QuadraturePanel::<N> {
                 setting: self,
                 at,
                 wave,

@@ -34,27 +34,27 @@ pub(crate) const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 /// One end of an interval and where it goes: v = start + scale s^power for s in [0, 1].
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Piece {
+pub(crate) struct IntervalEnd {
     pub(crate) start: f64,
     pub(crate) scale: f64,
     pub(crate) power: i32,
-    pub(crate) strength: Strength,
+    pub(crate) strength: SingularityStrength,
     /// Rounding error of `start`, where that counts.
     pub(crate) place_error: f64,
 }
 
-/// Nodes of a rule on a panel of a piece.
+/// Nodes of a rule on a panel.
 #[derive(Debug)]
-pub(crate) struct Nodes {
+pub(crate) struct PanelNodes {
     pub(crate) rule: &'static gauss::Rule,
     middle: f64,
     half: f64,
-    piece: Piece,
+    piece: IntervalEnd,
     /// Of the integrand, relative.
     error: f64,
 }
 
-impl Nodes {
+impl PanelNodes {
     /// Place, weight and relative errors for displacements and stresses of a node of the rule and its weight; squares of
     /// errors add up. What rounds to the start of the piece has no weight, and is elsewhere.
     #[inline(always)]
@@ -91,10 +91,10 @@ impl Nodes {
 pub(crate) fn panels(
     (singularities, pole): (&Points, Complex64),
     (digits, least): (f64, usize),
-    piece: Piece,
-    f: &mut impl FnMut(&Nodes),
+    piece: IntervalEnd,
+    f: &mut impl FnMut(&PanelNodes),
 ) {
-    let finite_part = piece.power > 1 && piece.strength == Strength::FinitePart;
+    let finite_part = piece.power > 1 && piece.strength == SingularityStrength::FinitePart;
     let caution = piece.strength.caution();
     let mut stack: ArrayVec<[f64; 2], 64> = ArrayVec::new();
     stack.push([0.0, 1.0]);
@@ -125,7 +125,7 @@ pub(crate) fn panels(
             (gauss::rule(n), middle, half)
         };
         let error = of_rule + ROUNDING;
-        f(&Nodes {
+        f(&PanelNodes {
             rule,
             middle,
             half,
@@ -143,7 +143,7 @@ pub(crate) fn smallest_ellipse(images: &[Complex64], foci: [f64; 2]) -> f64 {
 
 /// How strong the singularities at the cuts of an integration interval are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Strength {
+pub(crate) enum SingularityStrength {
     /// The integrand stays finite.
     Bounded,
     /// The inverse square root.
@@ -152,7 +152,7 @@ pub(crate) enum Strength {
     FinitePart,
 }
 
-impl Strength {
+impl SingularityStrength {
     /// Of a profile and an order in time.
     ///
     /// The step response of stress to a point force has fronts of power -3/2, to a punch of power -1/2, and each

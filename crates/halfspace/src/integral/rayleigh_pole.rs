@@ -5,7 +5,7 @@
 //! ```
 
 use crate::field::Point;
-use crate::integral::panels::{ROUNDING, Strength};
+use crate::integral::panels::{ROUNDING, SingularityStrength};
 use crate::integral::rayleigh_front::Front;
 use crate::integral::setting::Setting;
 use crate::integral::sum::Sum;
@@ -56,7 +56,7 @@ impl Setting {
 
     /// Relative errors of displacements and stresses of the Rayleigh wave from rounding of its distance to the edges of the disc.
     fn error_at_front<const N: i32>(&self, at: Point, xi: Complex64, shallow: bool) -> [f64; 2] {
-        let strength = Strength::of::<N>(self.profile);
+        let strength = SingularityStrength::of::<N>(self.profile);
         let radius = self.profile.radius();
         let height = xi.im.abs();
         let gap = [at.r + radius, (at.r - radius).abs()]
@@ -67,14 +67,16 @@ impl Setting {
         let front = ROUNDING * size / gap.max(f64::EPSILON * size);
         match strength {
             // where the two waves cancel
-            Strength::Bounded if shallow => [ROUNDING + front; 2],
+            SingularityStrength::Bounded if shallow => [ROUNDING + front; 2],
             // stresses have a root there
-            Strength::Bounded => [
+            SingularityStrength::Bounded => [
                 ROUNDING * (1.0 + size),
                 ROUNDING * (1.0 + size / gap.max(f64::EPSILON * size).sqrt()),
             ],
-            Strength::InverseRoot => [ROUNDING + ROUNDING.sqrt() * front.sqrt(), ROUNDING + front],
-            Strength::FinitePart => [ROUNDING + front, ROUNDING + 3.0 * front],
+            SingularityStrength::InverseRoot => {
+                [ROUNDING + ROUNDING.sqrt() * front.sqrt(), ROUNDING + front]
+            }
+            SingularityStrength::FinitePart => [ROUNDING + front, ROUNDING + 3.0 * front],
         }
     }
 }

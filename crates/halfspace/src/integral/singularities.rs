@@ -5,8 +5,8 @@
 //!
 //! Theory: `docs/theory.md` (T18).
 
-use crate::integral::panels::{Nodes, Piece, ROUNDING, Strength, panels};
-use crate::numeric::lanes::{Map, Points};
+use crate::integral::panels::{IntervalEnd, PanelNodes, ROUNDING, SingularityStrength, panels};
+use crate::numeric::lanes::{ComplexMap, Points};
 use crate::numeric::scalar::{Complex, Scalar};
 use arrayvec::ArrayVec;
 use num_complex::Complex64;
@@ -39,7 +39,7 @@ pub(crate) struct Singularities {
     points: Points,
     /// Where the integrand grows as a pole of high order.
     pub(crate) pole: Complex64,
-    strength: Strength,
+    strength: SingularityStrength,
     /// Ends of the interval at which the variable stands for the square root of the distance in slowness.
     root_ends: &'static [f64],
     rounding: f64,
@@ -59,7 +59,7 @@ impl Singularities {
             cuts: ArrayVec::new(),
             points: Points::default(),
             pole,
-            strength: Strength::Bounded,
+            strength: SingularityStrength::Bounded,
             root_ends,
             rounding: ROUNDING,
             images: Points::default(),
@@ -71,7 +71,7 @@ impl Singularities {
     /// Becomes another interval with cuts of a strength, where an unbounded integrand has a rounding error of `times` the
     /// usual one.
     #[inline]
-    pub(crate) fn take(&mut self, fixed: &Self, strength: Strength, times: f64) {
+    pub(crate) fn take(&mut self, fixed: &Self, strength: SingularityStrength, times: f64) {
         self.cuts.clone_from(&fixed.cuts);
         self.points.copy(&fixed.points);
         (self.pole, self.root_ends) = (fixed.pole, fixed.root_ends);
@@ -124,7 +124,7 @@ impl Singularities {
         &mut self,
         (from, to): (f64, f64),
         digits: f64,
-        f: &mut impl FnMut(&Nodes),
+        f: &mut impl FnMut(&PanelNodes),
     ) {
         match (self.power(from), self.power(to)) {
             (power, 1) => self.visit_piece(from, to, power, digits, f),
@@ -154,12 +154,12 @@ impl Singularities {
         end: f64,
         power: i32,
         digits: f64,
-        f: &mut impl FnMut(&Nodes),
+        f: &mut impl FnMut(&PanelNodes),
     ) {
         let scale = end - start;
         let is_cut = power > 1;
         let strength = self.strength;
-        let image = Image {
+        let image = LocalCoordinate {
             start,
             scale,
             // the singularity of the cut itself is what the power is for
@@ -176,7 +176,7 @@ impl Singularities {
             self.images.replace(|point| point.powf(exponent));
             pole = pole.powf(exponent);
         }
-        let place_error = if is_cut && strength != Strength::Bounded {
+        let place_error = if is_cut && strength != SingularityStrength::Bounded {
             self.place_error(start)
         } else {
             0.0
@@ -187,7 +187,7 @@ impl Singularities {
         } else {
             3
         };
-        let piece = Piece {
+        let piece = IntervalEnd {
             start,
             scale,
             power,
@@ -224,8 +224,8 @@ impl Singularities {
         let mirror: f64 = self.root_ends.iter().map(|end| by((end - cut).abs())).sum();
         // under a disc the plane front is exact however small its place; a point force has none
         let place = match self.strength {
-            Strength::FinitePart => 1.0,
-            Strength::Bounded | Strength::InverseRoot => cut,
+            SingularityStrength::FinitePart => 1.0,
+            SingularityStrength::Bounded | SingularityStrength::InverseRoot => cut,
         };
         // a mirror image moves a small cut by no more than a fraction of itself
         self.rounding * place + neighbour + mirror.min(cut)
@@ -233,14 +233,14 @@ impl Singularities {
 }
 
 /// (v - `start`)/`scale` or its principal square root, but for what is nearer than `least` to zero.
-struct Image {
+struct LocalCoordinate {
     start: f64,
     scale: f64,
     least: f64,
     square: bool,
 }
 
-impl Map for Image {
+impl ComplexMap for LocalCoordinate {
     #[inline(always)]
     fn at<C: Complex>(&self, v: C) -> C {
         let re = v.re();

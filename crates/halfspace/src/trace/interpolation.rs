@@ -6,7 +6,7 @@
 
 use crate::domain::DomainError;
 use crate::field::{Estimate, Six};
-use crate::trace::segment::{Course, Piece, Segment};
+use crate::trace::segment::{Course, MappedInterval, Segment};
 
 /// Segments are halved no more once there are so many, which no place needs; what is left out is in the estimate.
 const MOST: usize = 200;
@@ -75,7 +75,11 @@ fn is_converged(segment: &Segment, allowed: &Six) -> bool {
 /// a time and for some while.
 ///
 /// Beside fronts that are very far apart few nodes do not see how R varies as the disc is passed: such an interval is two.
-fn pieces(arrivals: &[f64], passing: Option<[f64; 2]>, [first, end]: [f64; 2]) -> Vec<Piece> {
+fn pieces(
+    arrivals: &[f64],
+    passing: Option<[f64; 2]>,
+    [first, end]: [f64; 2],
+) -> Vec<MappedInterval> {
     /// Radii from one front to the next that are not very far.
     const SHORT: f64 = 500.0;
     /// Factors e of time that one polynomial serves.
@@ -112,7 +116,7 @@ fn pieces(arrivals: &[f64], passing: Option<[f64; 2]>, [first, end]: [f64; 2]) -
     let begun = courses.into_iter().filter(|(from, _)| *from < end);
     let parts = |(_, course): (f64, Course)| {
         let count = (course.length() / LONG).ceil().max(1.0);
-        Piece::new(course, end).parts(count as u32)
+        MappedInterval::new(course, end).parts(count as u32)
     };
     begun.flat_map(parts).collect()
 }

@@ -71,12 +71,12 @@ fn turn(distance: f64) -> f64 {
 
 /// An interval of time as one of s.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Piece {
+pub(crate) struct MappedInterval {
     course: Course,
     s: [f64; 2],
 }
 
-impl Piece {
+impl MappedInterval {
     /// From the start of a course to a time.
     pub(crate) fn new(course: Course, end: f64) -> Self {
         let mut piece = Self {
@@ -160,7 +160,7 @@ impl Piece {
 pub(crate) struct Segment {
     /// Start and end in time.
     pub(crate) times: [f64; 2],
-    pub(crate) piece: Piece,
+    pub(crate) piece: MappedInterval,
     /// Coefficients of Chebyshev's polynomials.
     series: Vec<Six>,
     /// Likely error of the mean of R over a part of the segment, but for the truncation of the series.
@@ -175,7 +175,7 @@ pub(crate) struct Segment {
 impl Segment {
     /// Of the fewest nodes.
     pub(crate) fn fit(
-        piece: Piece,
+        piece: MappedInterval,
         remainder: impl FnMut(f64) -> Result<Estimate, DomainError>,
     ) -> Result<Self, DomainError> {
         let mut segment = Self {

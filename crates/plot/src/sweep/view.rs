@@ -4,7 +4,7 @@ use crate::error::PlotError;
 use crate::request::Request;
 use crate::words::{of_key, with_unit};
 use formats::stored::StoredSweep;
-use formats::sweep::{Column, Values};
+use formats::sweep::{SweptKey, Values};
 
 /// Shares of draws below the band, at its middle and below its upper end.
 const SHARES: [f64; 3] = [0.05, 0.5, 0.95];
@@ -52,7 +52,7 @@ impl<'a> View<'a> {
     }
 
     /// The numbers along an axis: those of the key that is asked for, or of the first that has numbers.
-    pub(super) fn numbers(&self, axis: usize, asked: Option<&str>) -> Option<(&Column, &[f64])> {
+    pub(super) fn numbers(&self, axis: usize, asked: Option<&str>) -> Option<(&SweptKey, &[f64])> {
         let columns = self.sweep.axes[axis].columns.iter();
         let mut asked = columns.filter(|column| asked.is_none_or(|name| name == column.name()));
         asked.find_map(|column| match &column.values {
@@ -165,7 +165,7 @@ impl<'a> View<'a> {
 }
 
 /// The axis and the column of a key.
-fn find<'a>(sweep: &'a StoredSweep, key: &str) -> Result<(usize, &'a Column), PlotError> {
+fn find<'a>(sweep: &'a StoredSweep, key: &str) -> Result<(usize, &'a SweptKey), PlotError> {
     let axes = sweep.axes.iter().enumerate();
     let mut all = axes.flat_map(|(i, axis)| axis.columns.iter().map(move |c| (i, c)));
     let names: Vec<String> = all.clone().map(|(_, column)| column.name()).collect();
@@ -175,7 +175,7 @@ fn find<'a>(sweep: &'a StoredSweep, key: &str) -> Result<(usize, &'a Column), Pl
 }
 
 /// The index of a value of a key, a number to nine digits.
-fn index_of(sweep: &StoredSweep, column: &Column, value: &str) -> Result<usize, PlotError> {
+fn index_of(sweep: &StoredSweep, column: &SweptKey, value: &str) -> Result<usize, PlotError> {
     /// Numbers that are told, at most.
     const MOST: usize = 12;
     let key = column.name();

@@ -1,9 +1,9 @@
 //! Errors measured off the grid: exact against looked-up responses at the centre of every mesh.
 
-use crate::block::{Kind, Row};
+use crate::block::{PointKind, Row};
 use crate::error::BuildError;
 use crate::known::Known;
-use crate::rows::Work;
+use crate::rows::TableWork;
 use halfspace::{Medium, Profile, Six};
 use lookup::{PulseSum, Series, Smoothness, Table, Verification};
 use rayon::prelude::*;
@@ -14,8 +14,8 @@ const SAMPLES: f64 = 250.0;
 /// Measures errors at one Poisson ratio at the places of a kind: a row holds the exact numbers at a radius and all depths.
 pub(super) fn verify<'a>(
     table: &Table,
-    work: &Work<'a>,
-    kind: Kind,
+    work: &TableWork<'a>,
+    kind: PointKind,
     poisson_ratio: f64,
     rows: &[Row],
 ) -> Result<Verification, BuildError> {

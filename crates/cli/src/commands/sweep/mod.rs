@@ -13,11 +13,11 @@ use fault::Fault as _;
 use formats::parts::check_complete;
 use formats::schema::sweep::COUNTED;
 use formats::sweep::{
-    Axis, Block, Blocks, Computed, Kept, Precision, Shard, Spec, SweepError, fields_bytes,
+    Block, Blocks, Computed, Kept, Precision, Shard, Spec, SweepAxis, SweepError, fields_bytes,
     is_computed, print_csv, row_bytes, run_rows, stage_csv, stage_rows,
 };
 use formats::{Existing, Output, OutputError, QUANTITIES};
-use output::{CSV, Fault, Staged, apart, behind, free_disk, is_standard};
+use output::{CSV, OutputFault, Staged, apart, behind, free_disk, is_standard};
 use serde::Serialize;
 use std::cell::RefCell;
 use std::fmt::{self, Display, Formatter};
@@ -180,7 +180,10 @@ struct Watched<'a> {
 }
 
 impl Blocks for Watched<'_> {
-    fn each(&self, visit: &mut dyn FnMut(&Block) -> Result<(), Fault>) -> Result<(), Fault> {
+    fn each(
+        &self,
+        visit: &mut dyn FnMut(&Block) -> Result<(), OutputFault>,
+    ) -> Result<(), OutputFault> {
         self.computed.each(&mut |block| {
             self.tally.borrow_mut().add(block);
             self.progress.advance(block.len() as u64);
@@ -256,7 +259,7 @@ impl SweepReport {
         resumed: usize,
     ) -> Self {
         let [yielding, cracking, untrusted] = tally.beyond;
-        let axis = |axis: &Axis| format!("{} ({})", axis.name, axis.len);
+        let axis = |axis: &SweepAxis| format!("{} ({})", axis.name, axis.len);
         let part = spec.selection.as_ref();
         Self {
             output: outputs.results.path.display().to_string(),
@@ -486,7 +489,7 @@ struct Tally {
 }
 
 impl Tally {
-    fn of(rows: &impl Blocks) -> Result<Self, Fault> {
+    fn of(rows: &impl Blocks) -> Result<Self, OutputFault> {
         let mut tally = Self::default();
         rows.each(&mut |block| {
             tally.add(block);

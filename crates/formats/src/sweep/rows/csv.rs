@@ -5,7 +5,7 @@ use super::columns::{Cells, Column, columns};
 use crate::sweep::spec::Spec;
 use ::csv::Writer;
 use contact::{Choice, Model};
-use output::{Fault, Output, OutputError, Staged};
+use output::{Output, OutputError, OutputFault, Staged};
 use rayon::prelude::*;
 use std::fmt::{Display, Write as _};
 use std::io::{self, BufWriter, Write};
@@ -45,10 +45,10 @@ pub fn print_csv(
     let read = blocks.each(&mut |block| {
         let rows = (0..block.len()).into_par_iter().step_by(AT_A_TIME);
         let parts = rows.map(|from| lines(spec, columns, block, from));
-        let parts: Vec<Vec<u8>> = parts.collect::<Result<_, Fault>>()?;
+        let parts: Vec<Vec<u8>> = parts.collect::<Result<_, OutputFault>>()?;
         let written = parts.iter().try_for_each(|part| file.write_all(part));
         written.map_err(|error| {
-            let fault = Fault::from(error.to_string());
+            let fault = OutputFault::from(error.to_string());
             unwritten = Some(error);
             fault
         })
@@ -66,13 +66,13 @@ fn lines(
     columns: &[Column<'_>],
     block: &Block,
     from: usize,
-) -> Result<Vec<u8>, Fault> {
+) -> Result<Vec<u8>, OutputFault> {
     let some = from..(from + AT_A_TIME).min(block.len());
     let cells = columns.iter().map(|column| {
         let cells = column.what.cells(spec, block, some.clone())?;
         Ok((column.what.words(), cells))
     });
-    let cells: Vec<_> = cells.collect::<Result<_, Fault>>()?;
+    let cells: Vec<_> = cells.collect::<Result<_, OutputFault>>()?;
     let mut writer = Writer::from_writer(Vec::with_capacity(300 * some.len()));
     let mut digits = String::new();
     for i in 0..some.len() {

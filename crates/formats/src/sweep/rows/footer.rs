@@ -3,7 +3,7 @@
 //! It is found and checked without a reader of Parquet: that trusts what it reads.
 
 use crate::scene::section::parse;
-use crate::sweep::fields::{Fields, Precision, stored_columns};
+use crate::sweep::fields::{Precision, WrittenResults, stored_columns};
 use crate::sweep::shard::{Part, Selection};
 use ledger::sha256_hex;
 use serde::{Deserialize, Serialize};
@@ -95,7 +95,7 @@ impl Footer {
             "" => None,
             shard => Some(shard.parse().ok()?),
         };
-        let mut fields = Fields::all(stored_columns(&parse(&self.sweep).ok()?).ok()?);
+        let mut fields = WrittenResults::all(stored_columns(&parse(&self.sweep).ok()?).ok()?);
         fields.retain(|name| self.columns.contains_key(name));
         let mut precisions = [Precision::Double, Precision::Single].into_iter();
         fields.precision = precisions.find(|precision| self.bits == *precision as usize)?;

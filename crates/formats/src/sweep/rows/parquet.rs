@@ -10,7 +10,7 @@ use crate::sweep::spec::Spec;
 use bytes::Bytes;
 use contact::{Choice, Model};
 use ledger::sha256_hex;
-use output::{Fault, Output, OutputError, Staged};
+use output::{Output, OutputError, OutputFault, Staged};
 use parquet::basic::{Compression, Encoding, LogicalType, Repetition, Type as Physical, ZstdLevel};
 use parquet::column::writer::{
     ColumnCloseResult, ColumnWriter, ColumnWriterImpl, get_column_writer,
@@ -55,7 +55,7 @@ pub(super) fn stage_parquet<'a>(
         let mut write = |group: &mut Block| {
             row_groups.push(write_group(&mut writer, spec, &columns, &words, group)?);
             *group = Block::default();
-            Ok::<_, Fault>(())
+            Ok::<_, OutputFault>(())
         };
         let failed = each_of(spec, blocks, &mut |block| {
             let mut done = 0;
@@ -80,7 +80,7 @@ pub(super) fn stage_parquet<'a>(
         let text = serde_json::to_string(&footer).map_err(|error| error.to_string())?;
         writer.append_key_value_metadata(KeyValue::new("hertzlamb".to_owned(), text));
         writer.close().map_err(fault)?;
-        seal(made).map_err(Fault::from)
+        seal(made).map_err(OutputFault::from)
     })
 }
 
@@ -100,7 +100,7 @@ fn write_group(
     columns: &[Column<'_>],
     words: &[Vec<ByteArray>],
     rows: &Block,
-) -> Result<String, Fault> {
+) -> Result<String, OutputFault> {
     let (described, properties) = (writer.schema_descr().columns(), writer.properties());
     let columns = columns.par_iter().zip(words).zip(described);
     let encoded: Vec<_> = columns
@@ -268,9 +268,9 @@ fn properties(columns: &[Column<'_>]) -> Result<WriterProperties, ParquetError> 
     Ok(properties.build())
 }
 
-fn fault(error: ParquetError) -> Fault {
+fn fault(error: ParquetError) -> OutputFault {
     match error {
-        ParquetError::External(error) => Fault::from(error.to_string()),
-        other => Fault::from(other.to_string()),
+        ParquetError::External(error) => OutputFault::from(error.to_string()),
+        other => OutputFault::from(other.to_string()),
     }
 }
