@@ -114,13 +114,13 @@ fn names_no_material(culprit: &Culprit<'_>) -> bool {
 /// A text without its middle, where a file has a word of a megabyte.
 fn cut(text: &str) -> String {
     /// Letters of each end.
-    const END: usize = 1000;
+    const SHOWN_END: usize = 1000;
     let count = text.chars().count();
-    if count <= 2 * END {
+    if count <= 2 * SHOWN_END {
         return text.to_owned();
     }
-    let first: String = text.chars().take(END).collect();
-    let last: String = text.chars().skip(count - END).collect();
+    let first: String = text.chars().take(SHOWN_END).collect();
+    let last: String = text.chars().skip(count - SHOWN_END).collect();
     format!("{first}...{last}")
 }
 

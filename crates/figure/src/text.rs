@@ -24,7 +24,7 @@ impl TextRun {
     }
 }
 
-const SMALL: f64 = 0.72;
+const RAISED_SIZE: f64 = 0.72;
 const RAISED: f64 = 0.38;
 const LOWERED: f64 = -0.16;
 
@@ -52,7 +52,7 @@ pub(crate) fn runs(markup: &str) -> Vec<TextRun> {
         };
         push(&rest[..at], 1.0, 0.0);
         let is_raised = rest[at..].starts_with('^');
-        push(inner, SMALL, if is_raised { RAISED } else { LOWERED });
+        push(inner, RAISED_SIZE, if is_raised { RAISED } else { LOWERED });
         (rest, from) = (after, 0);
     }
     push(rest, 1.0, 0.0);

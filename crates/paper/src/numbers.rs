@@ -179,13 +179,13 @@ const PRINTED: &[(&str, &[Printed])] = printed! {
     "Coupled with the half-space, converged" {
         "Fig. 6" | "peak force, 123 GPa"           | "N"   | 0 | 160e3 (ROUNDED) = |o| o.runs.table_1.peak_force_n;
         "Fig. 6" | "peak force, 129 GPa"           | "N"   | 0 | 160e3 (ROUNDED) = |o| o.runs.printed.peak_force_n;
-        "Fig. 4" | "contact time, 123 GPa"         | "us"  | 3 | 27.0  (STEP) = |o| time_us(&o.runs.table_1);
-        "Fig. 4" | "contact time, 129 GPa"         | "us"  | 3 | 27.0  (STEP) = |o| time_us(&o.runs.printed);
-        "Fig. 4" | "restitution, 123 GPa"          | ""    | 5 | 0.991 (STEP) = |o| o.runs.table_1.restitution;
-        "Fig. 4" | "restitution, 129 GPa"          | ""    | 5 | 0.991 (STEP) = |o| o.runs.printed.restitution;
-        "Fig. 4" | "velocity of departure, 129 GPa" | "m/s" | 2 | 99.1 (STEP) = |o| o.runs.printed.rebound_velocity_m_s;
-        "Fig. 6" | "Kmax with 227 MPa, 129 GPa"    | ""    | 2 | 14.11 (STEP) = |o| kmax(o.runs.printed.peak_force_n, RADIUS_M);
-        "Fig. 6" | "drop of the peak force against Hertz, 129 GPa" | "%" | 2 | 11.6 (STEP) = |o| drop_percent(&o.runs.printed, o);
+        "Fig. 4" | "contact time, 123 GPa"         | "us"  | 3 | 27.0  (STEP_ERROR) = |o| time_us(&o.runs.table_1);
+        "Fig. 4" | "contact time, 129 GPa"         | "us"  | 3 | 27.0  (STEP_ERROR) = |o| time_us(&o.runs.printed);
+        "Fig. 4" | "restitution, 123 GPa"          | ""    | 5 | 0.991 (STEP_ERROR) = |o| o.runs.table_1.restitution;
+        "Fig. 4" | "restitution, 129 GPa"          | ""    | 5 | 0.991 (STEP_ERROR) = |o| o.runs.printed.restitution;
+        "Fig. 4" | "velocity of departure, 129 GPa" | "m/s" | 2 | 99.1 (STEP_ERROR) = |o| o.runs.printed.rebound_velocity_m_s;
+        "Fig. 6" | "Kmax with 227 MPa, 129 GPa"    | ""    | 2 | 14.11 (STEP_ERROR) = |o| kmax(o.runs.printed.peak_force_n, RADIUS_M);
+        "Fig. 6" | "drop of the peak force against Hertz, 129 GPa" | "%" | 2 | 11.6 (STEP_ERROR) = |o| drop_percent(&o.runs.printed, o);
     }
     "The paper's scheme (40)-(44), step 0.164 us, copper of 129 GPa" {
         "Fig. 6" | "peak force"            | "N"   | 0 | 160e3 (ROUNDED) = |o| o.runs.scheme.peak_force_n;
@@ -217,7 +217,7 @@ const STIFFER: &str = "the printed value belongs to copper of 129 GPa, Table 1 h
 const YIELD: &str =
     "57 MPa is the yield point of Table 1; the value was divided by its tensile strength, 227 MPa";
 const ROUNDED: &str = "160 kN is rounded: the printed Kmax of 14.11 is 161.0 kN";
-const STEP: &str = "time-step error of the explicit scheme, see its own rows below";
+const STEP_ERROR: &str = "time-step error of the explicit scheme, see its own rows below";
 const THREE_RADII: &str = "the text has t = r0/c1; the number is that of 3 r0/c1";
 const FORMULA: &str = "its own formula with its own numbers gives 0.774";
 

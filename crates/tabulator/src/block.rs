@@ -38,14 +38,14 @@ pub(crate) type Row = [Vec<f32>; 4];
 /// Radii and depths of the points of a kind: nodes, centres of meshes, or some of these.
 pub(crate) fn positions(kind: PointKind, grid: &Grid) -> [Vec<f64>; 2] {
     /// Places between slices along an axis, at most.
-    const PLACES: usize = 14;
+    const MOST_PLACES_BETWEEN: usize = 14;
     match kind {
         PointKind::Nodes => grid.nodes(),
         PointKind::Probes => {
             [&grid.r, &grid.z].map(|axis| lookup::centres(&axis.nodes(), axis.end()))
         }
         PointKind::Between => positions(PointKind::Probes, grid).map(|centres| {
-            let count = centres.len().min(PLACES);
+            let count = centres.len().min(MOST_PLACES_BETWEEN);
             (0..count)
                 .map(|i| centres[i * (centres.len() - 1) / (count - 1).max(1)])
                 .collect()

@@ -38,7 +38,7 @@ impl Grid {
         now: impl Fn() -> Option<f64>,
     ) -> Result<TableCost, BuildError> {
         /// Fewest points: some take ten times as long as others.
-        const FEWEST: usize = 32;
+        const FEWEST_POINTS: usize = 32;
         let memory_bytes = self.memory_bytes()?;
         let work = TableWork::new(self, None, &Silent)?;
         let depths = |block: &TableBlock| work.place(*block).2.len();
@@ -52,7 +52,7 @@ impl Grid {
             None => began.elapsed().as_secs_f64(),
         };
         let mut count = 0;
-        while count < points && (count < FEWEST || passed_s() < measured_s) {
+        while count < points && (count < FEWEST_POINTS || passed_s() < measured_s) {
             let place = part(count, 0.618_033_988_749_895) * work.blocks.len() as f64;
             let block = work.blocks[place as usize];
             let (ratio, r, depths) = work.place(block);

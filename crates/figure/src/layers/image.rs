@@ -54,8 +54,8 @@ impl Image {
         /// Pixels of the image for each pixel of the canvas.
         const FINE: f64 = 2.0;
         /// Most pixels along a side.
-        const MOST: f64 = 2000.0;
-        let count = |length: f64| (FINE * length).ceil().clamp(1.0, MOST);
+        const MOST_PIXELS: f64 = 2000.0;
+        let count = |length: f64| (FINE * length).ceil().clamp(1.0, MOST_PIXELS);
         let (columns, rows) = (count(frame.area.width()), count(frame.area.height()));
         let at = |column: u32, row: u32| {
             let across = (f64::from(column) + 0.5) / columns * frame.area.width();

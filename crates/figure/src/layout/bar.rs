@@ -16,7 +16,7 @@ fn arrow(is_beyond: bool) -> f64 {
 }
 
 /// Colours of the strip from its bottom to its top.
-const STEPS: u32 = 256;
+const STRIP_COLOURS: u32 = 256;
 
 /// A colour bar of a known height; x from the right side of the plot.
 #[derive(Debug, Clone, PartialEq)]
@@ -94,12 +94,15 @@ impl ColourBar {
             bottom: strip.bottom - below,
             ..strip
         };
-        let middle_of = |i: u32| (f64::from(i) + 0.5) / f64::from(STEPS);
+        let middle_of = |i: u32| (f64::from(i) + 0.5) / f64::from(STRIP_COLOURS);
         drawing.items.push(Item::Bitmap(Bitmap {
             area: body,
             columns: 1,
-            rows: STEPS,
-            pixels: (0..STEPS).rev().map(|i| Some(at(middle_of(i)))).collect(),
+            rows: STRIP_COLOURS,
+            pixels: (0..STRIP_COLOURS)
+                .rev()
+                .map(|i| Some(at(middle_of(i))))
+                .collect(),
         }));
         let middle = body.centre().0;
         for (is, fraction, base, tip) in [

@@ -266,8 +266,8 @@ fn bounds(lines: &[Text]) -> Rect {
 
 /// Points along everything that is drawn in a plot, in pixels, at most four apart.
 pub(super) fn occupied(panel: &Panel, frame: &Frame) -> Vec<Point> {
-    const STEP: f64 = 4.0;
-    let near = frame.area.grown(STEP);
+    const OCCUPIED_SPACING: f64 = 4.0;
+    let near = frame.area.grown(OCCUPIED_SPACING);
     let mut found = Vec::new();
     let curves = panel.layers.iter().flat_map(|layer| layer.curves(frame));
     let sides = curves.flat_map(|curve| frame.sides(&curve));
@@ -281,7 +281,7 @@ pub(super) fn occupied(panel: &Panel, frame: &Frame) -> Vec<Point> {
                 continue;
             };
             let length = (to - from) * (bx - ax).hypot(by - ay);
-            let parts = (length / STEP).ceil().max(1.0) as usize;
+            let parts = (length / OCCUPIED_SPACING).ceil().max(1.0) as usize;
             for i in 0..=parts {
                 let s = from + (to - from) * i as f64 / parts as f64;
                 found.push((ax + s * (bx - ax), ay + s * (by - ay)));

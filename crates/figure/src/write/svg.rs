@@ -116,7 +116,7 @@ fn image(picture: &Bitmap) -> Result<Image, FigureError> {
 }
 
 /// Letters are outlined in so many units of their size.
-const UNITS: f64 = 1000.0;
+const OUTLINE_UNITS: f64 = 1000.0;
 
 fn letter_id(letter: char) -> String {
     format!("u{:x}", u32::from(letter))
@@ -124,7 +124,7 @@ fn letter_id(letter: char) -> String {
 
 /// The outline of a letter in the font's units; none for a blank.
 fn letter_outline(letter: char) -> Option<String> {
-    let outline = font::outline(letter.encode_utf8(&mut [0; 4]), UNITS)?;
+    let outline = font::outline(letter.encode_utf8(&mut [0; 4]), OUTLINE_UNITS)?;
     let at = |p: tiny_skia::Point| format!("{} {}", number(p.x.into()), number(p.y.into()));
     let segments = outline.segments().map(|segment| match segment {
         PathSegment::MoveTo(p) => format!("M{}", at(p)),
@@ -145,7 +145,7 @@ fn label(text: &Text, used: &mut BTreeSet<char>) -> Group {
         for part in text.parts() {
             let rim = letters(part, text.is_upward)
                 .set("stroke", "#ffffff")
-                .set("stroke-width", number(3.0 * UNITS / part.1))
+                .set("stroke-width", number(3.0 * OUTLINE_UNITS / part.1))
                 .set("stroke-linejoin", "round");
             group = group.add(rim);
         }
@@ -158,7 +158,7 @@ fn label(text: &Text, used: &mut BTreeSet<char>) -> Group {
 
 fn letters((text, size, (x, y)): (&str, f64, Point), is_upward: bool) -> Group {
     let turned = if is_upward { "rotate(-90)" } else { "" };
-    let (x, y, size) = (number(x), number(y), size / UNITS);
+    let (x, y, size) = (number(x), number(y), size / OUTLINE_UNITS);
     let mut group = Group::new().set(
         "transform",
         format!("translate({x} {y}){turned}scale({size:.5})"),
@@ -170,7 +170,7 @@ fn letters((text, size, (x, y)): (&str, f64, Point), is_upward: bool) -> Group {
             let letter = Use::new().set("xlink:href", link);
             group = group.add(letter.set("x", number(along)));
         }
-        along += UNITS * font::width(letter.encode_utf8(&mut [0; 4]));
+        along += OUTLINE_UNITS * font::width(letter.encode_utf8(&mut [0; 4]));
     }
     group
 }

@@ -12,7 +12,7 @@ use impact::Strike;
 use std::path::Path;
 
 /// Relative difference up to which quantities given twice are taken as rounded, not different.
-const ROUNDING: f64 = 0.02;
+const ROUNDED_DIFFERENCE: f64 = 0.02;
 
 /// Reads a file of materials: one section a material, the keys of a scene's bodies plus `group` and `source`.
 ///
@@ -80,7 +80,7 @@ fn elastic(section: &TomlSection<'_>, base: Option<&Material>) -> Result<Materia
     for (i, (key, quantity, own)) in constants.into_iter().enumerate() {
         match speeds.map(|found| found[i]) {
             Some((value, _)) if section.value(key).is_none() => *own = value,
-            Some((value, size)) if (*own - value).abs() > ROUNDING * size => {
+            Some((value, size)) if (*own - value).abs() > ROUNDED_DIFFERENCE * size => {
                 let (name, by) = (section.name, "longitudinal_speed_m_s and shear_speed_m_s");
                 let sentence = format!(
                     "[{name}] gives {quantity} twice: {own} from {key} and {value} from {by}; leave one pair out"

@@ -333,7 +333,7 @@ fn read_section(root: &TomlSection<'_>) -> Result<Option<Section>, SceneError> {
     };
     section.allow_keys_of("map")?;
     let times_s = frame_times(&section)?;
-    let frames = section.count("frames", 1..=MOST_FRAMES, "[1, 100000]")?;
+    let frames = section.count("frames", 1..=MOST_SECTION_FRAMES, "[1, 100000]")?;
     let frames = match (frames, times_s.len()) {
         (Some(_), 1..) => {
             let reason = "times_s has a frame at each of its times";
@@ -361,7 +361,7 @@ fn read_section(root: &TomlSection<'_>) -> Result<Option<Section>, SceneError> {
 }
 
 /// Frames of a section, at most.
-const MOST_FRAMES: usize = 100_000;
+const MOST_SECTION_FRAMES: usize = 100_000;
 
 /// The times of the frames of a section, where it has some.
 fn frame_times(section: &TomlSection<'_>) -> Result<Vec<f64>, SceneError> {
@@ -373,7 +373,7 @@ fn frame_times(section: &TomlSection<'_>) -> Result<Vec<f64>, SceneError> {
         let rises = times_s.windows(2).all(|pair| pair[0] < pair[1]);
         let first_s = times_s.first()?;
         let is_list = rises && *first_s >= 0.0 && times_s.iter().all(|t| t.is_finite());
-        (is_list && times_s.len() <= MOST_FRAMES).then_some(times_s)
+        (is_list && times_s.len() <= MOST_SECTION_FRAMES).then_some(times_s)
     })?;
     Ok(times.unwrap_or_default())
 }

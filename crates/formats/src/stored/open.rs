@@ -13,7 +13,7 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 /// Most bytes of numbers that are read from a dataset at once.
-const MOST_BYTES: u64 = 1 << 29;
+const MOST_BYTES_AT_ONCE: u64 = 1 << 29;
 
 /// Major version of the files that are read.
 const MAJOR: &str = "1";
@@ -146,17 +146,17 @@ impl Stored {
 
     /// All numbers of a dataset of a shape.
     pub(super) fn numbers(&self, path: &str, shape: &[usize]) -> Result<Vec<f64>, SceneError> {
-        self.read(path, self.of_shape(path, shape)?.as_f64(MOST_BYTES))
+        self.read(path, self.of_shape(path, shape)?.as_f64(MOST_BYTES_AT_ONCE))
     }
 
     /// All numbers of a list.
     pub(super) fn vector(&self, path: &str) -> Result<Vec<f64>, SceneError> {
-        self.read(path, self.list(path)?.as_f64(MOST_BYTES))
+        self.read(path, self.list(path)?.as_f64(MOST_BYTES_AT_ONCE))
     }
 
     /// All texts of a list.
     pub(super) fn texts(&self, path: &str) -> Result<Vec<String>, SceneError> {
-        self.read(path, self.list(path)?.texts(MOST_BYTES))
+        self.read(path, self.list(path)?.texts(MOST_BYTES_AT_ONCE))
     }
 
     /// A dataset with one dimension.
@@ -174,7 +174,11 @@ impl Stored {
     ) -> Result<Vec<T>, SceneError> {
         let mut block: Vec<_> = shape.iter().map(|&n| 0..n).collect();
         block[0] = first;
-        self.read(path, self.of_shape(path, shape)?.block(&block, MOST_BYTES))
+        self.read(
+            path,
+            self.of_shape(path, shape)?
+                .block(&block, MOST_BYTES_AT_ONCE),
+        )
     }
 
     /// Which results a group has as datasets of a shape, and how exactly.

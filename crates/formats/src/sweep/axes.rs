@@ -106,12 +106,12 @@ fn spaced(range: &TomlSection<'_>) -> Result<Vec<f64>, SceneError> {
 /// A value that is whole decades from another but for rounding, as the decimal that it is meant to be.
 fn decade(from: f64, value: f64) -> f64 {
     /// Rounding of a logarithm and a power, in decades.
-    const ROUNDING: f64 = 1e-13;
+    const DECADE_ROUNDING: f64 = 1e-13;
     let decades = (value / from).log10();
     let whole = decades.round();
     let shown = format!("{from:e}");
     match shown.split_once('e') {
-        Some((digits, exponent)) if (decades - whole).abs() < ROUNDING => {
+        Some((digits, exponent)) if (decades - whole).abs() < DECADE_ROUNDING => {
             let exponent = exponent.parse::<f64>().unwrap_or(0.0) + whole;
             format!("{digits}e{exponent}").parse().unwrap_or(value)
         }

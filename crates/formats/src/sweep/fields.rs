@@ -87,7 +87,7 @@ impl WrittenResults {
 }
 
 /// Columns of the probes at most: a dimension scale names every dataset that it belongs to in 64 kB.
-const MOST: usize = 2000;
+const MOST_PROBE_COLUMNS: usize = 2000;
 
 /// Whether the kernels of a row were looked up.
 const TABLE: (&str, &str, &str) = (
@@ -108,7 +108,7 @@ pub(super) fn columns_of_probes(scene: &Table) -> Result<Vec<Described>, SceneEr
     let quantities = quantities.transpose()?.unwrap_or_default();
     let fields: Vec<_> = labels_of(&quantities).collect();
     let count = 1 + 3 * probes * fields.len();
-    if count > MOST {
+    if count > MOST_PROBE_COLUMNS {
         let key = "the number of columns of the probes";
         return Err(SceneError::out_of_range(key, count as f64, "[0, 2000]"));
     }

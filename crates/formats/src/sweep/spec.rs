@@ -57,7 +57,7 @@ const MOST_ROWS: usize = 1_000_000_000_000;
 const RUN_BYTES: usize = 120_000_000;
 
 /// Distinct Poisson's ratios of targets up to which each has its own response, and its own part of a table.
-const FEW: usize = 256;
+const FEW_RATIOS: usize = 256;
 
 impl Spec {
     /// Reads a sweep file; the scene it names is looked for beside it.
@@ -282,7 +282,7 @@ impl Spec {
                 && (column.key == "poisson_ratio" || column.key.ends_with("_speed_m_s"))
         };
         let mut axes = self.axes.iter();
-        axes.any(|axis| axis.len > FEW && axis.columns.iter().any(of_ratio))
+        axes.any(|axis| axis.len > FEW_RATIOS && axis.columns.iter().any(of_ratio))
     }
 }
 

@@ -117,9 +117,9 @@ fn add_slow(singularities: &mut Singularities, setting: &Setting, at: Point, wav
 fn with_mirror(point: Complex64, mut add: impl FnMut(Complex64)) {
     const NEAR_ZERO: f64 = 0.3;
     /// Beyond this a half-angle costs no node.
-    const FAR: f64 = 2.5;
+    const COSTLESS_ANGLE: f64 = 2.5;
     let right = if point.re < 0.0 { -point } else { point };
-    if right.norm_sqr() > FAR * FAR {
+    if right.norm_sqr() > COSTLESS_ANGLE * COSTLESS_ANGLE {
         return;
     }
     add(right);

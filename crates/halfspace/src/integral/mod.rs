@@ -30,7 +30,7 @@ use crate::domain::NEAREST;
 use crate::field::{Estimate, Field, Point, Sense, Six};
 use crate::numeric::lanes::dispatch;
 use crate::potentials::closed_form::SMALL_RADIUS;
-use crate::potentials::far_front::{ALL, FAR};
+use crate::potentials::far_front::{FAR_RADIUS, ROUNDING_DIGITS};
 use crate::potentials::{STEP, STEP_INTEGRAL, shallow};
 use crate::profile::Profile;
 use num_complex::Complex64;
@@ -111,8 +111,10 @@ impl Setting {
         }
         for (place, weight, error) in nodes.iter() {
             let (jacobian, mut term) = match sense {
-                Some(sense) => self.fast_term::<N, f64>((at, ALL), (wave, sense), place),
-                None => self.slow_term::<N, f64>((at, ALL), wave, place),
+                Some(sense) => {
+                    self.fast_term::<N, f64>((at, ROUNDING_DIGITS), (wave, sense), place)
+                }
+                None => self.slow_term::<N, f64>((at, ROUNDING_DIGITS), wave, place),
             };
             match sense {
                 _ if !shallow => {}
@@ -130,7 +132,7 @@ impl Setting {
 /// its inverse root.
 fn rounding_floor<const N: i32>(profile: Profile, r: f64) -> Six {
     const UNIT: f64 = 2.0 * f64::EPSILON;
-    let [displacement, stress] = if N == STEP && profile == Profile::Hertz && r > FAR {
+    let [displacement, stress] = if N == STEP && profile == Profile::Hertz && r > FAR_RADIUS {
         [UNIT / r.sqrt(); 2]
     } else {
         // the primitives are divided by r^2

@@ -21,16 +21,16 @@ const MOST_NODES: usize = 24;
 const NARROWEST: f64 = 1e-9;
 
 /// Axis of the ellipse through what is left out as too far to matter.
-const FARTHEST: f64 = 7.0;
+const FARTHEST_ELLIPSE: f64 = 7.0;
 
 /// Singularities on ellipses so many times larger than the smallest leave nothing beside what that leaves.
-const NEAR: f64 = 2.0;
+const FARTHER_ELLIPSE: f64 = 2.0;
 
 /// The error at a pole of third order over that at a simple one.
 const POLE: f64 = 30.0;
 
 /// Relative rounding error of a term.
-pub(crate) const ROUNDING: f64 = 4.0 * f64::EPSILON;
+pub(crate) const TERM_ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 /// One end of an interval and where it goes: v = start + scale s^power for s in [0, 1].
 #[derive(Debug, Clone, Copy)]
@@ -100,7 +100,7 @@ pub(crate) fn panels(
     stack.push([0.0, 1.0]);
     while let Some(ends) = stack.pop() {
         let [s0, s1] = ends;
-        let smallest = singularities.smallest_axis(ends).min(FARTHEST);
+        let smallest = singularities.smallest_axis(ends).min(FARTHEST_ELLIPSE);
         let pole = half_axes(major_axis(pole.re, pole.im, ends));
         let (rate, pole_rate) = (half_axes(smallest).ln(), pole.ln());
         let at_cut = s0 == 0.0 && finite_part;
@@ -116,7 +116,7 @@ pub(crate) fn panels(
         }
         let n = nodes.saturating_add(2).max(least).min(MOST_NODES);
         let exponent = degree as u32 * n as u32;
-        let all = singularities.sum_of_inverse_powers(ends, NEAR * smallest, exponent);
+        let all = singularities.sum_of_inverse_powers(ends, FARTHER_ELLIPSE * smallest, exponent);
         // of the whole panel, as if one node had it
         let of_rule = caution * (all + POLE * power(pole, exponent).recip()) * (n as f64).sqrt();
         let (rule, middle, half) = if at_cut {
@@ -124,7 +124,7 @@ pub(crate) fn panels(
         } else {
             (gauss::rule(n), middle, half)
         };
-        let error = of_rule + ROUNDING;
+        let error = of_rule + TERM_ROUNDING;
         f(&PanelNodes {
             rule,
             middle,
@@ -138,7 +138,7 @@ pub(crate) fn panels(
 /// Sum of half axes of the smallest ellipse with foci s0, s1 through a singularity, focal distance 2.
 pub(crate) fn smallest_ellipse(images: &[Complex64], foci: [f64; 2]) -> f64 {
     let axes = images.iter().map(|v| major_axis(v.re, v.im, foci));
-    half_axes(axes.fold(FARTHEST, f64::min))
+    half_axes(axes.fold(FARTHEST_ELLIPSE, f64::min))
 }
 
 /// How strong the singularities at the cuts of an integration interval are.

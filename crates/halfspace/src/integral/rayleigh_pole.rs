@@ -5,13 +5,13 @@
 //! ```
 
 use crate::field::Point;
-use crate::integral::panels::{ROUNDING, SingularityStrength};
+use crate::integral::panels::{SingularityStrength, TERM_ROUNDING};
 use crate::integral::rayleigh_front::Front;
 use crate::integral::setting::Setting;
 use crate::integral::sum::Sum;
 use crate::numeric::lanes::{Lanes, Pair, dispatch};
 use crate::potentials::closed_form::{of_one, potentials};
-use crate::potentials::far_front::ALL;
+use crate::potentials::far_front::ROUNDING_DIGITS;
 use crate::potentials::{Order, Potentials, STEP, shallow};
 use crate::profile::Profile;
 use num_complex::Complex64;
@@ -64,19 +64,20 @@ impl Setting {
             .into_iter()
             .fold(f64::INFINITY, f64::min);
         let size = height + at.r + radius;
-        let front = ROUNDING * size / gap.max(f64::EPSILON * size);
+        let front = TERM_ROUNDING * size / gap.max(f64::EPSILON * size);
         match strength {
             // where the two waves cancel
-            SingularityStrength::Bounded if shallow => [ROUNDING + front; 2],
+            SingularityStrength::Bounded if shallow => [TERM_ROUNDING + front; 2],
             // stresses have a root there
             SingularityStrength::Bounded => [
-                ROUNDING * (1.0 + size),
-                ROUNDING * (1.0 + size / gap.max(f64::EPSILON * size).sqrt()),
+                TERM_ROUNDING * (1.0 + size),
+                TERM_ROUNDING * (1.0 + size / gap.max(f64::EPSILON * size).sqrt()),
             ],
-            SingularityStrength::InverseRoot => {
-                [ROUNDING + ROUNDING.sqrt() * front.sqrt(), ROUNDING + front]
-            }
-            SingularityStrength::FinitePart => [ROUNDING + front, ROUNDING + 3.0 * front],
+            SingularityStrength::InverseRoot => [
+                TERM_ROUNDING + TERM_ROUNDING.sqrt() * front.sqrt(),
+                TERM_ROUNDING + front,
+            ],
+            SingularityStrength::FinitePart => [TERM_ROUNDING + front, TERM_ROUNDING + 3.0 * front],
         }
     }
 }
@@ -96,7 +97,7 @@ impl WithSimd for Two {
         let parts = self.xi.map(|xi| [xi.re, xi.im]);
         let [re, im] = [0, 1].map(|i| Lanes::two(simd, parts.map(|xi| xi[i])));
         let xi = Pair { re, im };
-        let psi = potentials::<STEP, Pair<S>>(self.profile, xi, (self.r, ALL), false);
+        let psi = potentials::<STEP, Pair<S>>(self.profile, xi, (self.r, ROUNDING_DIGITS), false);
         let [first, second] = [0, 1].map(|i| psi.map(|v| Complex64::new(v.re.get(i), v.im.get(i))));
         [first, second]
     }

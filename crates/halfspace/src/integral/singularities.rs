@@ -5,7 +5,9 @@
 //!
 //! Theory: `docs/theory.md` (T18).
 
-use crate::integral::panels::{IntervalEnd, PanelNodes, ROUNDING, SingularityStrength, panels};
+use crate::integral::panels::{
+    IntervalEnd, PanelNodes, SingularityStrength, TERM_ROUNDING, panels,
+};
 use crate::numeric::lanes::{ComplexMap, Points};
 use crate::numeric::scalar::{Complex, Scalar};
 use arrayvec::ArrayVec;
@@ -18,14 +20,14 @@ const SQUARE: i32 = 2;
 const HIGH: i32 = 6;
 
 /// Cuts at a relative distance below this are one.
-const SAME: f64 = 1e-13;
+const SAME_CUT: f64 = 1e-13;
 
-/// Smaller places are as good as zero once multiplied by [`SAME`].
-const SMALLEST: f64 = 1e-14;
+/// Smaller places are as good as zero once multiplied by [`SAME_CUT`].
+const LEAST_PLACE: f64 = 1e-14;
 
 /// Whether two places in [0, 1] are one: just after a plane front cuts of 1e-16 are distinct from zero.
 fn same(a: f64, b: f64) -> bool {
-    (a - b).abs() <= SAME * a.max(b).max(SMALLEST)
+    (a - b).abs() <= SAME_CUT * a.max(b).max(LEAST_PLACE)
 }
 
 /// Most cuts that an integrand of this crate has.
@@ -61,7 +63,7 @@ impl Singularities {
             pole,
             strength: SingularityStrength::Bounded,
             root_ends,
-            rounding: ROUNDING,
+            rounding: TERM_ROUNDING,
             images: Points::default(),
         };
         fixed.into_iter().for_each(|point| singularities.add(point));
@@ -75,7 +77,7 @@ impl Singularities {
         self.cuts.clone_from(&fixed.cuts);
         self.points.copy(&fixed.points);
         (self.pole, self.root_ends) = (fixed.pole, fixed.root_ends);
-        (self.strength, self.rounding) = (strength, times * ROUNDING);
+        (self.strength, self.rounding) = (strength, times * TERM_ROUNDING);
     }
 
     /// Adds a singularity: a cut if it lies on the interval, a point to keep away from otherwise.
@@ -83,14 +85,14 @@ impl Singularities {
     /// Of a conjugate pair one is enough.
     pub(crate) fn add(&mut self, point: Complex64) {
         /// A singularity this close to the interval is worth a cut: the squared variable resolves it sooner.
-        const CLOSE: f64 = 0.02;
+        const CUT_DISTANCE: f64 = 0.02;
         /// Beyond this distance a singularity costs no node.
-        const FAR: f64 = 1.5;
+        const COSTLESS_DISTANCE: f64 = 1.5;
         let clear = (point.re - 0.5).abs() - 0.5;
-        if !(clear < FAR && point.im.abs() < FAR) {
+        if !(clear < COSTLESS_DISTANCE && point.im.abs() < COSTLESS_DISTANCE) {
             return;
         }
-        if clear < CLOSE && point.im.abs() < CLOSE {
+        if clear < CUT_DISTANCE && point.im.abs() < CUT_DISTANCE {
             let cut = point.re.clamp(0.0, 1.0);
             self.cuts.push(cut);
             self.points.push(cut.into());
@@ -163,7 +165,7 @@ impl Singularities {
             start,
             scale,
             // the singularity of the cut itself is what the power is for
-            least: if is_cut { SAME } else { 0.0 },
+            least: if is_cut { SAME_CUT } else { 0.0 },
             square: power == SQUARE,
         };
         self.images.copy(&self.points);
@@ -213,7 +215,7 @@ impl Singularities {
             return MERGED;
         }
         let squares = self.points.iter().map(|point| (point - cut).norm_sqr());
-        let least = SAME * cut.max(SMALLEST);
+        let least = SAME_CUT * cut.max(LEAST_PLACE);
         let others = squares.filter(|square| *square > least * least);
         let nearest = others.fold(1.0, f64::min).sqrt();
         let neighbour = if nearest < OTHER_ROOT * cut {

@@ -21,11 +21,11 @@ use crate::potentials::Potentials;
 use std::f64::consts::PI;
 
 /// Radius from which on the closed forms are replaced.
-pub(crate) const FAR: f64 = 25.0;
+pub(crate) const FAR_RADIUS: f64 = 25.0;
 
 const C: f64 = 0.375 / PI;
 
-/// Most terms of the series, enough at [`FAR`] for |delta| <= 11.
+/// Most terms of the series, enough at [`FAR_RADIUS`] for |delta| <= 11.
 const MOST_TERMS: usize = 26;
 
 /// The four chord integrals.
@@ -35,15 +35,15 @@ struct ChordIntegrals<T> {
 }
 
 /// Digits that reach rounding.
-pub(crate) const ALL: f64 = 37.0;
+pub(crate) const ROUNDING_DIGITS: f64 = 37.0;
 
 /// Terms of the series that leave exp(-`digits`).
 #[inline(always)]
 fn terms(r: f64, digits: f64) -> usize {
     /// Largest distance behind a front for which the multipole series is not taken, whatever is beside it in a register.
-    const LARGEST: f64 = 12.0;
-    let ratio = LARGEST / (2.0 * r);
-    ((-digits.min(ALL) / ratio.ln()) as usize + 1).clamp(4, MOST_TERMS)
+    const MULTIPOLE_LIMIT: f64 = 12.0;
+    let ratio = MULTIPOLE_LIMIT / (2.0 * r);
+    ((-digits.min(ROUNDING_DIGITS) / ratio.ln()) as usize + 1).clamp(4, MOST_TERMS)
 }
 
 /// The integrals from delta and its square root at both ends, sigma = -1 and 1.

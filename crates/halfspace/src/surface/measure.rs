@@ -9,7 +9,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Nodes of Gauss on a panel, and between two of the angles at which a panel is fitted.
 const WHOLE: usize = 16;
-const PART: usize = 8;
+const FITTED_NODES: usize = 8;
 
 /// The measure mu with its moments summed panel by panel from the slow end.
 #[derive(Debug, Clone)]
@@ -126,7 +126,7 @@ impl SurfaceMeasure {
                 self.add(zone, 0.5 * end, end, &mut sum, WHOLE);
                 end *= 0.5;
             }
-            self.add(zone, angle, end, &mut sum, PART);
+            self.add(zone, angle, end, &mut sum, FITTED_NODES);
             end = angle;
             sum
         })

@@ -6,12 +6,12 @@ use halfspace::{Field, Six};
 use pulp::{Arch, Simd, WithSimd};
 
 /// Rows of numbers that are added at a time.
-const ROWS: usize = 8;
+const ROWS_AT_A_TIME: usize = 8;
 
 /// The nodes of a patch.
 pub(crate) struct PatchNodes {
     /// Whole groups of them, each node with its weights for fields even and odd across r = 0.
-    groups: Vec<([usize; ROWS], [[f64; ROWS]; 2])>,
+    groups: Vec<([usize; ROWS_AT_A_TIME], [[f64; ROWS_AT_A_TIME]; 2])>,
     /// Factor with which a constant stays what it is.
     scale: f64,
 }
@@ -20,18 +20,18 @@ impl PatchNodes {
     /// Those of a patch `across` by `down` of a grid with `depths` depths; nodes that weigh nothing are left out.
     pub(crate) fn new(across: &Stencil, down: &Stencil, depths: usize) -> Self {
         let most = across.nodes().len() * down.nodes().len();
-        let mut groups: Vec<([usize; ROWS], [[f64; ROWS]; 2])> =
-            Vec::with_capacity(most.div_ceil(ROWS));
-        let (mut slot, mut rounded) = (ROWS, 0.0);
+        let mut groups: Vec<([usize; ROWS_AT_A_TIME], [[f64; ROWS_AT_A_TIME]; 2])> =
+            Vec::with_capacity(most.div_ceil(ROWS_AT_A_TIME));
+        let (mut slot, mut rounded) = (ROWS_AT_A_TIME, 0.0);
         for ((&i, &even), &odd) in across.nodes().iter().zip(across.even()).zip(across.odd()) {
             for (&k, &own) in down.nodes().iter().zip(down.even()) {
                 let (node, weights) = (i * depths + k, [even * own, odd * own].map(exact_weight));
                 if weights == [0.0; 2] {
                     continue;
                 }
-                if slot == ROWS {
+                if slot == ROWS_AT_A_TIME {
                     // places that stay empty are the first node at no weight
-                    groups.push(([node; ROWS], [[0.0; ROWS]; 2]));
+                    groups.push(([node; ROWS_AT_A_TIME], [[0.0; ROWS_AT_A_TIME]; 2]));
                     slot = 0;
                 }
                 if let Some((places, [even, odd])) = groups.last_mut() {
@@ -90,8 +90,8 @@ impl WithSimd for GatherSum<'_> {
         let mut found = vec![Six::default(); used];
         for &(values, weight) in slices {
             // a register that lies across two lines of the cache takes twice as long
-            let mut room = vec![0.0; FIELDS * used + ROWS];
-            let start = room.as_ptr().align_offset(64).min(ROWS);
+            let mut room = vec![0.0; FIELDS * used + ROWS_AT_A_TIME];
+            let start = room.as_ptr().align_offset(64).min(ROWS_AT_A_TIME);
             let sums = &mut room[start..][..FIELDS * used];
             let mut field = 0;
             while field < FIELDS {
@@ -106,7 +106,7 @@ impl WithSimd for GatherSum<'_> {
                     let (rows, own) = (places.map(row), weights[usize::from(ODD[field])]);
                     for (t, sum) in sums.iter_mut().enumerate() {
                         let mut total = *sum;
-                        for k in 0..ROWS {
+                        for k in 0..ROWS_AT_A_TIME {
                             total = add(own[k], rows[k][t], total);
                         }
                         *sum = total;

@@ -159,8 +159,8 @@ fn fields(run: &Run) -> Result<Vec<([f64; 2], FieldHistory)>, AnyError> {
     places.dedup();
     let fields = run
         .excitation()
-        .fields(1e-2 * TOLERANCE)?
-        .to_tolerance(TOLERANCE);
+        .fields(1e-2 * FIELD_TOLERANCE)?
+        .to_tolerance(FIELD_TOLERANCE);
     let fields = fields.until(UNTIL * run.contact_time_s);
     let at = places.into_par_iter().map(|[r, z]| {
         let history = fields.at(r * RADIUS_M, z * RADIUS_M)?;
@@ -275,7 +275,7 @@ fn of_quiet(curves: &[Curve], speeds: &WaveSpeeds) -> Vec<Claim> {
 const UNTIL: f64 = 1.6;
 
 /// Relative tolerance of the fields.
-const TOLERANCE: f64 = 1e-4;
+const FIELD_TOLERANCE: f64 = 1e-4;
 
 /// The value of a curve that is farthest from zero.
 fn peak(curve: &Curve) -> f64 {

@@ -14,14 +14,14 @@ use crate::words::{digits, with_unit};
 use contact::Shape;
 use figure::{Figure, Sharing};
 use formats::stored::{StoredImpact, Value};
-use histories::{FEW, contact_names, contact_panels, loop_panel, probe_panels};
+use histories::{FEW_PROBES, contact_names, contact_panels, loop_panel, probe_panels};
 use labels::labels;
 use spectrum::spectrum;
 use std::collections::BTreeMap;
 use std::{mem, slice};
 
 /// Frames of an animation, at most.
-const MOST_FRAMES: usize = 120;
+const MOST_ANIMATED_FRAMES: usize = 120;
 
 /// The figure of some impacts, and what its user should know.
 pub(crate) fn of_impacts(impacts: &[StoredImpact], request: &Request) -> Drawn<Figure> {
@@ -68,7 +68,11 @@ pub(crate) fn of_impacts(impacts: &[StoredImpact], request: &Request) -> Drawn<F
 
 /// The frames of an animation, a figure each, and what its user should know.
 pub(crate) fn frames_of(impact: &StoredImpact, request: &Request) -> Drawn<Vec<Figure>> {
-    let (panels, notes) = frames(impact, request, request.frames.unwrap_or(MOST_FRAMES))?;
+    let (panels, notes) = frames(
+        impact,
+        request,
+        request.frames.unwrap_or(MOST_ANIMATED_FRAMES),
+    )?;
     let base = headed(slice::from_ref(impact), request, 1).width(720.0);
     let figures = panels.into_iter().map(|panel| base.clone().panel(panel));
     Ok((figures.collect(), notes))
@@ -83,7 +87,7 @@ fn headed(impacts: &[StoredImpact], request: &Request, columns: usize) -> Figure
 fn histories(impacts: &[StoredImpact], kind: PictureKind, request: &Request) -> Drawn<Figure> {
     let labels = labels(impacts);
     let is_all = kind == PictureKind::Probes;
-    let most = if is_all { usize::MAX } else { FEW };
+    let most = if is_all { usize::MAX } else { FEW_PROBES };
     let is_of_contact = |name: &String| contact_names().contains(&name.as_str());
     let (of_contact, at_probes): (Vec<String>, Vec<String>) =
         request.quantities.iter().cloned().partition(is_of_contact);

@@ -25,7 +25,7 @@ pub(super) struct SectionView<'a> {
 }
 
 /// Distance of the S front, over the width of the section, from which on fronts are named.
-const APART: f64 = 0.12;
+const NAMED_FRONTS_APART: f64 = 0.12;
 
 impl<'a> SectionView<'a> {
     /// The section of a results file.
@@ -247,7 +247,7 @@ impl<'a> SectionView<'a> {
             (across, radius * angle.cos())
         };
         // names of fronts that are not apart yet would lie over one another
-        if s < APART * self.extent_m()[0] {
+        if s < NAMED_FRONTS_APART * self.extent_m()[0] {
             return layers;
         }
         let named = [
@@ -269,21 +269,21 @@ pub(super) struct SectionGrid {
 }
 
 /// Places along a side of a picture: more than its pixels on a page.
-const PLACES: usize = 400;
+const PICTURE_PLACES: usize = 400;
 
-/// Places at nodes and evenly between them, [`PLACES`] or more: the node below each, and the fraction of the way to the next.
+/// Places at nodes and evenly between them, [`PICTURE_PLACES`] or more: the node below each, and the fraction of the way to the next.
 pub(super) fn between(nodes: &[f64]) -> Vec<(usize, f64)> {
     let cells = nodes.len() - 1;
-    let parts = PLACES.div_ceil(cells);
+    let parts = PICTURE_PLACES.div_ceil(cells);
     let inner = (0..cells * parts).map(|i| (i / parts, (i % parts) as f64 / parts as f64));
     inner.chain([(cells, 0.0)]).collect()
 }
 
 /// Points at a distance from a disc: a quarter circle around its edge and the plane part below it.
 fn capsule(disc_radius_m: f64, distance_m: f64) -> Vec<(f64, f64)> {
-    const POINTS: u32 = 90;
-    let arc = (0..=POINTS).map(|i| {
-        let angle = FRAC_PI_2 * f64::from(i) / f64::from(POINTS);
+    const QUARTER_POINTS: u32 = 90;
+    let arc = (0..=QUARTER_POINTS).map(|i| {
+        let angle = FRAC_PI_2 * f64::from(i) / f64::from(QUARTER_POINTS);
         let across = disc_radius_m + distance_m * angle.cos();
         (across, distance_m * angle.sin())
     });

@@ -16,7 +16,7 @@ use halfspace::{Kernel, Medium, Profile};
 const MOST_INSTANTS: usize = 600;
 
 /// Frames within a pulse below which a picture of distance against time is not smooth.
-const SMOOTH: f64 = 8.0;
+const SMOOTH_FRAMES: f64 = 8.0;
 
 /// Distances along the surface against time, or depths on the axis, with the fronts that pass there.
 pub(crate) fn space_time(
@@ -110,7 +110,7 @@ fn coarse(section: &SectionView<'_>, times: &[f64]) -> Vec<String> {
     else {
         return Vec::new();
     };
-    let (needed_s, known) = (section.pulse_s / SMOOTH, &section.stored.time_s);
+    let (needed_s, known) = (section.pulse_s / SMOOTH_FRAMES, &section.stored.time_s);
     let needed = ((known[known.len() - 1] - known[0]) / needed_s).ceil() + 1.0;
     let [step, pulse] = [step_s, section.pulse_s].map(|time_s| with_unit(time_s, "s"));
     let note = format!(
@@ -261,11 +261,11 @@ fn static_points(
         "m" => units.displacement_m_per_n(),
         _ => units.stress_pa_per_n(),
     };
-    const POINTS: u32 = 400;
+    const STATIC_POINTS: u32 = 400;
     let most = section.extent_m()[1];
     let mut points = Vec::new();
-    for i in 0..=POINTS {
-        let z_m = most * 1e-4_f64.powf(1.0 - f64::from(i) / f64::from(POINTS));
+    for i in 0..=STATIC_POINTS {
+        let z_m = most * 1e-4_f64.powf(1.0 - f64::from(i) / f64::from(STATIC_POINTS));
         let six = kernel.static_field(0.0, z_m / section.disc_radius_m)?;
         let size = match (field, quantity.stress) {
             (Some(field), _) => six[field],

@@ -9,7 +9,7 @@ use figure::{ColourMap, Layer, Legend, Panel, Scale, Style};
 use formats::stored::StoredImpact;
 
 /// Frames from which on a picture is a whole history.
-const FEW: usize = 9;
+const FEW_FRAMES: usize = 9;
 
 /// Frames of a section at the times that are asked for, or `count` until the longitudinal wave leaves it; and
 /// what their user should know.
@@ -59,7 +59,7 @@ fn instants(section: &SectionView<'_>, count: usize) -> Vec<usize> {
     let (length_s, first, last) = match section.is_near() {
         true => (section.pulse_s, half, 1.0 - half),
         // a few frames begin where waves have parted, many where the force does
-        false if count > FEW => (section.crossing_s(), 0.0, 1.0),
+        false if count > FEW_FRAMES => (section.crossing_s(), 0.0, 1.0),
         false => (section.crossing_s(), 0.4, 1.0),
     };
     let steps = (count - 1).max(1) as f64;
@@ -160,9 +160,9 @@ fn over_frames(
     quantity: &SectionQuantity,
 ) -> Result<(Vec<f64>, String, Vec<String>), PlotError> {
     /// Frames that are looked at, at most.
-    const MOST_FRAMES: usize = 2000;
+    const MOST_SEARCHED_FRAMES: usize = 2000;
     let frames = section.stored.time_s.len();
-    let looked_at = (0..frames).step_by(frames.div_ceil(MOST_FRAMES));
+    let looked_at = (0..frames).step_by(frames.div_ceil(MOST_SEARCHED_FRAMES));
     let count = looked_at.len();
     let mut peaks: Vec<f64> = Vec::new();
     for frame in looked_at {

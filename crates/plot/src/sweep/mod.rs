@@ -146,11 +146,15 @@ pub(crate) fn of_sweep(path: &Path, request: &Request) -> Drawn<Figure> {
 /// The name of a sweep and the keys that vary.
 fn title(path: &Path, sweep: &StoredSweep) -> String {
     /// Keys that are named, at most.
-    const MOST_KEYS: usize = 4;
+    const MOST_TITLE_KEYS: usize = 4;
     let columns = sweep.axes.iter().flat_map(|axis| &axis.columns);
     let keys: Vec<String> = columns.map(|column| of_key(&column.name()).0).collect();
-    let more = if keys.len() > MOST_KEYS { ", ..." } else { "" };
-    let named = keys[..keys.len().min(MOST_KEYS)].join(", ");
+    let more = if keys.len() > MOST_TITLE_KEYS {
+        ", ..."
+    } else {
+        ""
+    };
+    let named = keys[..keys.len().min(MOST_TITLE_KEYS)].join(", ");
     format!("Sweep {} over {named}{more}", stem(path))
 }
 

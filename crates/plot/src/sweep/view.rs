@@ -177,7 +177,7 @@ fn find<'a>(sweep: &'a StoredSweep, key: &str) -> Result<(usize, &'a SweptKey), 
 /// The index of a value of a key, a number to nine digits.
 fn index_of(sweep: &StoredSweep, column: &SweptKey, value: &str) -> Result<usize, PlotError> {
     /// Numbers that are told, at most.
-    const MOST: usize = 12;
+    const MOST_NUMBERS_SHOWN: usize = 12;
     let key = column.name();
     if let Values::Texts(words) = &column.values {
         let found = words.iter().position(|word| word == value);
@@ -191,7 +191,7 @@ fn index_of(sweep: &StoredSweep, column: &SweptKey, value: &str) -> Result<usize
     if let Some(found) = numbers.clone().position(is_wanted) {
         return Ok(found);
     }
-    let allowed = if column.values.count() <= MOST {
+    let allowed = if column.values.count() <= MOST_NUMBERS_SHOWN {
         let numbers: Vec<String> = numbers.map(|number| number.to_string()).collect();
         numbers.join(", ")
     } else {

@@ -282,14 +282,14 @@ fn implicit(
 /// The largest root, in modulus, of p_n/k + coupling [p_n - sum_j g_j (p_{n-j} - p_{n-j-1})] = 0, for the dynamic
 /// share without the first p_n in brackets, from a long run of the recurrence; below one the samples settle.
 pub(super) fn linear_growth(disc: &FixedDisc<'_>, stiffness: f64, step: f64) -> f64 {
-    const STEPS: usize = 400;
+    const RECURRENCE_STEPS: usize = 400;
     let lag = Weights::of(disc, disc.response, step).values;
     let own = 1.0 / stiffness + disc.coupling * (disc.share.factor() - lag[0]);
     let mut p = vec![0.0; lag.len() + 1];
     p.push(1.0);
     // rescaled so that nothing overflows; the logarithm of the scale is kept
     let mut growth = 0.0;
-    for n in 0..STEPS {
+    for n in 0..RECURRENCE_STEPS {
         let m = p.len();
         let terms = lag[1..].iter().enumerate();
         let past = terms.map(|(j, g)| g * (p[m - 1 - j] - p[m - 2 - j]));
@@ -303,11 +303,11 @@ pub(super) fn linear_growth(disc: &FixedDisc<'_>, stiffness: f64, step: f64) -> 
         for v in &mut p {
             *v /= size;
         }
-        if n >= STEPS / 2 {
+        if n >= RECURRENCE_STEPS / 2 {
             growth += size.ln();
         }
     }
-    (growth / (STEPS / 2) as f64).exp()
+    (growth / (RECURRENCE_STEPS / 2) as f64).exp()
 }
 
 /// A disc of another coupling under the `dynamic` share.

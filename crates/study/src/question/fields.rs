@@ -10,7 +10,7 @@
 //! u(t) = P(t) static + int_0^t P'(t - x) R(x) dx,     P = sin^4(pi t/T)
 //! ```
 
-use super::kernels::{ALL, POISSON_RATIO};
+use super::kernels::{ALL_FIELDS, POISSON_RATIO};
 use crate::measure::{Effort, Found, MeasuredScene, Rows};
 use crate::method::ComparedMethod;
 use crate::record::{Question, off, peaks};
@@ -283,7 +283,7 @@ impl PulseReference {
             samples[place as usize]
         };
         let found: Vec<Six> = self.times.iter().map(at).collect();
-        off(&found, &self.exact, &self.peak, &ALL)
+        off(&found, &self.exact, &self.peak, &ALL_FIELDS)
     }
 }
 

@@ -37,10 +37,10 @@ pub(crate) const POISSON_RATIO: f64 = 0.3;
 const INTERIOR: [f64; 2] = [0.55, 0.65];
 
 /// How near the fronts are looked at, after and before them: over their times.
-const NEAR: [f64; 2] = [0.01, -0.01];
+const NEAR_FRONTS: [f64; 2] = [0.01, -0.01];
 
 /// All six fields.
-pub(crate) const ALL: [usize; 6] = [0, 1, 2, 3, 4, 5];
+pub(crate) const ALL_FIELDS: [usize; 6] = [0, 1, 2, 3, 4, 5];
 
 impl KernelScene {
     /// Six fields at a point inside, from before the first arrival to long after the last.
@@ -48,13 +48,13 @@ impl KernelScene {
     /// `near` are distances from every arrival, over its time, that are looked at too.
     pub(crate) fn interior(medium: &Medium, count: usize, near: &[f64]) -> Result<Self, AnyError> {
         let name = "interior point, across the fronts";
-        Self::new(name, medium, INTERIOR, count, &ALL, near)
+        Self::new(name, medium, INTERIOR, count, &ALL_FIELDS, near)
     }
 
     /// The same point where all fields are smooth: inversions at their best.
     fn late(medium: &Medium, count: usize) -> Result<Self, AnyError> {
         let name = "interior point, after the last front";
-        let mut scene = Self::new(name, medium, INTERIOR, 3 * count, &ALL, &[])?;
+        let mut scene = Self::new(name, medium, INTERIOR, 3 * count, &ALL_FIELDS, &[])?;
         let last = scene.arrivals[scene.arrivals.len() - 1];
         let first = scene.times.partition_point(|&t| t < 1.05 * last);
         scene.times.drain(..first);
@@ -149,7 +149,7 @@ impl KernelScene {
 pub(crate) fn measure(effort: Effort, densities: &[Density], progress: &dyn Progress) -> Rows {
     let medium = Medium::new(POISSON_RATIO)?;
     let count = effort.pick(8, 40);
-    let near = effort.pick(&NEAR[..1], &NEAR[..]);
+    let near = effort.pick(&NEAR_FRONTS[..1], &NEAR_FRONTS[..]);
     let mut records = Vec::new();
     let scenes = [
         KernelScene::interior(&medium, count, near)?,
@@ -223,7 +223,7 @@ fn tables(scene: &KernelScene, densities: &[Density], effort: Effort) -> Rows {
                 question: Question::Kernels,
                 name: scene.name,
                 values: count as f64,
-                errors: &|cells: &Vec<Six>| Ok(off(cells, &exact, &scene.scale, &ALL)),
+                errors: &|cells: &Vec<Six>| Ok(off(cells, &exact, &scene.scale, &ALL_FIELDS)),
                 records: &mut records,
             };
             let setting = format!("{}, {points} points", density.label());

@@ -9,7 +9,7 @@ use lookup::{PulseSum, Series, Smoothness, Table, Verification};
 use rayon::prelude::*;
 
 /// A pulse is sampled by at least this many cells where the table has them.
-const SAMPLES: f64 = 250.0;
+const CELLS_OF_PULSE: f64 = 250.0;
 
 /// Measures errors at one Poisson ratio at the places of a kind: a row holds the exact numbers at a radius and all depths.
 pub(super) fn verify<'a>(
@@ -38,7 +38,8 @@ pub(super) fn verify<'a>(
                 let exact = exact(width, row, k, z.len());
                 let found = table.series(poisson_ratio, r, depth)?;
                 let rest = medium.static_field(Profile::Hertz, r, depth)?;
-                let coarsening = |length: f64| (length / width / SAMPLES).log2().max(0.0) as u32;
+                let coarsening =
+                    |length: f64| (length / width / CELLS_OF_PULSE).log2().max(0.0) as u32;
                 let lengths = &table.content().pulse_lengths;
                 for lengths in lengths.chunk_by(|&a, &b| coarsening(a) == coarsening(b)) {
                     let pulses = (coarsening(lengths[0]), lengths, arrived);

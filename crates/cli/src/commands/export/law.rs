@@ -22,7 +22,7 @@ const OFF: f64 = 0.1 - 1e-3;
 /// inwards: more than is lost where it is printed with four digits.
 const FURTHEST: f64 = 100.0;
 const FACTOR: f64 = 1.1;
-const MARGIN: f64 = 1e-3;
+const RANGE_MARGIN: f64 = 1e-3;
 
 /// Results of the force law of a file, and the velocities in m/s between which it holds.
 #[derive(Debug, Serialize)]
@@ -238,8 +238,8 @@ fn range<E>(v: f64, loss: f64, at: impl Fn(f64) -> Result<Run, E>) -> [f64; 2] {
             } = middle;
         }
         match factor < 1.0 {
-            true => (inside * (1.0 + MARGIN)).min(v),
-            false => (inside * (1.0 - MARGIN)).max(v),
+            true => (inside * (1.0 + RANGE_MARGIN)).min(v),
+            false => (inside * (1.0 - RANGE_MARGIN)).max(v),
         }
     })
 }

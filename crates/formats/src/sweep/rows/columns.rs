@@ -182,7 +182,7 @@ pub(super) fn each_of(
 /// The unit that a scene key carries in its name, and the ending that says so; `1` and nothing without one.
 pub fn key_unit(key: &str) -> (&'static str, &'static str) {
     // the longest first
-    const UNITS: [(&str, &str); 9] = [
+    const KEY_UNITS: [(&str, &str); 9] = [
         ("Pa m^(1/2)", "_pa_sqrt_m"),
         ("kg/m^3", "_kg_m3"),
         ("m/s", "_m_s"),
@@ -193,7 +193,7 @@ pub fn key_unit(key: &str) -> (&'static str, &'static str) {
         ("s", "_s"),
         ("N", "_n"),
     ];
-    let found = UNITS.iter().find(|(_, ending)| key.ends_with(ending));
+    let found = KEY_UNITS.iter().find(|(_, ending)| key.ends_with(ending));
     found.copied().unwrap_or(("1", ""))
 }
 
