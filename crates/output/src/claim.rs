@@ -130,7 +130,7 @@ impl Output {
             #[cfg(unix)]
             {
                 use std::os::unix::fs::MetadataExt;
-                // for the owner alone to do; a file in his folder is his all the same
+                // fails unless this process belongs to the owner or the administrator; the file then keeps this process as owner
                 let _ = std::os::unix::fs::fchown(file, Some(old.uid()), Some(old.gid()));
             }
             file.set_permissions(old.permissions())?;

@@ -70,8 +70,8 @@ impl Singularities {
         singularities
     }
 
-    /// Becomes another interval with cuts of a strength, where an unbounded integrand has a rounding error of `times` the
-    /// usual one.
+    /// Copies cuts, points and pole of another interval. The integrand has singularities of this strength at its cuts, and a
+    /// rounding error of `times` the usual one where it is not bounded.
     #[inline]
     pub(crate) fn take(&mut self, fixed: &Self, strength: SingularityStrength, times: f64) {
         self.cuts.clone_from(&fixed.cuts);

@@ -61,7 +61,7 @@ fn write_checked(content: &Content, name: &Path) -> Result<File, OutputFault> {
     let wrong = match held.map_err(|error| error.what) {
         Ok(Some(file)) => return Ok(file),
         Ok(None) => "it is not read back as it was written".to_owned(),
-        // its file is the temporary one, of which nobody should hear
+        // its path is that of a temporary file, which means nothing to the user
         Err(BadTable::Unwritable(detail)) => detail,
         Err(other) => other.to_string(),
     };
