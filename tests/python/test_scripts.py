@@ -10,6 +10,9 @@ import sys
 import pytest
 from conftest import ROOT
 
+# scripts import each other
+sys.path.insert(0, str(ROOT / "scripts"))
+
 DOCUMENTS = [path for folder in (".", "docs", "docs/cases", "data-schema", "scenes", "tests/reference") for path in (ROOT / folder).glob("*.md")]
 DOCUMENTS = [path for path in DOCUMENTS + list(ROOT.glob("crates/*/README.md")) if path.name != "CHANGELOG.md"]
 TEXTS = {path.relative_to(ROOT).as_posix(): path.read_text(encoding="utf-8") for path in DOCUMENTS}
@@ -69,9 +72,57 @@ def test_targets_of_cargo_exist():
                 assert ("example", target) in everywhere, f"{name}: {target}"
 
 
-def test_mutations_are_of_the_source_as_it_is():
-    loader = importlib.machinery.SourceFileLoader("check_mutations", str(ROOT / "scripts" / "check-mutations"))
-    script = importlib.util.module_from_spec(importlib.util.spec_from_loader("check_mutations", loader))
+def loaded(name):
+    """A script as a module."""
+    loader = importlib.machinery.SourceFileLoader(name.replace("-", "_").removesuffix(".py"), str(ROOT / "scripts" / name))
+    script = importlib.util.module_from_spec(importlib.util.spec_from_loader(loader.name, loader))
     loader.exec_module(script)
+    return script
+
+
+def test_mutations_are_of_the_source_as_it_is():
+    script = loaded("check-mutations")
     for crate, _, _, file, sound, _ in script.MUTATIONS:
         assert (ROOT / "crates" / crate / file).read_text(encoding="utf-8").count(sound) == 1, f"{crate} {file}: {sound}"
+
+
+def crate(folder, **files):
+    """A crate with these files in `src`; two underscores stand for a folder."""
+    for name, text in files.items():
+        path = folder / "crates" / "made" / "src" / (name.replace("__", "/") + ".rs")
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, encoding="utf-8")
+    return folder / "crates" / "made"
+
+
+def test_modules_of_a_crate_are_in_layers(tmp_path):
+    faults = loaded("check-structure.py").module_faults
+    below = "pub struct Length;\n"
+    above = "use crate::below::Length;\npub use crate::below::Length as Passed;\nfn of(_: Length) {}\n"
+    made = crate(tmp_path, lib="mod below;\nmod above;\npub use above::Passed;\n", below=below, above=above)
+    assert list(faults(made)) == []
+    # comments, texts and tests are no uses
+    innocent = '// crate::above::of\nconst A: &str = "crate::above::of";\n#[cfg(test)]\nmod tests {\n    use crate::above::of;\n}\n'
+    crate(tmp_path, below=below + innocent)
+    assert list(faults(made)) == []
+    # a path inside an expression is one, from wherever it is seen
+    for call in ("crate::above::of(Length)", "super::above::of(Length)", "use crate::{above::{of}}; of(Length)"):
+        crate(tmp_path, below=below + f"fn knot() {{ {call} }}\n")
+        found = list(faults(made))
+        assert any("a circle of files" in fault for fault in found), call
+        assert any("`below` uses above, which is not above it" in fault for fault in found), call
+    # so is a name that the root passes on
+    crate(tmp_path, above="pub struct Passed;\n", below="use crate::Passed;\n")
+    assert [fault for fault in faults(made) if "`below` uses above" in fault]
+    # without a knot the order of the list decides
+    crate(tmp_path, lib="mod above;\nmod below;\n", below=below, above=above)
+    assert [fault for fault in faults(made) if "`above` uses below" in fault]
+    # files within a module make no circle either
+    parts = {"above__mod": "mod one;\nmod two;\n", "above__one": "fn a() { super::two::b() }\n", "above__two": "use super::one::a;\n"}
+    (made / "src" / "above.rs").unlink()
+    crate(tmp_path, lib="mod below;\nmod above;\n", below=below, **parts)
+    assert [fault for fault in faults(made) if "a circle of files" in fault and "one.rs" in fault]
+
+
+def test_every_crate_is_checked_for_layers():
+    assert set(loaded("check-structure.py").NOT_YET) <= {"contact", "impact"}

@@ -8,13 +8,14 @@ use formats::{Existing, Output, OutputError};
 use impact::KernelChoice;
 use lookup::TableFile;
 use output::{Role, apart};
-use serde_json::json;
+use serde::Serialize;
+use std::fmt::{self, Display, Formatter};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// Where the kernels of the fields come from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Kernel {
+enum KernelOption {
     /// Computed for each probe, no table.
     Direct,
     /// Looked up in the table given with --table.
@@ -24,16 +25,16 @@ enum Kernel {
 }
 
 #[derive(Debug, Args)]
-pub(crate) struct Kernels {
+pub(crate) struct KernelOptions {
     /// Kernel table for the fields at probes.
     #[arg(long, value_name = "FILE")]
     pub(crate) table: Option<PathBuf>,
     /// Where the kernels of the fields come from.
-    #[arg(long, value_enum, default_value_t = Kernel::Auto)]
-    kernel: Kernel,
+    #[arg(long, value_enum, default_value_t = KernelOption::Auto)]
+    kernel: KernelOption,
 }
 
-impl Kernels {
+impl KernelOptions {
     /// The table among the files that are read.
     pub(crate) fn input(&self) -> Option<Role> {
         Some(("the kernel table", self.table.clone()?))
@@ -42,8 +43,8 @@ impl Kernels {
     /// The table, where kernels may be looked up.
     fn looked_up(&self) -> Result<Option<&Path>, Failure> {
         match (self.kernel, self.table.as_deref()) {
-            (Kernel::Table, None) => Err(Failure::input(NO_TABLE)),
-            (Kernel::Direct, _) => Ok(None),
+            (KernelOption::Table, None) => Err(Failure::input(NO_TABLE)),
+            (KernelOption::Direct, _) => Ok(None),
             (_, table) => Ok(table),
         }
     }
@@ -53,10 +54,10 @@ impl Kernels {
         let table = self.table.as_deref().map(open_table);
         let table = table.transpose()?.map(Arc::new);
         match (self.kernel, table) {
-            (Kernel::Table, None) => Err(Failure::input(NO_TABLE)),
-            (Kernel::Direct, _) | (Kernel::Auto, None) => Ok(KernelChoice::Direct),
-            (Kernel::Table, Some(table)) => Ok(KernelChoice::Table(table)),
-            (Kernel::Auto, Some(table)) => Ok(KernelChoice::Auto(table)),
+            (KernelOption::Table, None) => Err(Failure::input(NO_TABLE)),
+            (KernelOption::Direct, _) | (KernelOption::Auto, None) => Ok(KernelChoice::Direct),
+            (KernelOption::Table, Some(table)) => Ok(KernelChoice::Table(table)),
+            (KernelOption::Auto, Some(table)) => Ok(KernelChoice::Auto(table)),
         }
     }
 
@@ -64,20 +65,20 @@ impl Kernels {
     pub(crate) fn allowed(&self) -> Result<(bool, Option<String>), Failure> {
         let table = self.looked_up()?.map(open_table).transpose()?;
         let id = table.map(|table| table.id().to_owned());
-        Ok((id.is_none() || self.kernel != Kernel::Table, id))
+        Ok((id.is_none() || self.kernel != KernelOption::Table, id))
     }
 
     /// A sweep with its fields, where its base scene has probes.
     pub(crate) fn with_fields(&self, spec: Spec) -> Result<Spec, Failure> {
         if !spec.has_probes() {
             return match (self.kernel, &self.table) {
-                (Kernel::Auto, None) => Ok(spec),
+                (KernelOption::Auto, None) => Ok(spec),
                 _ => Err(Failure::input(
                     "--table and --kernel are for the fields at probes, and the base scene of the sweep has no [[probe]]",
                 )),
             };
         }
-        Ok(spec.with_fields(self.looked_up()?, self.kernel == Kernel::Auto)?)
+        Ok(spec.with_fields(self.looked_up()?, self.kernel == KernelOption::Auto)?)
     }
 }
 
@@ -129,11 +130,27 @@ pub(crate) fn is_text(path: &Path) -> bool {
     path.extension().is_some_and(|ending| ending == "csv")
 }
 
-/// What `--skip-complete` says where nothing is left to do.
+/// Report of `--skip-complete` where nothing is left to do.
+#[derive(Serialize)]
+struct Complete {
+    output: String,
+    complete: bool,
+}
+
+impl Display for Complete {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let text = format!("{}, nothing to do", self.output);
+        f.write_str(&lines([("complete", text)]))
+    }
+}
+
+/// Prints that an output is there already.
 pub(crate) fn say_complete(output: &Path, json: bool) -> Result<(), Failure> {
-    let output = output.display().to_string();
-    let text = lines([("complete", format!("{output}, nothing to do"))]);
-    show(json, &json!({ "output": output, "complete": true }), text)
+    let report = Complete {
+        output: output.display().to_string(),
+        complete: true,
+    };
+    show(json, &report)
 }
 
 /// One flag, the same in every command that can take much.

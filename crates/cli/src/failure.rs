@@ -2,6 +2,7 @@
 
 use fault::{Class, Culprit, Fault, Remedy};
 use output::OutputError;
+use serde::Serialize;
 use serde_json::{Map, Value, json};
 use std::error::Error;
 use std::fmt::Display;
@@ -59,7 +60,7 @@ impl Failure {
 
     /// Standard output does not take what is written.
     pub(crate) fn unprintable(error: std::io::Error) -> Self {
-        let output::Fault { reason, full } = error.into();
+        let output::OutputFault { reason, full } = error.into();
         let told = format!("cannot write to standard output: {reason}");
         if full {
             Self::until_later(told)
@@ -113,13 +114,13 @@ fn names_no_material(culprit: &Culprit<'_>) -> bool {
 /// A text without its middle, where a file has a word of a megabyte.
 fn cut(text: &str) -> String {
     /// Letters of each end.
-    const END: usize = 1000;
+    const SHOWN_END: usize = 1000;
     let count = text.chars().count();
-    if count <= 2 * END {
+    if count <= 2 * SHOWN_END {
         return text.to_owned();
     }
-    let first: String = text.chars().take(END).collect();
-    let last: String = text.chars().skip(count - END).collect();
+    let first: String = text.chars().take(SHOWN_END).collect();
+    let last: String = text.chars().skip(count - SHOWN_END).collect();
     format!("{first}...{last}")
 }
 
@@ -179,9 +180,13 @@ pub(crate) fn print(text: impl Display) -> Result<(), Failure> {
     }
 }
 
-/// Prints a report: one line of JSON, or text.
-pub(crate) fn show(json: bool, value: &Value, text: impl Display) -> Result<(), Failure> {
-    if json { print(value) } else { print(text) }
+/// Prints the report of a command: one value, written as one line of JSON or as its text.
+pub(crate) fn show(json: bool, report: &(impl Serialize + Display)) -> Result<(), Failure> {
+    if json {
+        print(serde_json::to_string(report).map_err(Failure::work)?)
+    } else {
+        print(report)
+    }
 }
 
 /// Lines of a report, each with its name.

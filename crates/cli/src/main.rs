@@ -1,12 +1,13 @@
 //! The `hertzlamb` command: `commands` has one file per subcommand but the completions, the other files are what they share.
 
-mod arguments;
-mod commands;
+// From the bottom up: a module uses only those above it.
 mod failure;
 mod process;
-mod progress;
-mod report;
 mod threads;
+mod progress;
+mod arguments;
+mod report;
+mod commands;
 
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use clap_complete::{Shell, generate};

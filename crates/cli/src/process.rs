@@ -70,11 +70,11 @@ fn tell_at_once(text: &str) {
     {
         use rustix::event::{PollFd, PollFlags, Timespec, poll};
         /// Bytes that a pipe takes at least where it takes any.
-        const MOST: usize = 4096;
+        const PIPE_BYTES: usize = 4096;
         let (error, at_once) = (rustix::stdio::stderr(), Timespec::default());
         let mut asked = [PollFd::new(&error, PollFlags::OUT)];
         if poll(&mut asked, Some(&at_once)).is_ok_and(|ready| ready > 0) {
-            let _ = rustix::io::write(error, &text.as_bytes()[..text.len().min(MOST)]);
+            let _ = rustix::io::write(error, &text.as_bytes()[..text.len().min(PIPE_BYTES)]);
         }
     }
     #[cfg(not(unix))]

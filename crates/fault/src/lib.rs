@@ -118,7 +118,14 @@ impl<'a> Culprit<'a> {
             class,
             remedy: match class {
                 Class::Work => Remedy::Unknown,
-                _ => Remedy::Change,
+                Class::Scene
+                | Class::Domain
+                | Class::OutsideTable
+                | Class::Table
+                | Class::Impact
+                | Class::Memory
+                | Class::Exists
+                | Class::Output => Remedy::Change,
             },
             ..Self::default()
         }

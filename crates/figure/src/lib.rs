@@ -32,27 +32,28 @@
 //! 1/96 inch from the upper left corner. The same figure gives the same bytes.
 #![cfg_attr(doctest, doc = include_str!("../README.md"))]
 
-mod axis;
-mod colour;
+// From the bottom up: a module uses only those above it.
 mod error;
-mod figure;
-mod font;
+mod axis;
 mod geometry;
-mod layers;
-mod layout;
-mod look;
-mod scene;
+mod colour;
+mod font;
 mod text;
 mod ticks;
+mod drawing;
+mod look;
+mod layers;
+mod figure;
+mod layout;
 mod write;
 
 pub use axis::{Axis, Interval, Scale};
 pub use colour::ColourMap;
+pub use drawing::Drawing;
 pub use error::FigureError;
 pub use figure::{Figure, Legend, Panel, Sharing};
 pub use geometry::Rect;
 pub use layers::{Classes, Image, Layer, Line};
 pub use layout::draw as measure;
 pub use look::Style;
-pub use scene::Scene;
 pub use write::{to_gif, to_pdf, to_png, to_svg};

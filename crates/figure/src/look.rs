@@ -1,8 +1,8 @@
 //! How curves and classes look: colours, dashes and markers that differ in more than hue.
 
 use crate::colour::{BLACK, WHITE};
+use crate::drawing::{Drawing, DrawnPath, Stroke};
 use crate::geometry::Point;
-use crate::scene::{Scene, Shape, Stroke};
 
 /// How a curve is drawn.
 ///
@@ -99,17 +99,22 @@ impl Look {
     }
 
     /// Draws its marker at a point.
-    pub(crate) fn mark(&self, scene: &mut Scene, at: Point) {
+    pub(crate) fn mark(&self, drawing: &mut Drawing, at: Point) {
         let colour = self.stroke.colour;
         match self.style {
-            Style::Dots => scene.shape(Shape::circle(at, 1.6).filled(colour, 1.0)),
+            Style::Dots => drawing.shape(DrawnPath::circle(at, 1.6).filled(colour, 1.0)),
             Style::Marked | Style::Points => {
                 // every other round of symbols is filled
                 let is_open = (self.symbol / SYMBOLS).is_multiple_of(2);
                 let fill = if is_open { WHITE } else { colour };
-                symbol(scene, self.symbol % SYMBOLS, at, 4.2, [colour, fill]);
+                symbol(drawing, self.symbol % SYMBOLS, at, 4.2, [colour, fill]);
             }
-            _ => {}
+            Style::Plain
+            | Style::Heavy
+            | Style::HeavyDashed
+            | Style::Dotted
+            | Style::Rimmed
+            | Style::Bars => {}
         }
     }
 }
@@ -118,24 +123,24 @@ impl Look {
 const SYMBOLS: usize = 7;
 
 /// Draws a star of half a width.
-pub(crate) fn star(scene: &mut Scene, at: Point, size: f64) {
-    symbol(scene, SYMBOLS - 1, at, size, [BLACK, WHITE]);
+pub(crate) fn star(drawing: &mut Drawing, at: Point, size: f64) {
+    symbol(drawing, SYMBOLS - 1, at, size, [BLACK, WHITE]);
 }
 
 /// Draws a symbol of half a width, with the colours of its outline and of its inside.
-fn symbol(scene: &mut Scene, index: usize, (x, y): Point, size: f64, [edge, fill]: [u32; 2]) {
+fn symbol(drawing: &mut Drawing, index: usize, (x, y): Point, size: f64, [edge, fill]: [u32; 2]) {
     let at = |(dx, dy): Point| (x + dx * size, y + dy * size);
     let polygon = |corners: &[Point]| {
         let corners = corners.iter().copied().map(at);
-        Shape::polygon(&corners.collect::<Vec<_>>())
+        DrawnPath::polygon(&corners.collect::<Vec<_>>())
     };
     let shape = match index {
-        0 => Shape::circle((x, y), 0.95 * size),
+        0 => DrawnPath::circle((x, y), 0.95 * size),
         1 => polygon(&[(-0.9, -0.9), (0.9, -0.9), (0.9, 0.9), (-0.9, 0.9)]),
         2 => polygon(&[(0.0, -1.2), (1.1, 0.8), (-1.1, 0.8)]),
         3 => polygon(&[(0.0, -1.3), (1.0, 0.0), (0.0, 1.3), (-1.0, 0.0)]),
         4 => polygon(&[(0.0, 1.2), (1.1, -0.8), (-1.1, -0.8)]),
-        5 => Shape::lines(
+        5 => DrawnPath::lines(
             [[(-1.0, -1.0), (1.0, 1.0)], [(-1.0, 1.0), (1.0, -1.0)]].map(|ends| ends.map(at)),
         ),
         _ => {
@@ -147,7 +152,7 @@ fn symbol(scene: &mut Scene, index: usize, (x, y): Point, size: f64, [edge, fill
             polygon(&(0..10).map(corner).collect::<Vec<_>>())
         }
     };
-    scene.shape(shape.stroked(Stroke::solid(edge, 1.5)).filled(fill, 1.0));
+    drawing.shape(shape.stroked(Stroke::solid(edge, 1.5)).filled(fill, 1.0));
 }
 
 #[cfg(test)]

@@ -9,7 +9,7 @@ pub(crate) const LINE: f64 = 1.25;
 
 /// A part of a line, at one size and height.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Run {
+pub(crate) struct TextRun {
     pub(crate) text: String,
     /// Size over that of the line.
     pub(crate) size: f64,
@@ -17,23 +17,23 @@ pub(crate) struct Run {
     pub(crate) rise: f64,
 }
 
-impl Run {
+impl TextRun {
     /// Width over the size of the line.
     pub(crate) fn width(&self) -> f64 {
         self.size * font::width(&self.text)
     }
 }
 
-const SMALL: f64 = 0.72;
+const RAISED_SIZE: f64 = 0.72;
 const RAISED: f64 = 0.38;
 const LOWERED: f64 = -0.16;
 
 /// The parts of a line: `^{...}` is raised and `_{...}` lowered; a brace that is not closed stands for itself.
-pub(crate) fn runs(markup: &str) -> Vec<Run> {
-    let mut runs: Vec<Run> = Vec::new();
+pub(crate) fn runs(markup: &str) -> Vec<TextRun> {
+    let mut runs: Vec<TextRun> = Vec::new();
     let mut push = |text: &str, size: f64, rise: f64| {
         if !text.is_empty() {
-            runs.push(Run {
+            runs.push(TextRun {
                 text: text.to_owned(),
                 size,
                 rise,
@@ -52,7 +52,7 @@ pub(crate) fn runs(markup: &str) -> Vec<Run> {
         };
         push(&rest[..at], 1.0, 0.0);
         let is_raised = rest[at..].starts_with('^');
-        push(inner, SMALL, if is_raised { RAISED } else { LOWERED });
+        push(inner, RAISED_SIZE, if is_raised { RAISED } else { LOWERED });
         (rest, from) = (after, 0);
     }
     push(rest, 1.0, 0.0);
@@ -61,7 +61,7 @@ pub(crate) fn runs(markup: &str) -> Vec<Run> {
 
 /// Width of a line in pixels at a size.
 pub(crate) fn width(markup: &str, size: f64) -> f64 {
-    size * runs(markup).iter().map(Run::width).sum::<f64>()
+    size * runs(markup).iter().map(TextRun::width).sum::<f64>()
 }
 
 /// Words of a text, a number together with the word after it, which may be its unit.

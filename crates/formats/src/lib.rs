@@ -2,6 +2,8 @@
 //!
 //! Scenes, materials and force records come in, results, sections and sweeps go out; `data-schema/` describes each.
 //!
+//! Results and sweeps need the default feature `hdf5`; without it the crate reads scenes and needs no C library.
+//!
 //! ```
 //! let text = "[target]\nmaterial = \"granite\"\n[striker]\nmaterial = \"steel\"\nmass_kg = 4e-6\n\
 //!     tip_radius_m = 5e-4\nvelocity_m_s = 1.0\n";
@@ -11,17 +13,32 @@
 //! assert!(report["peak_force_n"].as_f64() > Some(1.0));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
+#![cfg_attr(
+    not(feature = "hdf5"),
+    allow(
+        dead_code,
+        unused_imports,
+        reason = "results and sweeps use parts of the scene reader that a scene alone does not"
+    )
+)]
 #![cfg_attr(doctest, doc = include_str!("../README.md"))]
 
+// From the bottom up: a module uses only those above it. Those with a feature write HDF5 files, or read them back.
 mod error;
-mod hdf;
-pub mod parts;
 pub mod quantities;
-mod report;
-pub mod results;
+pub mod schema;
 pub mod scene;
-pub mod stored;
+mod report;
+#[cfg(feature = "hdf5")]
+mod hdf;
+#[cfg(feature = "hdf5")]
 pub mod sweep;
+#[cfg(feature = "hdf5")]
+pub mod stored;
+#[cfg(feature = "hdf5")]
+pub mod results;
+#[cfg(feature = "hdf5")]
+pub mod parts;
 
 pub use error::SceneError;
 pub use output::{Existing, Output, OutputError, write_whole};
@@ -29,6 +46,7 @@ pub use quantities::{Kind, QUANTITIES, Quantity};
 pub use report::{
     accuracy_report, choices, infer, json_report, kernel_name, material_report, table_report,
 };
+#[cfg(feature = "hdf5")]
 pub use results::{check_results, stage_results, stage_results_csv, write_results};
 pub use scene::{
     parse_materials, parse_scene, read_materials, read_record, read_scene, read_with_inputs,

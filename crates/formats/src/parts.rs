@@ -6,7 +6,7 @@ use crate::sweep::{
     Block, Blocks, Shard, Spec, SweepError, Unfinished, grain, stage_hdf5, stage_rows,
 };
 use ledger::gaps;
-use output::{Fault, HDF5, Output, ROWS, Staged, folder, is_hidden};
+use output::{HDF5, Output, OutputFault, ROWS, Staged, folder, is_hidden};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
@@ -193,13 +193,18 @@ struct Checked<'a> {
 
 impl Blocks for Checked<'_> {
     /// One part is open at a time: there may be more than files that a process may open.
-    fn each(&self, visit: &mut dyn FnMut(&Block) -> Result<(), Fault>) -> Result<(), Fault> {
+    fn each(
+        &self,
+        visit: &mut dyn FnMut(&Block) -> Result<(), OutputFault>,
+    ) -> Result<(), OutputFault> {
         self.parts.parts.iter().try_for_each(|part| {
-            let told = |error: SceneError| Fault::from(error.to_string());
+            let told = |error: SceneError| OutputFault::from(error.to_string());
             let open = StoredPart::open(&part.path).map_err(told)?;
             if open.part != *part {
                 let path = part.path.display();
-                return Err(Fault::from(format!("{path} was changed while it was read")));
+                return Err(OutputFault::from(format!(
+                    "{path} was changed while it was read"
+                )));
             }
             open.check_keys(self.spec).map_err(told)?;
             match open.failures() {

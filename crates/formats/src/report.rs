@@ -1,7 +1,7 @@
 //! The results of an impact for people and for machines.
 
 use crate::quantities::{Kind, QUANTITIES};
-use crate::results::schema::TREATMENT;
+use crate::schema::results::TREATMENT;
 use contact::{Choice, Collision, GRAVITY_M_S2, InferError, Inferred, Material, Measure, Unknown};
 use impact::{Cause, Outcome, Scene};
 use lookup::schema::FIELD_NAMES;

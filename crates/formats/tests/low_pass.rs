@@ -4,7 +4,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 
-use formats::results::schema::TREATMENT;
+use formats::schema::results::TREATMENT;
 use formats::{Existing, json_report, parse_scene, resolved, write_results};
 use impact::{ForceRecord, KernelChoice, Load, Scene, simulate};
 use std::f64::consts::PI;

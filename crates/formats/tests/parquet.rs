@@ -6,7 +6,8 @@
 use formats::parts::Parts;
 use formats::stored::{FileKind, StoredPart, file_kind};
 use formats::sweep::{
-    Block, Blocks, Fields, PARQUET_VERSION, Precision, Selection, Spec, compute_rows, stage_rows,
+    Block, Blocks, PARQUET_VERSION, Precision, Selection, Spec, WrittenResults, compute_rows,
+    stage_rows,
 };
 use formats::{Existing, Output};
 use std::ops::Range;
@@ -91,7 +92,7 @@ fn blocks_are_those_that_were_written() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("part.parquet");
     let mut spec = spec();
-    spec.fields = Fields::default()
+    spec.fields = WrittenResults::default()
         .only(&["restitution", "yield_onset"])
         .unwrap();
     write(&path, &spec, Some(30_000..170_000), 32_768);

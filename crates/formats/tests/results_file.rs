@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 
-use formats::results::schema;
+use formats::schema::results as schema;
 use formats::stored::StoredImpact;
 use formats::{Existing, OutputError, QUANTITIES, parse_scene, resolved, write_results};
 use hdf5::types::VarLenUnicode;

@@ -3,9 +3,9 @@
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 
 use contact::{Choice, Model};
+use formats::schema::sweep as schema;
 use formats::sweep::{
-    BLOCK, Block, Blocks, Kept, Spec, compute_rows, is_computed, run_rows, schema, stage_csv,
-    stage_rows,
+    BLOCK, Block, Blocks, Kept, Spec, compute_rows, is_computed, run_rows, stage_csv, stage_rows,
 };
 use formats::{Existing, Output, QUANTITIES, parse_scene};
 use impact::{KernelChoice, simulate};

@@ -62,18 +62,19 @@
 #![cfg_attr(doctest, doc = include_str!("../README.md"))]
 #![warn(missing_docs)]
 
-mod arrivals;
-mod domain;
+// From the bottom up: a module uses only those above it.
 mod field;
-mod integral;
-pub mod kausel;
-mod kernel;
-mod medium;
-mod numeric;
-mod potentials;
 mod profile;
+mod domain;
+mod numeric;
+mod medium;
+mod arrivals;
+mod potentials;
+pub mod kausel;
 mod statics;
 mod surface;
+mod integral;
+mod kernel;
 mod trace;
 
 pub use arrivals::Arrivals;

@@ -136,24 +136,24 @@ fn arc(s: f64) -> f64 {
 }
 
 /// From here on differences of arcs are taken from their series in 1/s.
-const FAR: f64 = 2.0;
+const FAR_ARCS: f64 = 2.0;
 
 /// T = 1 - s atan(1/s), which falls as 1/(3 s^2).
 fn arc_deficit(s: f64) -> f64 {
-    if s < FAR {
+    if s < FAR_ARCS {
         return 1.0 - s * arc(s);
     }
     // x^2/3 - x^4/5 + ... from its small end, x = 1/s
-    const TERMS: i32 = 27;
+    const ARC_TERMS: i32 = 27;
     let square = 1.0 / (s * s);
-    let terms = (1..=TERMS).rev();
+    let terms = (1..=ARC_TERMS).rev();
     square * terms.fold(0.0, |sum, n| 1.0 / f64::from(2 * n + 1) - square * sum)
 }
 
 /// V = atan(1/s) - s/(1 + s^2), which falls as 2/(3 s^3).
 fn second_arc(s: f64, deficit: f64) -> f64 {
     let inverse = 1.0 / (1.0 + s * s);
-    if s < FAR {
+    if s < FAR_ARCS {
         arc(s) - s * inverse
     } else {
         (inverse - deficit) / s

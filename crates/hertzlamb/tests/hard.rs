@@ -7,7 +7,7 @@ use halfspace::Deflection;
 use hertzlamb::{contact, halfspace, impact};
 use impact::{KernelChoice, Load, Scene, Strike, simulate};
 
-#[derive(Debug)]
+#[derive(Debug, Clone, Copy)]
 struct Hard {
     target: (f64, f64, f64),
     striker: (f64, f64),
@@ -60,7 +60,25 @@ fn attempt(hard: &Hard, settings: Settings) -> Result<f64, String> {
                 );
             }
             assert!(
-                r.restitution.is_finite() && r.restitution > 0.0 && r.restitution <= 1.0 + 1e-6,
+                r.restitution > 0.0 && r.restitution <= 1.0 + 1e-6,
+                "{r:?}\n{hard:?} {settings:?}"
+            );
+            // the momentum that the force gives is that of the rebound
+            let momentum_n_s = hard.mass_kg * hard.velocity_m_s * (1.0 + r.restitution);
+            let gained = r.impulse_n_s / momentum_n_s - 1.0;
+            assert!(
+                gained.abs() < 3e-4,
+                "{gained:e}: {r:?}\n{hard:?} {settings:?}"
+            );
+            // the energy that is lost is the work on the half-space; on a fixed disc both have a part of the loss as error
+            let is_on_disc = settings.model == Model::Wave;
+            let allowed = if is_on_disc {
+                1e-3 + 0.06 * r.loss
+            } else {
+                1e-4
+            };
+            assert!(
+                r.energy_residual.abs() < allowed,
                 "{r:?}\n{hard:?} {settings:?}"
             );
             assert!(
@@ -78,6 +96,50 @@ fn attempt(hard: &Hard, settings: Settings) -> Result<f64, String> {
             Err(message)
         }
     }
+}
+
+impl Hard {
+    /// The same collision with other units of length and pressure: its restitution is the same number.
+    fn in_other_units(&self) -> Self {
+        const LENGTH: f64 = 8.0;
+        const PRESSURE: f64 = 1024.0;
+        let (target, striker) = (self.target, self.striker);
+        Self {
+            target: (PRESSURE * target.0, target.1, PRESSURE * target.2),
+            striker: (PRESSURE * striker.0, striker.1),
+            mass_kg: PRESSURE * LENGTH.powi(3) * self.mass_kg,
+            tip_radius_m: LENGTH * self.tip_radius_m,
+            velocity_m_s: self.velocity_m_s,
+        }
+    }
+}
+
+/// Answers of all contacts to a scene, in the order of [`contacts`]: the same in other units, and that of `auto` within the
+/// tolerance of that of `growing`.
+fn answers(name: &str, hard: &Hard) -> Vec<Result<f64, String>> {
+    let answer = |(model, settings): (&str, Settings)| {
+        let result = attempt(hard, settings);
+        report(name, model, &result);
+        if let Ok(restitution) = result {
+            let other = attempt(&hard.in_other_units(), settings).unwrap();
+            assert!(
+                (other - restitution).abs() < 1e-9,
+                "{name}, {model}: {other} {restitution}"
+            );
+        }
+        result
+    };
+    let found: Vec<_> = contacts().into_iter().map(answer).collect();
+    let [.., growing, auto] = found.as_slice() else {
+        unreachable!("there are several contacts");
+    };
+    let (growing, auto) = (growing.as_ref().unwrap(), auto.as_ref().unwrap());
+    let tolerance = Settings::default().tolerance;
+    assert!(
+        (growing - auto).abs() < tolerance,
+        "{name}: {growing} {auto}"
+    );
+    found
 }
 
 /// Prints an answer; only the dynamic share may have none, and says why.
@@ -116,16 +178,26 @@ fn contacts() -> [(&'static str, Settings); 5] {
 
 #[test]
 fn velocities_from_1e_minus_6_to_1e3() {
-    for exponent in -6..=3 {
+    let answers = |exponent| {
         let hard = Hard {
             velocity_m_s: 10_f64.powi(exponent),
             ..STEEL_ON_STEEL
         };
-        for (name, contact) in contacts() {
-            let result = attempt(&hard, contact);
-            report(&format!("V0 = 1e{exponent}"), name, &result);
-            assert!(result.is_ok(), "{result:?}");
-        }
+        let found = answers(&format!("V0 = 1e{exponent}"), &hard).into_iter();
+        found.collect::<Result<Vec<f64>, _>>().unwrap()
+    };
+    let restitutions: Vec<Vec<f64>> = (-6..=3).map(answers).collect();
+    // slow impacts lose energy as v^(3/5) (Hunter 1957): a factor of 10^(3/5) a decade, to 1e-3 up to 0.1 m/s
+    let growing = contacts()
+        .iter()
+        .position(|(name, _)| *name == "growing")
+        .unwrap();
+    let losses = restitutions[..6]
+        .iter()
+        .map(|found| 1.0 - found[growing].powi(2));
+    for pair in losses.collect::<Vec<_>>().windows(2) {
+        let ratio = pair[1] / pair[0] / 10_f64.powf(0.6);
+        assert!((ratio - 1.0).abs() < 1e-3, "{pair:?}");
     }
 }
 
@@ -137,13 +209,7 @@ fn soft_half_space_and_stiff_heavy_striker() {
             mass_kg: 10.0,
             ..STEEL_ON_STEEL
         };
-        for (name, contact) in contacts() {
-            report(
-                &format!("E = {modulus:e}, 10 kg"),
-                name,
-                &attempt(&hard, contact),
-            );
-        }
+        answers(&format!("E = {modulus:e}, 10 kg"), &hard);
     }
 }
 
@@ -154,9 +220,7 @@ fn very_light_striker() {
             mass_kg,
             ..STEEL_ON_STEEL
         };
-        for (name, contact) in contacts() {
-            report(&format!("m = {mass_kg:e}"), name, &attempt(&hard, contact));
-        }
+        answers(&format!("m = {mass_kg:e}"), &hard);
     }
 }
 
@@ -184,11 +248,8 @@ fn poisson_ratios_from_minus_a_half_to_nearly_a_half() {
             target: (209e9, nu, 7830.0),
             ..STEEL_ON_STEEL
         };
-        for (name, contact) in contacts() {
-            let result = attempt(&hard, contact);
-            report(&format!("nu = {nu}"), name, &result);
-            assert!(result.is_ok(), "{result:?}");
-        }
+        let found = answers(&format!("nu = {nu}"), &hard);
+        assert!(found.iter().all(Result::is_ok), "{found:?}");
     }
 }
 

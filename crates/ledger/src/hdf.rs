@@ -21,7 +21,7 @@ const GROWTH: usize = 1100;
 /// Numbers of a block that are worth more than one thread.
 const LARGE: usize = 1 << 18;
 /// Parts of such a block.
-const PARTS: usize = 16;
+const BLOCK_PARTS: usize = 16;
 
 /// An open file; its bytes are compared with its seal, where it has one, when they are read.
 #[derive(Debug, Clone)]
@@ -213,7 +213,7 @@ impl Dataset {
         };
         let rows = &block[0];
         let (first, end) = (rows.start / high, rows.end.div_ceil(high));
-        let step = (end - first).div_ceil(PARTS);
+        let step = (end - first).div_ceil(BLOCK_PARTS);
         let parts = (first..end).into_par_iter().step_by(step).map(|k| {
             let part = rows.start.max(k * high)..rows.end.min((k + step).saturating_mul(high));
             let count = count / rows.len() * part.len();

@@ -1,6 +1,19 @@
-//! What makes two files the same.
+//! SHA-256 as text: of bytes, and of named parts that make two files the same.
 
 use sha2::{Digest, Sha256};
+
+/// SHA-256 over pieces of bytes that follow each other, as sixty-four hexadecimal digits.
+///
+/// ```
+/// // FIPS 180-2, appendix B.1
+/// let abc = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad";
+/// assert_eq!(ledger::sha256_hex([b"ab".as_slice(), b"c"]), abc);
+/// ```
+pub fn sha256_hex<'a>(pieces: impl IntoIterator<Item = &'a [u8]>) -> String {
+    let mut hash = Sha256::new();
+    pieces.into_iter().for_each(|bytes| hash.update(bytes));
+    format!("{:x}", hash.finalize())
+}
 
 /// SHA-256 over named parts, each name and each part behind its length.
 ///

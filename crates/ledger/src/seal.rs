@@ -19,12 +19,12 @@ use std::sync::{Mutex, PoisonError};
 /// How the last part of a seal starts.
 const MAGIC: &[u8; 8] = b"hlseal2\n";
 /// Bytes of the last part: magic, length, digest.
-const END: usize = 8 + 8 + DIGEST;
+const TRAILER: usize = 8 + 8 + DIGEST;
 /// Bytes with a digest of their own.
 const PIECE: usize = 1 << 13;
 const DIGEST: usize = 32;
 /// Pieces that are read and digested together.
-const TOGETHER: usize = 512;
+const PIECES_AT_A_TIME: usize = 512;
 /// Pieces that stay in memory: what describes a dataset is read bit by bit.
 const HELD: usize = 64;
 
@@ -64,7 +64,9 @@ impl Sealed {
         let mut file = std::fs::File::open(path)?;
         let whole = file.metadata()?.len();
         let digests = read_seal(&mut file, whole)?;
-        let behind = digests.as_ref().map_or(0, |list| END + DIGEST * list.len());
+        let behind = digests
+            .as_ref()
+            .map_or(0, |list| TRAILER + DIGEST * list.len());
         Ok(Self {
             length: whole - behind as u64,
             digests,
@@ -133,9 +135,9 @@ impl Storage for Sealed {
 
 /// The digests of the pieces of a file of so many bytes; nothing where it has no seal.
 fn read_seal(file: &mut std::fs::File, whole: u64) -> Result<Option<Vec<[u8; DIGEST]>>, HdfError> {
-    let mut end = [0; END];
-    if whole >= END as u64 {
-        file.seek(SeekFrom::End(-(END as i64)))?;
+    let mut end = [0; TRAILER];
+    if whole >= TRAILER as u64 {
+        file.seek(SeekFrom::End(-(TRAILER as i64)))?;
         file.read_exact(&mut end)?;
     }
     if !end.starts_with(MAGIC) {
@@ -145,7 +147,7 @@ fn read_seal(file: &mut std::fs::File, whole: u64) -> Result<Option<Vec<[u8; DIG
     let length = u64::from_le_bytes(end.as_chunks().0[1]);
     let pieces = length.div_ceil(PIECE as u64);
     let listed = pieces.saturating_mul(DIGEST as u64);
-    if listed.saturating_add(length).saturating_add(END as u64) != whole {
+    if listed.saturating_add(length).saturating_add(TRAILER as u64) != whole {
         return Err(broken());
     }
     file.seek(SeekFrom::Start(length))?;
@@ -173,7 +175,7 @@ fn digests(file: &std::fs::File, length: u64) -> io::Result<Vec<[u8; DIGEST]>> {
     let mut file = file;
     file.rewind()?;
     let mut found = Vec::new();
-    let mut bytes = vec![0; (TOGETHER * PIECE).min(length as usize)];
+    let mut bytes = vec![0; (PIECES_AT_A_TIME * PIECE).min(length as usize)];
     let mut left = length;
     while left > 0 {
         let count = bytes.len().min(left as usize);

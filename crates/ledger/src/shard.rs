@@ -102,7 +102,11 @@ mod tests {
 
     #[test]
     fn what_is_no_shard_is_told() {
-        assert_eq!("2/4".parse(), Ok(Shard { index: 2, count: 4 }));
+        for (index, count) in [(1, 1), (1, 4), (2, 4), (4, 4), (Shard::MOST, Shard::MOST)] {
+            let shard = Shard { index, count };
+            assert_eq!(shard.to_string(), format!("{index}/{count}"));
+            assert_eq!(shard.to_string().parse(), Ok(shard));
+        }
         for text in [
             "",
             "2",

@@ -13,18 +13,18 @@ use std::ops::Range;
 /// sharp fronts pass it varies within a mesh.
 pub const SAFETY: f64 = 2.3;
 
-/// Further factor on the surface and just below it, [`SHALLOW`] of the first mesh: there the nodes are all on one side,
+/// Further factor on the surface and just below it, [`SURFACE_FRACTION`] of the first mesh: there the nodes are all on one side,
 /// and what the depth smooths at the centre of a mesh is not smoothed.
 const AT_SURFACE: f64 = 3.0;
 
 /// Fraction of the first mesh below the surface that counts as the surface.
-const SHALLOW: f64 = 0.25;
+const SURFACE_FRACTION: f64 = 0.25;
 
 /// Factor from the error measured in the middle between two slices, at places farther apart than the nodes.
 pub const SAFETY_BETWEEN: f64 = 2.3;
 
 /// Estimates never go below this fraction of the peak of a field: the rounding of stored values.
-const ROUNDING: f64 = 6e-8;
+const STORED_ROUNDING: f64 = 6e-8;
 
 /// Where errors were measured: a grid of places for one set of numbers.
 pub(crate) struct Measured<'a> {
@@ -157,7 +157,7 @@ impl Table {
             };
             for (field, value) in error.iter_mut().enumerate() {
                 let most = measured.most(&places, pulse, field);
-                let rounding = ROUNDING * measured.peak(mesh[0], mesh[1], pulse, field);
+                let rounding = STORED_ROUNDING * measured.peak(mesh[0], mesh[1], pulse, field);
                 *value = value.max(most).max(rounding);
             }
         }
@@ -173,7 +173,7 @@ impl Table {
                 *value += added.most(&places, pulse, field);
             }
         }
-        if point[1] < SHALLOW * content.z[1] {
+        if point[1] < SURFACE_FRACTION * content.z[1] {
             error = error.map(|e| AT_SURFACE * e);
         }
         Ok(error)

@@ -76,20 +76,21 @@
 
 #![warn(missing_docs)]
 
-mod accuracy;
-mod certificate;
-mod content;
+// From the bottom up: a module uses only those above it.
 mod error;
+pub mod schema;
+mod content;
+mod hash;
+mod accuracy;
+mod pulse;
+mod series;
+mod validate;
+mod ratio;
+mod table;
+mod certificate;
+mod trace;
 #[cfg(feature = "hdf5")]
 mod file;
-mod hash;
-mod pulse;
-mod ratio;
-pub mod schema;
-mod series;
-mod table;
-mod trace;
-mod validate;
 
 pub use accuracy::{Accuracy, Quantiles, quantile, worst};
 pub use certificate::{PulseErrors, SAFETY, SAFETY_BETWEEN};

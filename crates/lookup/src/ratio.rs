@@ -7,9 +7,9 @@ use halfspace::{DomainError, Medium};
 use std::sync::LazyLock;
 
 /// Slices that take part.
-const POINTS: usize = 8;
+const SLICES_USED: usize = 8;
 /// Two ratios closer than this are the same slice.
-const SAME: f64 = 1e-12;
+const SAME_RATIO: f64 = 1e-12;
 /// Poisson's ratio whose cells have the width that a table states.
 const REFERENCE: f64 = 0.3;
 
@@ -71,7 +71,7 @@ pub(crate) fn weights(
     slices: &[Served],
     poisson_ratio: f64,
 ) -> Result<Vec<(usize, f64)>, LookupError> {
-    let same = |slice: &Served| (slice.ratio - poisson_ratio).abs() < SAME;
+    let same = |slice: &Served| (slice.ratio - poisson_ratio).abs() < SAME_RATIO;
     if let Some(index) = slices.iter().position(same) {
         return Ok(vec![(index, 1.0)]);
     }
@@ -89,7 +89,7 @@ pub(crate) fn weights(
     let place =
         ratio_coordinate(poisson_ratio)?.clamp(coordinates[0], coordinates[coordinates.len() - 1]);
     let interval = locate(&coordinates, place).unwrap_or(0);
-    let stencil = Stencil::one_sided(&coordinates, interval, place, POINTS);
+    let stencil = Stencil::one_sided(&coordinates, interval, place, SLICES_USED);
     let nodes = stencil.nodes().iter().map(|&node| grid[node]);
     Ok(nodes.zip(stencil.even().iter().copied()).collect())
 }

@@ -3,7 +3,7 @@
 use crate::content::Slice;
 use crate::error::LookupError;
 use crate::ratio;
-use crate::series::gather::Nodes;
+use crate::series::gather::PatchNodes;
 use crate::series::stencil::Stencil;
 use crate::series::{Moments, Numbers, Series, Smoothness, smooth};
 use crate::table::Table;
@@ -141,7 +141,7 @@ impl Table {
         smoothness: Smoothness,
         poisson_ratio: f64,
         coarsening: u32,
-    ) -> Result<Plan<'_>, LookupError> {
+    ) -> Result<TraceSetting<'_>, LookupError> {
         if coarsening > MAX_COARSENING {
             return Err(LookupError::Coarsening {
                 value: coarsening,
@@ -154,7 +154,7 @@ impl Table {
             [(tabulated, _)] => self.served[tabulated].medium.clone(),
             _ => Medium::new(poisson_ratio)?,
         };
-        Ok(Plan {
+        Ok(TraceSetting {
             table: self,
             smoothness,
             width: self.content().cell_width * ratio::scale(&medium)?,
@@ -166,7 +166,7 @@ impl Table {
 }
 
 /// Everything of a trace that does not depend on the point.
-struct Plan<'a> {
+struct TraceSetting<'a> {
     table: &'a Table,
     smoothness: Smoothness,
     medium: Medium,
@@ -175,7 +175,7 @@ struct Plan<'a> {
     width: f64,
 }
 
-impl Plan<'_> {
+impl TraceSetting<'_> {
     fn trace(&self, [r, z]: [f64; 2], cells: &mut [Six]) -> Result<TraceInfo, LookupError> {
         let series = self.series([r, z], cells.len())?;
         let static_part = self.medium.static_field(Profile::Hertz, r, z)?;
@@ -206,7 +206,7 @@ impl Plan<'_> {
             .saturating_mul(1 << self.coarsening);
         let stored = wanted.min(cells);
         let terms = content.slices[self.slices[0].0].tail_terms(content.r.len() * content.z.len());
-        let nodes = Nodes::new(&across, &down, content.z.len());
+        let nodes = PatchNodes::new(&across, &down, content.z.len());
         let sum = |values: fn(&Slice) -> &[f32], length: usize, used: usize| {
             let weighted = |&(slice, weight)| (values(&content.slices[slice]), weight);
             let slices: Vec<_> = self.slices.iter().map(weighted).collect();

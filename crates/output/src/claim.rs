@@ -1,6 +1,6 @@
 //! From a name to the finished file under it.
 
-use crate::error::{Fault, OutputError};
+use crate::error::{OutputError, OutputFault};
 use crate::handle::{is_at, make};
 use crate::place::{behind, folder};
 use crate::temporary::{Lock, Temporary, sweep};
@@ -78,14 +78,14 @@ impl Output {
     ///
     /// # Errors
     /// [`OutputError`]; the final name is untouched.
-    pub fn stage<E: Into<Fault>>(
+    pub fn stage<E: Into<OutputFault>>(
         &self,
         fill: impl FnOnce(&File) -> Result<(), E>,
     ) -> Result<Staged<'_>, OutputError> {
         self.stage_made(|name| {
             let file = make(name)?;
             fill(&file).map_err(Into::into)?;
-            Ok::<_, Fault>(file)
+            Ok::<_, OutputFault>(file)
         })
     }
 
@@ -96,11 +96,11 @@ impl Output {
     ///
     /// # Errors
     /// [`OutputError`]; the final name is untouched.
-    pub fn stage_made<E: Into<Fault>>(
+    pub fn stage_made<E: Into<OutputFault>>(
         &self,
         make: impl FnOnce(&Path) -> Result<File, E>,
     ) -> Result<Staged<'_>, OutputError> {
-        let staged = || -> Result<Staged<'_>, Fault> {
+        let staged = || -> Result<Staged<'_>, OutputFault> {
             let part = Temporary::beside(&self.real);
             let file = make(&part.path).map_err(Into::into)?;
             Ok(Staged {
@@ -117,7 +117,7 @@ impl Output {
     ///
     /// # Errors
     /// [`OutputError`]; the final name is untouched.
-    pub fn write<E: Into<Fault>>(
+    pub fn write<E: Into<OutputFault>>(
         &self,
         fill: impl FnOnce(&File) -> Result<(), E>,
     ) -> Result<(), OutputError> {
@@ -130,7 +130,7 @@ impl Output {
             #[cfg(unix)]
             {
                 use std::os::unix::fs::MetadataExt;
-                // for the owner alone to do; a file in his folder is his all the same
+                // fails unless this process belongs to the owner or the administrator; the file then keeps this process as owner
                 let _ = std::os::unix::fs::fchown(file, Some(old.uid()), Some(old.gid()));
             }
             file.set_permissions(old.permissions())?;
@@ -220,7 +220,7 @@ fn piece(file: &File) -> io::Result<Vec<u8>> {
 ///
 /// # Errors
 /// [`OutputError`]; the final name is untouched.
-pub fn write_whole<E: Into<Fault>>(
+pub fn write_whole<E: Into<OutputFault>>(
     path: &Path,
     existing: Existing,
     write: impl FnOnce(&File) -> Result<(), E>,

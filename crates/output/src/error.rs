@@ -42,7 +42,7 @@ pub enum OutputError {
 
 impl OutputError {
     /// A place that cannot be written to.
-    pub(crate) fn place(path: &Path, fault: impl Into<Fault>) -> Self {
+    pub(crate) fn place(path: &Path, fault: impl Into<OutputFault>) -> Self {
         match Self::writing(path, fault) {
             Self::Failed(path, reason) => Self::Unwritable(path, reason),
             full => full,
@@ -50,8 +50,8 @@ impl OutputError {
     }
 
     /// A write that failed.
-    pub fn writing(path: &Path, fault: impl Into<Fault>) -> Self {
-        let Fault { reason, full } = fault.into();
+    pub fn writing(path: &Path, fault: impl Into<OutputFault>) -> Self {
+        let OutputFault { reason, full } = fault.into();
         let path = path.to_owned();
         if full {
             Self::Full(path, reason)
@@ -82,7 +82,7 @@ impl fault::Fault for OutputError {
 
 /// A reason, and whether it may be gone when the same is tried again: there is no space left.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Fault {
+pub struct OutputFault {
     /// The system's or a library's reason.
     pub reason: String,
     /// Whether there is no space left, on the disk, in a quota, or below a limit of the process.
@@ -109,7 +109,7 @@ const FULL: [(ErrorKind, &str, &str); 3] = [
     ),
 ];
 
-impl Fault {
+impl OutputFault {
     fn of(reason: String, is: impl Fn(ErrorKind, &str) -> bool) -> Self {
         let found = FULL.iter().find(|(kind, text, _)| is(*kind, text));
         Self {
@@ -119,19 +119,19 @@ impl Fault {
     }
 }
 
-impl From<Error> for Fault {
+impl From<Error> for OutputFault {
     fn from(error: Error) -> Self {
         Self::of(error.to_string(), |kind, _| kind == error.kind())
     }
 }
 
-impl From<String> for Fault {
+impl From<String> for OutputFault {
     fn from(reason: String) -> Self {
         Self::of(reason.clone(), |_, text| reason.contains(text))
     }
 }
 
-impl From<&str> for Fault {
+impl From<&str> for OutputFault {
     fn from(reason: &str) -> Self {
         reason.to_owned().into()
     }
@@ -145,8 +145,8 @@ mod tests {
     fn a_full_disk_is_known_from_the_system_and_from_texts() {
         for (number, words) in [(28, "on the disk"), (122, "quota"), (27, "ulimit")] {
             let system = Error::from_raw_os_error(number);
-            let passed_on = Fault::from(format!("a library failed: {system}"));
-            assert_eq!(Fault::from(system), passed_on);
+            let passed_on = OutputFault::from(format!("a library failed: {system}"));
+            assert_eq!(OutputFault::from(system), passed_on);
             assert!(passed_on.full, "{passed_on:?}");
             assert!(
                 passed_on.reason.starts_with("no space left"),
@@ -154,7 +154,7 @@ mod tests {
             );
             assert!(passed_on.reason.contains(words), "{passed_on:?}");
         }
-        assert!(!Fault::from(Error::from(ErrorKind::PermissionDenied)).full);
-        assert!(!Fault::from("no such thing".to_owned()).full);
+        assert!(!OutputFault::from(Error::from(ErrorKind::PermissionDenied)).full);
+        assert!(!OutputFault::from("no such thing".to_owned()).full);
     }
 }

@@ -16,7 +16,7 @@ const BEGIN: &str = "hertzlamb journal 1 of a ";
 /// How those of earlier versions begin, which are not gone on with.
 const EARLIER: [&[u8]; 2] = [b"hlsweep", b"hertzlamb kernel blocks "];
 /// Bytes of the first line, and of the text behind it, at most.
-const MOST: u64 = 1 << 20;
+const MOST_TEXT_BYTES: u64 = 1 << 20;
 /// Bytes of a record beside what it keeps.
 const FRAME: u64 = 8 + 8;
 /// Time between two flushes: what a loss of power costs at most, beside the work that is not recorded.
@@ -216,14 +216,18 @@ impl Records {
         file.rewind()?;
         let mut reader = BufReader::new(file);
         let (mut line, mut about) = (Vec::new(), Vec::new());
-        reader.by_ref().take(MOST).read_until(b'\n', &mut line)?;
+        reader
+            .by_ref()
+            .take(MOST_TEXT_BYTES)
+            .read_until(b'\n', &mut line)?;
         let parsed = || {
             let line = std::str::from_utf8(&line).ok()?.strip_suffix('\n')?;
             let named = line.strip_prefix(BEGIN)?.strip_prefix(kind)?;
             let (identity, bytes) = named.strip_prefix(": ")?.split_once(' ')?;
             Some((identity.to_owned(), bytes.parse::<u64>().ok()?))
         };
-        let Some((identity, bytes)) = parsed().filter(|(_, bytes)| *bytes <= MOST) else {
+        let Some((identity, bytes)) = parsed().filter(|(_, bytes)| *bytes <= MOST_TEXT_BYTES)
+        else {
             return Ok(None);
         };
         let found = reader.by_ref().take(bytes).read_to_end(&mut about)? as u64;
@@ -292,7 +296,7 @@ pub(crate) fn sum(kept: &[u8]) -> [u8; 8] {
 fn without_title(file: &File, title: &Title) -> io::Result<Option<bool>> {
     let (mut file, mut found) = (file, Vec::new());
     file.rewind()?;
-    file.take(MOST).read_to_end(&mut found)?;
+    file.take(MOST_TEXT_BYTES).read_to_end(&mut found)?;
     let begin = format!("{BEGIN}{}: ", title.kind);
     let compared = found.len().min(begin.len());
     // new, or cut short in its title

@@ -22,17 +22,18 @@
 //! # Ok::<(), output::OutputError>(())
 //! ```
 
-mod claim;
+// From the bottom up: a module uses only those above it.
 mod error;
-mod folder;
 mod handle;
 mod journal;
 mod place;
-mod room;
 mod temporary;
+mod claim;
+mod folder;
+mod room;
 
 pub use claim::{Existing, Output, Staged, write_whole};
-pub use error::{Fault, OutputError};
+pub use error::{OutputError, OutputFault};
 pub use folder::{Folder, is_hidden};
 pub use journal::{Journal, Record, Records, Title, packed, unpacked};
 pub use place::{

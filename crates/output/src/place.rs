@@ -1,6 +1,6 @@
 //! The file behind a name, and outputs that are inputs, or each other.
 
-use crate::error::{Fault, OutputError};
+use crate::error::{OutputError, OutputFault};
 use crate::journal::sum;
 use std::ffi::{OsStr, OsString};
 use std::io::ErrorKind;
@@ -30,7 +30,7 @@ pub fn behind(path: &Path) -> Result<PathBuf, OutputError> {
     file_behind(path).map_err(|fault| OutputError::place(path, fault))
 }
 
-fn file_behind(path: &Path) -> Result<PathBuf, Fault> {
+fn file_behind(path: &Path) -> Result<PathBuf, OutputFault> {
     if is_standard(path) {
         return Err("standard output does not take such a file; give a name, ./- for a file that is called so".into());
     }
@@ -62,7 +62,7 @@ fn file_behind(path: &Path) -> Result<PathBuf, Fault> {
 }
 
 /// The path at the end of a chain of links.
-fn follow(path: &Path) -> Result<PathBuf, Fault> {
+fn follow(path: &Path) -> Result<PathBuf, OutputFault> {
     let mut real = path.to_owned();
     for _ in 0..MOST_LINKS {
         if real.starts_with("/proc") {
@@ -77,7 +77,7 @@ fn follow(path: &Path) -> Result<PathBuf, Fault> {
 }
 
 /// Refuses what is no file that can be replaced.
-fn regular(kind: &std::fs::FileType) -> Result<(), Fault> {
+fn regular(kind: &std::fs::FileType) -> Result<(), OutputFault> {
     if kind.is_file() {
         return Ok(());
     }

@@ -12,6 +12,7 @@
 //! Equation, figure and table numbers are the paper's.
 #![cfg_attr(doctest, doc = include_str!("../README.md"))]
 
+// From the bottom up: a module uses only those above it.
 mod case;
 mod figures;
 mod numbers;
@@ -19,5 +20,5 @@ mod report;
 
 pub use case::{PRINTED_PA, RADIUS_M, TABLE_1_PA, coupled, growing};
 pub use figures::{Claim, Redrawn};
-pub use numbers::{Numbers, Row, Section};
+pub use numbers::{Numbers, PrintedSection, Row};
 pub use report::{Redone, csv_file, drawn};

@@ -2,7 +2,7 @@
 
 use crate::error::{Drawn, PlotError};
 use crate::impacts::{frames_of, of_impacts};
-use crate::request::{Kind, Request, only};
+use crate::request::{PictureKind, Request, only};
 use crate::sweep::of_sweep;
 use crate::table::of_table;
 use contact::Choice;
@@ -15,7 +15,7 @@ pub fn compose(paths: &[PathBuf], request: &Request) -> Drawn<Figure> {
     let file = common_kind(paths)?;
     // a kind of picture that a file of another kind does not give
     let unsuitable = |kind| {
-        let kinds = Kind::ALL.iter().filter(|kind| kind.file() == file);
+        let kinds = PictureKind::ALL.iter().filter(|kind| kind.file() == file);
         let allowed = match &kinds.map(|kind| kind.name()).collect::<Vec<_>>()[..] {
             [] => "none".to_owned(),
             names => names.join(", "),
@@ -29,12 +29,12 @@ pub fn compose(paths: &[PathBuf], request: &Request) -> Drawn<Figure> {
     }
     let (mut figure, notes) = match file {
         FileKind::Impact => of_impacts(&open(paths)?, request)?,
-        FileKind::Sweep => of_sweep(only(paths, Kind::Sweep)?, request)?,
+        FileKind::Sweep => of_sweep(only(paths, PictureKind::Sweep)?, request)?,
         FileKind::Table => {
-            let kind = request.kind_or(Kind::Errors)?;
+            let kind = request.kind_or(PictureKind::Errors)?;
             (of_table(only(paths, kind)?, request)?, Vec::new())
         }
-        FileKind::SweepPart => return unsuitable(Kind::Sweep),
+        FileKind::SweepPart => return unsuitable(PictureKind::Sweep),
     };
     scale(&mut figure, request, file)?;
     Ok((figure, notes))
@@ -158,12 +158,7 @@ fn show_sizes_of_curves(panel: &mut Panel) {
 
 /// A logarithmic axis has to have a value above zero to show.
 fn shows_something(panel: &Panel) -> Result<(), PlotError> {
-    let lines = || {
-        panel.layers.iter().filter_map(|layer| match layer {
-            Layer::Line(line) => Some(line),
-            _ => None,
-        })
-    };
+    let lines = || panel.layers.iter().filter_map(Layer::as_line);
     let shown = |line: &Line| line.points.iter().any(|p| panel.y.scale.shows(p.1));
     if panel.y.scale == Scale::Linear || lines().next().is_none() || lines().any(shown) {
         return Ok(());
@@ -177,8 +172,8 @@ fn shows_something(panel: &Panel) -> Result<(), PlotError> {
 /// Composes the frames of an animation of a section, one figure each; and sentences for its user.
 pub fn animate(paths: &[PathBuf], request: &Request) -> Drawn<Vec<Figure>> {
     let file = common_kind(paths)?;
-    let kind = request.kind_or(Kind::Waves)?;
-    if file != FileKind::Impact || kind != Kind::Waves {
+    let kind = request.kind_or(PictureKind::Waves)?;
+    if file != FileKind::Impact || kind != PictureKind::Waves {
         let path = &paths[0];
         let shown = (request.kind).map_or_else(String::new, |kind| format!(", shown as {kind}"));
         let sentence = format!(

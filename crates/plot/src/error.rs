@@ -22,6 +22,24 @@ pub enum PlotError {
     /// A number is outside the physics.
     #[error(transparent)]
     Domain(#[from] DomainError),
+    /// A sweep over words alone has no axis to draw along.
+    #[error("{} has no key of numbers that varies: a sweep over words alone has no axis to draw along", .0.display())]
+    NoAxis(PathBuf),
+    /// A picture would have more curves than can be told apart.
+    #[error("{} would give {curves} curves, and {most} can be told apart: choose among them", file.display())]
+    TooManyCurves {
+        /// The sweep.
+        file: PathBuf,
+        /// Its curves.
+        curves: usize,
+        /// Curves that can be told apart.
+        most: usize,
+        /// A value of a key that can be held, such as `target.material=steel`.
+        example: Option<String>,
+    },
+    /// A kernel table without a slice.
+    #[error("{} has no slice", .0.display())]
+    NoSlice(PathBuf),
     /// What is asked for is not in the files, or not to be drawn.
     #[error("{sentence}")]
     Refused {
@@ -97,6 +115,9 @@ impl Fault for PlotError {
             Self::Read(error) => error.culprit(),
             Self::Table(error) => Culprit::of(Class::Table).file(&error.path),
             Self::Domain(_) => Culprit::of(Class::Domain),
+            Self::NoAxis(file) | Self::TooManyCurves { file, .. } | Self::NoSlice(file) => {
+                Culprit::of(Class::Scene).file(file)
+            }
             Self::Refused {
                 file, suggestion, ..
             } => Culprit {

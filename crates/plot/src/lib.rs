@@ -1,28 +1,29 @@
 //! Figures composed from the files of the program.
 //!
 //! [`compose`] takes the paths of results, sweeps or tables and a [`Request`], and gives a [`figure::Figure`]; `figure`
-//! draws it. What is shown is a [`Kind`], by default the one that suits the file.
+//! draws it. What is shown is a [`PictureKind`], by default the one that suits the file.
 //!
 //! ```no_run
-//! use plot::{Kind, Request, compose};
+//! use plot::{PictureKind, Request, compose};
 //!
-//! let request = Request { kind: Some(Kind::Spectrum), ..Request::default() };
+//! let request = Request { kind: Some(PictureKind::Spectrum), ..Request::default() };
 //! let (figure, notes) = compose(&["drop.h5".into()], &request)?;
 //! std::fs::write("spectrum.svg", figure::to_svg(&figure)?)?;
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 #![cfg_attr(doctest, doc = include_str!("../README.md"))]
 
-mod compose;
+// From the bottom up: a module uses only those above it.
 mod error;
-mod impacts;
 mod request;
-mod section;
+mod words;
 mod series;
+mod section;
+mod impacts;
 mod sweep;
 mod table;
-mod words;
+mod compose;
 
 pub use compose::{animate, compose};
 pub use error::PlotError;
-pub use request::{Kind, Request};
+pub use request::{PictureKind, Request};

@@ -34,10 +34,10 @@ macro_rules! kinds {
         choice! {
             /// What a picture shows.
             #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-            pub enum Kind { $(#[doc = $meaning] $kind = $name,)* }
+            pub enum PictureKind { $(#[doc = $meaning] $kind = $name,)* }
         }
 
-        impl Kind {
+        impl PictureKind {
             /// The file that it shows.
             pub fn file(self) -> FileKind {
                 match self { $(Self::$kind => FileKind::$file),* }
@@ -74,7 +74,7 @@ kinds! {
     Errors "errors" of Table uses [Quantity, Quantities, Scale] => "errors of a kernel table, measured off its grid";
 }
 
-impl fmt::Display for Kind {
+impl fmt::Display for PictureKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.name())
     }
@@ -84,7 +84,7 @@ impl fmt::Display for Kind {
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Request {
     /// What is shown; none: what suits the file.
-    pub kind: Option<Kind>,
+    pub kind: Option<PictureKind>,
     /// Quantities by their names in the file; none: those that suit the kind.
     pub quantities: Vec<String>,
     /// Times in s at which fields are shown; none: times at which waves are seen.
@@ -110,7 +110,7 @@ impl Request {
     ///
     /// # Errors
     /// [`PlotError`] where something is asked for that the kind does not use.
-    pub(crate) fn kind_or(&self, suits: Kind) -> Result<Kind, PlotError> {
+    pub(crate) fn kind_or(&self, suits: PictureKind) -> Result<PictureKind, PlotError> {
         let kind = self.kind.unwrap_or(suits);
         let used = kind.wishes();
         match self.wishes().find(|wish| !used.contains(wish)) {
@@ -162,7 +162,7 @@ impl Request {
 }
 
 /// The only one of some files or paths.
-pub(crate) fn only<T>(given: &[T], kind: Kind) -> Result<&T, PlotError> {
+pub(crate) fn only<T>(given: &[T], kind: PictureKind) -> Result<&T, PlotError> {
     match given {
         [only] => Ok(only),
         several => {
@@ -174,9 +174,9 @@ pub(crate) fn only<T>(given: &[T], kind: Kind) -> Result<&T, PlotError> {
 }
 
 /// A kind does not use something that is asked for.
-fn not_used(kind: Kind, wish: Wish) -> PlotError {
-    let same = |other: &&Kind| other.file() == kind.file() && other.wishes().contains(&wish);
-    let using = Kind::ALL.iter().filter(same).map(|kind| kind.name());
+fn not_used(kind: PictureKind, wish: Wish) -> PlotError {
+    let same = |other: &&PictureKind| other.file() == kind.file() && other.wishes().contains(&wish);
+    let using = PictureKind::ALL.iter().filter(same).map(|kind| kind.name());
     let using = match using.collect::<Vec<_>>().as_slice() {
         [] => format!("no picture of {} does", kind.file()),
         [only] => format!("only {only} does"),

@@ -5,7 +5,7 @@ use crate::request::Request;
 use crate::words::{digits, of_quantity, stem};
 use figure::{Axis, ColourMap, Figure, Image, Layer, Panel, Sharing};
 use formats::quantities::Described;
-use formats::results::schema::FIELDS;
+use formats::quantities::FIELDS;
 use lookup::{Content, Slice};
 use std::path::Path;
 
@@ -25,10 +25,7 @@ pub(crate) fn of_table(path: &Path, request: &Request) -> Result<Figure, PlotErr
         .slices
         .iter()
         .min_by(|a, b| distance(a).total_cmp(&distance(b)))
-        .ok_or_else(|| {
-            let hint = "hertzlamb table verify says what is wrong with it";
-            PlotError::absent(path, "slice", hint)
-        })?;
+        .ok_or_else(|| PlotError::NoSlice(path.to_owned()))?;
     let what = match fields.as_slice() {
         [one] => of_quantity(FIELDS[*one].0),
         _ => "worst field".to_owned(),

@@ -5,7 +5,7 @@
 use figure::{Figure, measure};
 use formats::{Existing, parse_scene, write_results};
 use impact::{KernelChoice, simulate};
-use plot::{Kind, PlotError, Request, compose};
+use plot::{PictureKind, PlotError, Request, compose};
 use std::path::{Path, PathBuf};
 
 /// A results file of a steel ball on granite, 40 mm thick, at a velocity.
@@ -23,7 +23,10 @@ fn impact(folder: &Path, name: &str, velocity_m_s: f64, rest: &str) -> PathBuf {
 
 const PROBES: &str = "[[probe]]\nr_m = 0.02\nz_m = 0\n[[probe]]\nr_m = 0\nz_m = 0.02\n";
 
-fn picture(paths: &[PathBuf], kind: Option<Kind>) -> Result<(Figure, Vec<String>), PlotError> {
+fn picture(
+    paths: &[PathBuf],
+    kind: Option<PictureKind>,
+) -> Result<(Figure, Vec<String>), PlotError> {
     let request = Request {
         kind,
         ..Request::default()
@@ -86,7 +89,7 @@ fn several_impacts_are_labelled_by_what_differs() {
         );
     }
     let request = Request {
-        kind: Some(Kind::Probes),
+        kind: Some(PictureKind::Probes),
         quantities: vec!["stress_zz".to_owned()],
         ..Request::default()
     };
@@ -101,7 +104,7 @@ fn what_cannot_be_drawn_is_told_in_one_sentence() {
     let bare = impact(folder.path(), "bare.h5", 2.0, "");
     let said = |paths: &[PathBuf], kind| picture(paths, kind).unwrap_err().to_string();
     assert!(
-        said(std::slice::from_ref(&bare), Some(Kind::Probes))
+        said(std::slice::from_ref(&bare), Some(PictureKind::Probes))
             .ends_with("has no probes: give the scene a [[probe]] with r_m and z_m")
     );
     let text = folder.path().join("scene.toml");
@@ -151,7 +154,7 @@ fn sizes_keep_the_negative_parts() {
     let folder = tempfile::tempdir().unwrap();
     let path = impact(folder.path(), "sizes.h5", 1.3, PROBES);
     let asked = |scale| Request {
-        kind: Some(Kind::Probes),
+        kind: Some(PictureKind::Probes),
         quantities: vec!["stress_rr".to_owned()],
         scale,
         ..Request::default()
@@ -204,47 +207,47 @@ fn an_option_that_a_kind_does_not_use_is_refused_with_the_kinds_that_do() {
     let scale: Change = |r| r.scale = Some(figure::Scale::Linear);
     for (kind, change, said) in [
         (
-            Kind::Spectrum,
+            PictureKind::Spectrum,
             one,
             "the picture spectrum does not use quantity: impact, probes, waves, peak, x-t, depth-t and axis do",
         ),
         (
-            Kind::Waves,
+            PictureKind::Waves,
             two,
             "the picture waves does not use several quantities: impact and probes do",
         ),
         (
-            Kind::Axis,
+            PictureKind::Axis,
             two,
             "the picture axis does not use several quantities: impact and probes do",
         ),
         (
-            Kind::Impact,
+            PictureKind::Impact,
             frames,
             "the picture impact does not use frames: only waves does",
         ),
         (
-            Kind::Peak,
+            PictureKind::Peak,
             times,
             "the picture peak does not use times: waves and axis do",
         ),
         (
-            Kind::Probes,
+            PictureKind::Probes,
             along,
             "the picture probes does not use along: no picture of the results of an impact does",
         ),
         (
-            Kind::Surface,
+            PictureKind::Surface,
             at,
             "the picture x-t does not use at: no picture of the results of an impact does",
         ),
         (
-            Kind::Loop,
+            PictureKind::Loop,
             span,
             "the picture loop does not use span: impact, probes, waves, x-t and depth-t do",
         ),
         (
-            Kind::Loop,
+            PictureKind::Loop,
             scale,
             "the picture loop does not use log or linear: impact, probes, spectrum, waves, peak, x-t, depth-t and axis do",
         ),
@@ -285,7 +288,9 @@ fn a_quantity_of_the_contact_is_drawn_alone() {
         quantities,
         ["velocity of the striker", "axial stress", "axial stress"]
     );
-    let said = of(Some(Kind::Probes), &["force"]).unwrap_err().to_string();
+    let said = of(Some(PictureKind::Probes), &["force"])
+        .unwrap_err()
+        .to_string();
     assert!(said.ends_with("the picture impact shows it"), "{said}");
     // what cannot be drawn is not left out in silence
     let bare = impact(folder.path(), "b.h5", 0.7, "");
@@ -304,7 +309,7 @@ fn a_span_is_the_time_axis() {
         span_s: Some(span_s),
         ..Request::default()
     };
-    for kind in [Kind::Impact, Kind::Probes] {
+    for kind in [PictureKind::Impact, PictureKind::Probes] {
         let (figure, _) = compose(std::slice::from_ref(&path), &asked(kind, (4e-6, 7e-6))).unwrap();
         for (i, panel) in figure.panels.iter().enumerate() {
             assert_eq!(panel.x.range, Some((4e-6, 7e-6)));
@@ -318,7 +323,10 @@ fn a_span_is_the_time_axis() {
         ((7e-6, 4e-6), "has to be before"),
         ((1.0, 2.0), "there is nothing"),
     ] {
-        let said = compose(std::slice::from_ref(&path), &asked(Kind::Probes, span_s));
+        let said = compose(
+            std::slice::from_ref(&path),
+            &asked(PictureKind::Probes, span_s),
+        );
         let said = said.unwrap_err().to_string();
         assert!(said.contains(why), "{said}");
     }
@@ -328,7 +336,7 @@ fn a_span_is_the_time_axis() {
 fn spectra_begin_together() {
     let folder = tempfile::tempdir().unwrap();
     let paths = [0.02, 5.0].map(|v| impact(folder.path(), &format!("{v}.h5"), v, ""));
-    let (figure, _) = picture(&paths, Some(Kind::Spectrum)).unwrap();
+    let (figure, _) = picture(&paths, Some(PictureKind::Spectrum)).unwrap();
     let first = |i: usize| curves(&figure, 0)[i].points[0].0;
     assert_eq!(first(0), first(1));
 }

@@ -5,7 +5,7 @@
 use figure::{Figure, Layer, Scale, measure, to_gif};
 use formats::{Existing, parse_scene, write_results};
 use impact::{KernelChoice, simulate};
-use plot::{Kind, Request, animate, compose};
+use plot::{PictureKind, Request, animate, compose};
 use std::path::{Path, PathBuf};
 
 /// A section of 40 mm under a steel ball of 0.2 mm on steel, whose pulse is 6 mm long.
@@ -22,7 +22,7 @@ fn section(folder: &Path, frames: usize, output: &str) -> PathBuf {
     path
 }
 
-fn request(kind: Kind, quantity: &str) -> Request {
+fn request(kind: PictureKind, quantity: &str) -> Request {
     Request {
         kind: Some(kind),
         quantities: vec![quantity.to_owned()],
@@ -103,7 +103,7 @@ fn velocities_are_those_of_the_file_or_none() {
     let without = section(folder.path(), 9, "");
     let refused = compose(
         std::slice::from_ref(&without),
-        &request(Kind::Waves, "velocity_z"),
+        &request(PictureKind::Waves, "velocity_z"),
     );
     let said = refused.unwrap_err().to_string();
     assert!(
@@ -122,7 +122,7 @@ fn limits_and_ratios_are_those_that_are_asked_for() {
     let asked = Request {
         limits: Some((1e3, 1e6)),
         scale: Some(Scale::Logarithmic),
-        ..request(Kind::Waves, "stress_zz")
+        ..request(PictureKind::Waves, "stress_zz")
     };
     let (figure, _) = compose(std::slice::from_ref(&path), &asked).unwrap();
     let image = images(&figure)[0];
@@ -132,11 +132,11 @@ fn limits_and_ratios_are_those_that_are_asked_for() {
     texts(&figure);
     let turned = Request {
         limits: Some((1.0, -1.0)),
-        ..request(Kind::Waves, "stress_zz")
+        ..request(PictureKind::Waves, "stress_zz")
     };
     let late = Request {
         times_s: vec![1e-6, 1e300],
-        ..request(Kind::Waves, "stress_zz")
+        ..request(PictureKind::Waves, "stress_zz")
     };
     for (asked, sentence) in [
         (turned, "the limits 1:-1"),
@@ -151,7 +151,7 @@ fn limits_and_ratios_are_those_that_are_asked_for() {
 fn limits_from_zero_make_a_scale_linear() {
     let folder = tempfile::tempdir().unwrap();
     let path = section(folder.path(), 20, "peaks = true");
-    for kind in [Kind::Peak, Kind::Axis] {
+    for kind in [PictureKind::Peak, PictureKind::Axis] {
         let decades = compose(std::slice::from_ref(&path), &request(kind, "von_mises"));
         let asked = Request {
             limits: Some((0.0, 1e6)),
@@ -173,23 +173,26 @@ fn every_kind_of_picture_of_a_section_is_drawn() {
     let folder = tempfile::tempdir().unwrap();
     let path = section(folder.path(), 60, "");
     for (kind, quantity) in [
-        (Kind::Peak, "von_mises"),
-        (Kind::Peak, "stress_zz"),
-        (Kind::Surface, "displacement_z"),
-        (Kind::Depth, "stress_zz"),
-        (Kind::Axis, "stress_zz"),
-        (Kind::Axis, "displacement_z"),
-        (Kind::Waves, "max_shear"),
+        (PictureKind::Peak, "von_mises"),
+        (PictureKind::Peak, "stress_zz"),
+        (PictureKind::Surface, "displacement_z"),
+        (PictureKind::Depth, "stress_zz"),
+        (PictureKind::Axis, "stress_zz"),
+        (PictureKind::Axis, "displacement_z"),
+        (PictureKind::Waves, "max_shear"),
     ] {
         let (figure, _) = compose(std::slice::from_ref(&path), &request(kind, quantity)).unwrap();
         assert!(texts(&figure).len() > 10, "{kind} {quantity}");
     }
     let unknown = compose(
         std::slice::from_ref(&path),
-        &request(Kind::Waves, "stress_zx"),
+        &request(PictureKind::Waves, "stress_zx"),
     );
     assert!(unknown.unwrap_err().to_string().contains("did you mean"));
-    let two = compose(&[path.clone(), path], &request(Kind::Waves, "stress_zz"));
+    let two = compose(
+        &[path.clone(), path],
+        &request(PictureKind::Waves, "stress_zz"),
+    );
     let two = two.unwrap_err().to_string();
     assert!(two.ends_with("shows one file, and 2 were given"), "{two}");
 }
@@ -212,7 +215,7 @@ fn the_largest_value_says_over_what_it_is_the_largest() {
         ),
     ] {
         let path = section(folder.path(), frames, output);
-        let (figure, said) = compose(&[path], &request(Kind::Peak, "von_mises")).unwrap();
+        let (figure, said) = compose(&[path], &request(PictureKind::Peak, "von_mises")).unwrap();
         let words = &sides(&figure).colours.quantity;
         assert!(words.ends_with(over), "{words}");
         assert_eq!(said.len(), notes, "{said:?}");
@@ -231,8 +234,11 @@ fn a_contact_does_not_fill_its_cell() {
     let folder = tempfile::tempdir().unwrap();
     let path = section(folder.path(), 60, "peaks = true");
     for (quantity, power) in [("stress_zz", 2.0), ("displacement_z", 1.0)] {
-        let (figure, _) =
-            compose(std::slice::from_ref(&path), &request(Kind::Peak, quantity)).unwrap();
+        let (figure, _) = compose(
+            std::slice::from_ref(&path),
+            &request(PictureKind::Peak, quantity),
+        )
+        .unwrap();
         let image = sides(&figure);
         let (width, cell) = (image.x.len(), 0.04 / 12.0);
         let at = |r: f64, z: f64| {
@@ -255,7 +261,8 @@ fn a_contact_does_not_fill_its_cell() {
 fn a_wave_along_the_surface_has_no_teeth() {
     let folder = tempfile::tempdir().unwrap();
     let path = section(folder.path(), 150, "");
-    let (figure, notes) = compose(&[path], &request(Kind::Surface, "displacement_z")).unwrap();
+    let (figure, notes) =
+        compose(&[path], &request(PictureKind::Surface, "displacement_z")).unwrap();
     assert!(notes.is_empty(), "{notes:?}");
     let image = sides(&figure);
     let parts = (image.y.len() - 1) / 12;
@@ -275,7 +282,7 @@ fn a_wave_along_the_surface_has_no_teeth() {
         );
     }
     let few = section(folder.path(), 6, "");
-    let (_, notes) = compose(&[few], &request(Kind::Surface, "displacement_z")).unwrap();
+    let (_, notes) = compose(&[few], &request(PictureKind::Surface, "displacement_z")).unwrap();
     assert!(
         notes[0].contains("look like dots: [map] frames = "),
         "{notes:?}"
@@ -288,7 +295,7 @@ fn the_axis_has_a_static_curve_for_stored_stresses() {
     let stored = section(folder.path(), 11, "quantities = [\"von_mises\"]");
     let derived = section(folder.path(), 12, "");
     let [stored, derived] = [stored, derived].map(|path| {
-        let (figure, _) = compose(&[path], &request(Kind::Axis, "von_mises")).unwrap();
+        let (figure, _) = compose(&[path], &request(PictureKind::Axis, "von_mises")).unwrap();
         let lines = figure.panels[0]
             .layers
             .iter()
@@ -308,7 +315,7 @@ fn a_span_chooses_the_frames() {
     let asked = Request {
         span_s: Some((2e-6, 5e-6)),
         frames: Some(4),
-        ..request(Kind::Waves, "displacement_z")
+        ..request(PictureKind::Waves, "displacement_z")
     };
     let (figure, _) = compose(std::slice::from_ref(&path), &asked).unwrap();
     assert_eq!(figure.panels.len(), 4);
@@ -339,7 +346,7 @@ fn times_of_a_scene_are_times_of_a_picture() {
     let of = |times_s: &[f64]| {
         let asked = Request {
             times_s: times_s.to_vec(),
-            ..request(Kind::Waves, "stress_zz")
+            ..request(PictureKind::Waves, "stress_zz")
         };
         compose(std::slice::from_ref(&path), &asked)
     };
@@ -357,7 +364,7 @@ fn von_mises_on_a_soft_target_has_its_line_of_yield() {
     let outcome = simulate(&scene, &KernelChoice::Direct).unwrap();
     let path = folder.path().join("soft.h5");
     write_results(&path, &scene, &outcome, Existing::Keep).unwrap();
-    let (figure, _) = compose(&[path], &request(Kind::Peak, "von_mises")).unwrap();
+    let (figure, _) = compose(&[path], &request(PictureKind::Peak, "von_mises")).unwrap();
     let strength_pa = scene.target.material().yield_strength_pa.unwrap();
     let image = sides(&figure);
     let line = figure.panels[0]

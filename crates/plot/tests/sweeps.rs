@@ -5,7 +5,7 @@
 use figure::{Figure, Layer, measure};
 use formats::sweep::{Spec, run_rows, stage_rows};
 use formats::{Existing, Output};
-use plot::{Kind, Request, compose};
+use plot::{PictureKind, PlotError, Request, compose};
 use std::path::{Path, PathBuf};
 
 /// The results of a sweep of a steel ball on some targets.
@@ -72,7 +72,7 @@ fn one_key_of_numbers_gives_lines_named_by_the_words() {
     let power = (last.1 / first.1).ln() / (last.0 / first.0).ln();
     assert!((power - 1.2).abs() < 0.01, "{power}");
     let request = Request {
-        kind: Some(Kind::Loss),
+        kind: Some(PictureKind::Loss),
         at: vec![("target.material".to_owned(), "granite".to_owned())],
         ..Request::default()
     };
@@ -175,7 +175,9 @@ fn what_cannot_be_shown_of_a_sweep_is_told() {
         kind: Some(kind),
         ..Request::default()
     };
-    assert!(said(&kind(Kind::Impact)).contains("v.h5 is a sweep, which has no picture impact"));
+    assert!(
+        said(&kind(PictureKind::Impact)).contains("v.h5 is a sweep, which has no picture impact")
+    );
     let wrong = Request {
         along: Some("target.material".to_owned()),
         ..Request::default()
@@ -217,11 +219,18 @@ fn what_cannot_be_shown_of_a_sweep_is_told() {
         names.join(",")
     );
     let path = sweep(folder.path(), "many.h5", &format!("{many}{TARGETS}"));
-    let refused = compose(&[path], &Request::default())
-        .unwrap_err()
-        .to_string();
+    let refused = compose(&[path], &Request::default()).unwrap_err();
+    let PlotError::TooManyCurves {
+        curves,
+        ref example,
+        ..
+    } = refused
+    else {
+        panic!("{refused}");
+    };
+    assert!(curves > 12 && example.is_some(), "{refused}");
     assert!(
-        refused.contains("choose among them, such as by --at"),
+        refused.to_string().ends_with("choose among them"),
         "{refused}"
     );
 }
@@ -230,7 +239,7 @@ fn what_cannot_be_shown_of_a_sweep_is_told() {
 fn restitution_has_the_slope_where_something_yields() {
     let folder = tempfile::tempdir().unwrap();
     let request = Request {
-        kind: Some(Kind::Restitution),
+        kind: Some(PictureKind::Restitution),
         ..Request::default()
     };
     let yields = "[scene.contact]\nplasticity = \"thornton\"\nyield_pressure_pa = 1e9\n";
@@ -273,7 +282,7 @@ fn a_histogram_of_a_design_has_no_quantiles_and_holds_its_keys() {
     let folder = tempfile::tempdir().unwrap();
     let path = ball(folder.path(), "d.h5", "", HEIGHTS);
     let request = Request {
-        kind: Some(Kind::Histogram),
+        kind: Some(PictureKind::Histogram),
         quantities: vec!["peak_force_n".to_owned()],
         ..Request::default()
     };
@@ -308,7 +317,11 @@ fn a_sweep_says_how_many_of_its_rows_yield() {
         .unwrap();
     let yielding = onset.iter().filter(|x| **x > 1.0).count();
     assert!((2..6).contains(&yielding), "{onset:?}");
-    for kind in [Kind::Sweep, Kind::Histogram, Kind::Loss] {
+    for kind in [
+        PictureKind::Sweep,
+        PictureKind::Histogram,
+        PictureKind::Loss,
+    ] {
         let request = Request {
             kind: Some(kind),
             ..Request::default()
@@ -321,7 +334,7 @@ fn a_sweep_says_how_many_of_its_rows_yield() {
     }
     let at = vec![("striker.velocity_m_s".to_owned(), "0.0001".to_owned())];
     let slow = Request {
-        kind: Some(Kind::Histogram),
+        kind: Some(PictureKind::Histogram),
         at,
         ..Request::default()
     };
@@ -337,7 +350,7 @@ fn losses_over_heights_are_those_over_velocities() {
         "diameter_m = 0.0025\n",
         "[product.striker]\ndrop_height_m = [0.05, 0.2, 0.8]\n",
     );
-    for kind in [Kind::Loss, Kind::Restitution] {
+    for kind in [PictureKind::Loss, PictureKind::Restitution] {
         let request = Request {
             kind: Some(kind),
             ..Request::default()
@@ -361,7 +374,7 @@ fn losses_over_heights_are_those_over_velocities() {
         "[scene.contact]\nmodel = \"hertz\"\n[product.striker]\nvelocity_m_s = [0.1, 1.0]\n",
     );
     let request = Request {
-        kind: Some(Kind::Loss),
+        kind: Some(PictureKind::Loss),
         ..Request::default()
     };
     let said = compose(&[none], &request).unwrap_err().to_string();
@@ -381,12 +394,14 @@ fn advice_can_be_followed() {
     for _ in 0..3 {
         match compose(std::slice::from_ref(&path), &request) {
             Ok((figure, _)) => return check(&figure),
-            Err(error) => {
-                let said = error.to_string();
-                let (_, advice) = said.split_once("--at ").unwrap();
+            Err(PlotError::TooManyCurves {
+                example: Some(advice),
+                ..
+            }) => {
                 let (key, value) = advice.split_once('=').unwrap();
                 request.at.push((key.to_owned(), value.to_owned()));
             }
+            Err(other) => panic!("{other}"),
         }
     }
     unreachable!("the advice {:?} leads nowhere", request.at);

@@ -17,16 +17,17 @@
     reason = "the stubs in python/hertzlamb document what Python sees"
 )]
 
+// From the bottom up: a module uses only those above it.
+mod values;
 mod errors;
-mod impact_outcome;
-mod kernels;
+mod work;
 mod library;
 mod scene;
+mod kernels;
 mod sweep;
 mod table;
 mod tabulate;
-mod values;
-mod work;
+mod impact_outcome;
 
 use pyo3::prelude::*;
 

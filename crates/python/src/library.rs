@@ -3,8 +3,8 @@
 use crate::errors::raise;
 use crate::values::from_json;
 use contact::{Choice, Library, Model};
-use formats::quantities::{Kind, Labels, QUANTITIES, labels_of};
-use formats::results::schema;
+use formats::quantities::{FIELDS, Kind, Labels, QUANTITIES, labels_of};
+use formats::schema::results as schema;
 use formats::sweep::described_keys;
 use formats::{material_report, read_materials};
 use impact::Quantity as FieldQuantity;
@@ -47,16 +47,14 @@ pub(crate) fn describe(py: Python<'_>) -> PyResult<Bound<'_, PyAny>> {
         (quantity.name.to_owned(), row)
     });
     let keys = described_keys().map(|key| (key.name, json!([key.unit, key.meaning])));
-    let more: Vec<_> = labels_of(FieldQuantity::ALL)
-        .skip(schema::FIELDS.len())
-        .collect();
+    let more: Vec<_> = labels_of(FieldQuantity::ALL).skip(FIELDS.len()).collect();
     let found = json!({
         "keys": Value::Object(keys.collect()),
         "more": part(&more),
         "quantities": Value::Object(quantities.collect()),
         "series": part(&schema::SERIES),
         "energy": part(&schema::ENERGIES),
-        "fields": part(&schema::FIELDS),
+        "fields": part(&FIELDS),
         "places": part(&schema::PLACES),
         "arrival": part(&[schema::ARRIVALS, schema::VALID_UNTIL]),
         "map": part(&schema::MAP_SCALES),

@@ -6,7 +6,7 @@ use crate::values::{Array, frozen, numbers, vector};
 use crate::work::{Threads, Ticker, run};
 use formats::quantities::QUANTITIES;
 use formats::sweep::{
-    BLOCK, Column, Held, Spec, Values, check_rows, compute_columns, kept_places, stage_csv,
+    BLOCK, Held, Spec, SweptKey, Values, check_rows, compute_columns, kept_places, stage_csv,
     stage_rows,
 };
 use formats::{Existing, Output, SceneError};
@@ -59,13 +59,13 @@ pub(crate) fn plan_of_columns(
             Ok(array) => Values::Numbers(numbers(&array)),
             Err(_) => Values::Texts(values.extract()?),
         };
-        Ok(Column {
+        Ok(SweptKey {
             section,
             key,
             values,
         })
     });
-    let keys: Vec<Column> = keys.collect::<PyResult<_>>()?;
+    let keys: Vec<SweptKey> = keys.collect::<PyResult<_>>()?;
     let of = |table: &_, folder: &_| Spec::of_columns(table, folder, keys);
     let spec = move |_: &Ticker| scene.read(of);
     wrapped(run(py, None, None, spec)?, columns)

@@ -4,6 +4,7 @@
 //! signals, and calls the function that wants to know how far the work is.
 
 use crate::errors::{outside, plain, raise, whole_in};
+use output::MOST_THREADS;
 use pyo3::prelude::*;
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
@@ -17,13 +18,13 @@ use tabulator::Progress;
 const LOOK: Duration = Duration::from_millis(50);
 /// Time between two calls of the function that wants to know.
 const TELL: Duration = Duration::from_millis(100);
-/// Time that stopped work gets to end; what takes longer ends unheard.
+/// Time that interrupted work gets to end; a call that takes longer is left to end by itself, and its result is dropped.
 const GRACE: Duration = Duration::from_millis(150);
 
-/// Threads at most: more than any machine has processors, fewer than a system has room for.
-const MOST_THREADS: usize = 1024;
-/// Their range.
-const THREADS: &str = "[1, 1024]";
+/// Range of a number of threads.
+fn thread_range() -> String {
+    format!("[1, {MOST_THREADS}]")
+}
 
 /// A number of threads that was asked for.
 #[derive(Debug, Clone, Copy)]
@@ -33,7 +34,7 @@ impl<'py> FromPyObject<'_, 'py> for Threads {
     type Error = PyErr;
 
     fn extract(value: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
-        whole_in("threads", &value, 1..=MOST_THREADS, THREADS).map(Self)
+        whole_in("threads", &value, 1..=MOST_THREADS, &thread_range()).map(Self)
     }
 }
 
@@ -162,7 +163,7 @@ fn own() -> PyResult<()> {
     let asked = std::env::var("RAYON_NUM_THREADS").unwrap_or_default();
     let too_many = |threads: usize| threads > MOST_THREADS;
     if asked.parse().is_ok_and(too_many) {
-        return Err(outside("RAYON_NUM_THREADS", &asked, THREADS));
+        return Err(outside("RAYON_NUM_THREADS", &asked, &thread_range()));
     }
     let process = std::process::id();
     match OWNER.compare_exchange(0, process, Ordering::Relaxed, Ordering::Relaxed) {

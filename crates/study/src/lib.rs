@@ -8,22 +8,25 @@
 //!
 //! Used by the command `hertzlamb chart` and by tests, by no other crate.
 //!
-//! In reading order: `chart`; `measure` (a method at a setting, timed) and `record` (its row); the questions, with
-//! `scenes` and `inversion` for them; the maps; `ranking`, `picture` and `report`.
+//! In reading order: `chart`; `method` (the table of methods), `measure` (one at a setting, timed) and `record` (its row);
+//! the questions, with `scenes` and `inversion` for them; the maps; `ranking`, `picture` and `report`.
 
-mod chart;
-mod inversion;
-mod map;
-mod measure;
-mod picture;
-mod question;
-mod ranking;
+// From the bottom up: a module uses only those above it.
+mod method;
 mod record;
-mod report;
+mod measure;
 mod scenes;
+mod picture;
+mod ranking;
+mod inversion;
+mod question;
+mod map;
+mod chart;
+mod report;
 
 pub use chart::Chart;
 pub use measure::Effort;
+pub use method::ComparedMethod;
 pub use picture::Picture;
 pub use record::{Question, Record};
 pub use report::PICTURE_COLUMNS;

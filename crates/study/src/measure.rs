@@ -1,5 +1,6 @@
 //! How a method is measured: its error against what is exact, and the median time of repeated runs.
 
+use crate::method::ComparedMethod;
 use crate::record::{Question, Record, sizes};
 use fault::AnyError;
 use std::hint::black_box;
@@ -55,7 +56,7 @@ fn time<T>(effort: Effort, values: f64, run: impl Fn() -> T) -> (T, [f64; 2]) {
 }
 
 /// What a run found, and its work where that is counted.
-pub(crate) type Run<T> = Result<(T, Option<u64>), AnyError>;
+pub(crate) type Found<T> = Result<(T, Option<u64>), AnyError>;
 
 /// What a question measures.
 pub(crate) type Rows = Result<Vec<Record>, AnyError>;
@@ -66,7 +67,7 @@ pub(crate) fn at(tolerance: f64) -> String {
 }
 
 /// A scene of a question: what of a method is measured in it.
-pub(crate) struct Scene<'a, T> {
+pub(crate) struct MeasuredScene<'a, T> {
     pub(crate) effort: Effort,
     pub(crate) question: Question,
     pub(crate) name: &'static str,
@@ -78,14 +79,14 @@ pub(crate) struct Scene<'a, T> {
     pub(crate) records: &'a mut Vec<Record>,
 }
 
-impl<T> Scene<'_, T> {
+impl<T> MeasuredScene<'_, T> {
     /// Adds a row of one method at one setting, which is not the program's own until it is said to be: a method that
     /// fails is a row that says why.
     pub(crate) fn add(
         &mut self,
-        method: &'static str,
+        method: ComparedMethod,
         setting: impl Into<String>,
-        run: impl Fn() -> Run<T>,
+        run: impl Fn() -> Found<T>,
     ) -> Result<&mut Record, AnyError> {
         let (found, timed) = if cfg!(test) {
             (run(), None)

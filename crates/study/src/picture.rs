@@ -1,6 +1,7 @@
 //! A picture of the chart: one panel with a name, a caption, and the numbers behind it; and the work-precision diagrams:
 //! error against cost, one curve a method, the Pareto front drawn.
 
+use crate::method::ComparedMethod;
 use crate::record::{Question, Record, by_scene, distinct, pareto_front};
 use contact::Choice;
 use figure::{Axis, Figure, Layer, Legend, Panel, Style};
@@ -117,9 +118,9 @@ fn diagram(question: Question, name: &'static str, rows: &[&Record]) -> Picture 
             n => format!(" ({n} of {} fail)", own.len()),
         };
         // settings of fields and tables vary in several ways at once: no line orders them
-        let cloud = question == Question::Fields || method == "table";
+        let cloud = question == Question::Fields || method == ComparedMethod::TableOfKernels;
         let style = if cloud { Style::Points } else { Style::Marked };
-        let name = format!("{method}{default}{failures}");
+        let name = format!("{}{default}{failures}", method.name());
         figure.line(&name, style, places(&own));
     }
     figure.line("Pareto front", Style::HeavyDashed, staircase(rows));

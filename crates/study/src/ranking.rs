@@ -1,6 +1,7 @@
-//! The cheapest method for each accuracy, with the default path beside it, and why others that are ahead are not taken.
+//! The cheapest method for each accuracy, and the default path compared with it.
 
 use crate::record::{Question, Record, by_scene};
+use contact::Choice;
 
 /// Accuracies at which the default path is to be on the Pareto front.
 pub(crate) const LEVELS: [f64; 6] = [1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8];
@@ -36,12 +37,12 @@ impl Ranking<'_> {
     ///
     /// A reason excuses its own method and no other one behind it.
     pub(crate) fn unexplained(&self) -> Option<String> {
-        let found = self.ahead.iter().find(|r| why_not(r.method).is_none());
+        let found = self.ahead.iter().find(|r| r.method.why_not().is_none());
         Some(self.words(found?))
     }
 
     fn words(&self, record: &Record) -> String {
-        let (level, scene, method) = (self.level, self.scene, record.method);
+        let (level, scene, method) = (self.level, self.scene, record.method.name());
         let says = match self.own.map(|own| own.cost_ns / record.cost_ns) {
             Some(times) => format!("{method} is {times:.1} times cheaper"),
             None => format!("only {method} reaches it"),
@@ -82,44 +83,15 @@ fn ranking<'a>(rows: &[&'a Record], level: f64) -> Ranking<'a> {
     }
 }
 
-/// Why the program does not take a method that is cheaper than its own somewhere, in one clause, for methods that have
-/// been looked at; none for others.
-pub(crate) fn why_not(method: &str) -> Option<&'static str> {
-    match method {
-        "table, sums for this pulse only" => {
-            Some("its sums know that this pulse is two exponentials, which no computed force is")
-        }
-        "cells alone" => Some(
-            "its step is known beforehand, many times finer than that of the output; the program does not know how fine is \
-             enough, and integrates the ends of the contact instead",
-        ),
-        "table, linear cells" => Some(
-            "it reads a third of the numbers and needs a step many times finer as soon as more is asked; the program \
-             takes it for forces with corners",
-        ),
-        "table, other nodes or points" => Some(
-            "fewer nodes are enough at this place and not at the worst places of a table, for which its nodes are chosen",
-        ),
-        "implicit of order 2" => Some(
-            "it knows the loss 1 - e^2 from the momentum alone, to the digits of the restitution and not to its own; what \
-             the program's march takes longer at 1e-3 goes into the loss and the instant of separation",
-        ),
-        "wave implicit" | "growing" => Some(
-            "its number of steps is known beforehand; the program does not know how many a tolerance needs, halves the \
-             step until the results stand still, and pays for the coarser marches as well",
-        ),
-        _ => None,
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::method::ComparedMethod;
 
     #[test]
     fn what_is_ahead_is_said_and_needs_a_reason() {
-        let own = Record::of("own", true, 100.0, 1e-7);
-        let near = Record::of("stranger", false, 90.0, 1e-9);
+        let own = Record::of(ComparedMethod::TableTransform, true, 100.0, 1e-7);
+        let near = Record::of(ComparedMethod::Durbin, false, 90.0, 1e-9);
         let at = |records: &[Record], level: f64| -> (Option<String>, bool) {
             let found = rankings(records);
             let ranking = found.iter().find(|s| s.level == level).unwrap();
@@ -127,14 +99,14 @@ mod tests {
         };
         // a tenth cheaper is equal
         assert_eq!(at(&[own.clone(), near], 1e-6), (None, false));
-        let stranger = Record::of("stranger", false, 50.0, 1e-7);
+        let stranger = Record::of(ComparedMethod::Durbin, false, 50.0, 1e-7);
         let (ahead, unexplained) = at(&[own.clone(), stranger.clone()], 1e-6);
-        assert!(ahead.unwrap().contains("stranger is 2.0 times cheaper") && unexplained);
-        let known = Record::of("table, linear cells", false, 50.0, 1e-7);
+        assert!(ahead.unwrap().contains("Durbin is 2.0 times cheaper") && unexplained);
+        let known = Record::of(ComparedMethod::TableLinear, false, 50.0, 1e-7);
         let (ahead, unexplained) = at(&[own.clone(), known.clone()], 1e-6);
         assert!(ahead.is_some() && !unexplained);
         // a reason does not excuse what is hidden behind its method
-        let behind = Record::of("stranger", false, 60.0, 1e-7);
+        let behind = Record::of(ComparedMethod::Durbin, false, 60.0, 1e-7);
         let rows = [own.clone(), known, behind];
         let found = rankings(&rows);
         let ranking = found.iter().find(|s| s.level == 1e-6).unwrap();
@@ -144,11 +116,11 @@ mod tests {
                 .unwrap()
                 .contains("table, linear cells")
         );
-        assert!(ranking.unexplained().unwrap().contains("stranger"));
+        assert!(ranking.unexplained().unwrap().contains("Durbin"));
         // nothing of the program's own reaches it
-        let exact = Record::of("stranger", false, 1e3, 1e-9);
+        let exact = Record::of(ComparedMethod::Durbin, false, 1e3, 1e-9);
         let (ahead, unexplained) = at(&[own, exact], 1e-8);
-        assert!(ahead.unwrap().contains("only stranger reaches it") && unexplained);
+        assert!(ahead.unwrap().contains("only Durbin reaches it") && unexplained);
         // a scene that only compares other ways has nothing to judge
         assert!(rankings(&[stranger]).is_empty());
     }

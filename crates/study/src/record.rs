@@ -1,5 +1,6 @@
 //! What is measured of one method at one setting in one scene.
 
+use crate::method::ComparedMethod;
 use contact::Choice;
 use halfspace::Six;
 
@@ -79,7 +80,7 @@ pub struct Record {
     /// Scene.
     pub scene: &'static str,
     /// Method.
-    pub method: &'static str,
+    pub method: ComparedMethod,
     /// Its setting.
     pub setting: String,
     /// Whether the program itself takes this way unless told otherwise.
@@ -109,7 +110,7 @@ impl Record {
         [
             self.question.name().to_owned(),
             self.scene.to_owned(),
-            self.method.to_owned(),
+            self.method.name().to_owned(),
             self.setting.clone(),
             self.default_path.to_string(),
             number(self.cost_ns),
@@ -161,7 +162,7 @@ pub(crate) fn by_scene(records: &[Record]) -> Vec<(Question, usize, Vec<&Record>
 }
 
 /// The different items in the order of their first appearance.
-pub(crate) fn distinct<'a>(items: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
+pub(crate) fn distinct<T: PartialEq + Copy>(items: impl Iterator<Item = T>) -> Vec<T> {
     let mut seen = Vec::new();
     for item in items {
         if !seen.contains(&item) {
@@ -177,7 +178,12 @@ mod tests {
 
     impl Record {
         /// A row of a question with one scene.
-        pub(crate) fn of(method: &'static str, default_path: bool, cost: f64, error: f64) -> Self {
+        pub(crate) fn of(
+            method: ComparedMethod,
+            default_path: bool,
+            cost: f64,
+            error: f64,
+        ) -> Self {
             Self {
                 question: Question::Fields,
                 scene: "a scene",
@@ -204,7 +210,7 @@ mod tests {
             (0.5, f64::NAN),
             (9.0, 1e-9),
         ];
-        let rows = rows.map(|(cost, error)| Record::of("", false, cost, error));
+        let rows = rows.map(|(cost, error)| Record::of(ComparedMethod::Direct, false, cost, error));
         let rows: Vec<&Record> = rows.iter().collect();
         assert_eq!(pareto_front(&rows), [rows[0], rows[2], rows[5]]);
     }

@@ -3,7 +3,7 @@
 use crate::chart::Chart;
 use crate::measure::Effort;
 use crate::picture::Picture;
-use crate::ranking::{Ranking, rankings, why_not};
+use crate::ranking::{Ranking, rankings};
 use crate::record::{Question, Record, distinct};
 use contact::Choice;
 use fault::AnyError;
@@ -90,8 +90,9 @@ fn not_taken(rankings: &[&Ranking<'_>]) -> Vec<String> {
     if !methods.is_empty() {
         lines.push("Ahead of the default path somewhere, and not taken:\n".to_owned());
         lines.extend(methods.into_iter().map(|method| {
-            let why = why_not(method).unwrap_or("no reason is written down: it should be adopted");
-            format!("- {method}: {why}.")
+            let unknown = "no reason is written down: it should be adopted";
+            let why = method.why_not().unwrap_or(unknown);
+            format!("- {}: {why}.", method.name())
         }));
         lines.push(String::new());
     }
@@ -103,7 +104,7 @@ fn answer(chart: &Chart, question: Question, rankings: &[&Ranking<'_>]) -> [Stri
     let cheapest = |level: f64| {
         let at = rankings.iter().filter(|s| s.level == level);
         let best = at.filter_map(|s| {
-            let (method, cost) = (s.best?.method, time(s.best?.cost_ns));
+            let (method, cost) = (s.best?.method.name(), time(s.best?.cost_ns));
             Some(format!("{method} ({cost}) in \"{}\"", s.scene))
         });
         match best.collect::<Vec<_>>() {
@@ -127,7 +128,7 @@ fn answer(chart: &Chart, question: Question, rankings: &[&Ranking<'_>]) -> [Stri
         )
     };
     let rows = chart.records.iter().filter(|r| r.question == question);
-    let failed = distinct(rows.filter(|r| r.failed()).map(|r| r.method));
+    let failed = distinct(rows.filter(|r| r.failed()).map(|r| r.method.name()));
     let third = if failed.is_empty() {
         "No method failed in any scene.".to_owned()
     } else {
@@ -143,7 +144,7 @@ fn table(rankings: &[&Ranking<'_>]) -> Vec<String> {
     let head = "| scene | error | cheapest of all | cost | default path | cost |";
     let mut lines = vec![format!("{head}\n|---|---|---|---|---|---|")];
     let cell = |found: Option<&Record>| match found {
-        Some(r) => format!("{}, {} | {}", r.method, r.setting, time(r.cost_ns)),
+        Some(r) => format!("{}, {} | {}", r.method.name(), r.setting, time(r.cost_ns)),
         None => "not reached | ".to_owned(),
     };
     lines.extend(rankings.iter().map(|s| {
@@ -161,7 +162,7 @@ fn failures(records: &[Record]) -> Vec<String> {
     let mut lines = vec![head];
     lines.extend(records.iter().filter(|r| r.failed()).map(|r| {
         let (question, says) = (r.question.name(), r.refusal.as_deref().unwrap_or(""));
-        let (scene, method, setting, error) = (r.scene, r.method, &r.setting, r.error_max);
+        let (scene, method, setting, error) = (r.scene, r.method.name(), &r.setting, r.error_max);
         format!("| {question} | {scene} | {method} | {setting} | {error:.1e} | {says} |")
     }));
     lines

@@ -1,11 +1,11 @@
 //! From a grid to a complete, verified file.
 
-use crate::assemble::{Summary, complete};
+use crate::assemble::{BuildSummary, complete};
 use crate::error::BuildError;
 use crate::grid::Grid;
 use crate::journal::{journal_of, records, title};
 use crate::progress::Progress;
-use crate::rows::Work;
+use crate::rows::TableWork;
 use output::{Existing, Output, OutputError, Title};
 use std::collections::HashMap;
 use std::path::Path;
@@ -16,7 +16,11 @@ use std::time::Instant;
 ///
 /// # Errors
 /// [`BuildError`]: a setting outside its range, a file in the way, a value that cannot be computed, a full disk.
-pub fn build(grid: &Grid, path: &Path, progress: &dyn Progress) -> Result<Summary, BuildError> {
+pub fn build(
+    grid: &Grid,
+    path: &Path,
+    progress: &dyn Progress,
+) -> Result<BuildSummary, BuildError> {
     build_over(grid, path, Existing::Keep, progress)
 }
 
@@ -26,11 +30,11 @@ pub fn build_over(
     path: &Path,
     existing: Existing,
     progress: &dyn Progress,
-) -> Result<Summary, BuildError> {
+) -> Result<BuildSummary, BuildError> {
     let started = Instant::now();
     grid.validate()?;
     let text = grid.to_toml()?;
-    let work = Work::new(grid, None, progress)?;
+    let work = TableWork::new(grid, None, progress)?;
     let output = match Output::claim(path, existing) {
         Err(exists @ OutputError::Exists { .. }) => {
             clear(&work, path, &text)?;
@@ -44,12 +48,12 @@ pub fn build_over(
 
 /// Computes what neither a journal nor a known table has, and writes the table; the journal goes when it is there.
 pub(crate) fn compute(
-    work: &Work<'_>,
+    work: &TableWork<'_>,
     output: &Output,
     title: &Title,
     drops: impl Fn(&str) -> bool,
     started: Instant,
-) -> Result<Summary, BuildError> {
+) -> Result<BuildSummary, BuildError> {
     let (journal, mut finished) = work.open(&journal_of(output), title, drops)?;
     let resumed_blocks = finished.len();
     work.add_known(&mut finished);
@@ -57,14 +61,14 @@ pub(crate) fn compute(
     let summary = complete(work, rows, output, started)?;
     let journal = journal.into_inner().unwrap_or_else(PoisonError::into_inner);
     journal.remove();
-    Ok(Summary {
+    Ok(BuildSummary {
         resumed_blocks,
         ..summary
     })
 }
 
 /// Removes the journal of a finished table: a run that was killed after it had named the table has left it.
-fn clear(work: &Work<'_>, path: &Path, settings: &str) -> Result<(), BuildError> {
+fn clear(work: &TableWork<'_>, path: &Path, settings: &str) -> Result<(), BuildError> {
     let journal = journal_of(&Output::claim(path, Existing::Replace)?);
     let Ok(mut records) = records(&journal) else {
         return Ok(());

@@ -1,13 +1,13 @@
 //! Adds slices, places and times to a finished table, computing only what it lacks.
 
-use crate::assemble::Summary;
+use crate::assemble::BuildSummary;
 use crate::build::compute;
 use crate::error::BuildError;
 use crate::grid::Grid;
 use crate::journal::title;
 use crate::known::Known;
 use crate::progress::Progress;
-use crate::rows::Work;
+use crate::rows::TableWork;
 use lookup::Table;
 use output::{Existing, Output};
 use std::path::Path;
@@ -39,7 +39,7 @@ pub fn extend(
     path: &Path,
     extension: &Extension,
     progress: &dyn Progress,
-) -> Result<Summary, BuildError> {
+) -> Result<BuildSummary, BuildError> {
     let started = Instant::now();
     let output = Output::claim(path, Existing::Replace)?;
     let content = Table::open(path)?.into_content();
@@ -52,7 +52,7 @@ pub fn extend(
     let title = title(&grid.to_toml()?, Some(&base));
     // one that became the table which is there may go
     let drops = |settings: &str| settings == present;
-    let work = Work::new(&grid, Some(&known), progress)?;
+    let work = TableWork::new(&grid, Some(&known), progress)?;
     compute(&work, &output, &title, drops, started)
 }
 

@@ -3,7 +3,7 @@
 //! A block is its slice, kind, row and four lengths as integers of eight bytes, then the numbers. The finished table is
 //! made from the blocks in the order of the grid, so its bytes do not depend on the order in which they were recorded.
 
-use crate::block::{Block, Kind, Row};
+use crate::block::{PointKind, Row, TableBlock};
 use crate::error::BuildError;
 use crate::numbers::NUMBERS_REVISION;
 use ledger::Identity;
@@ -48,7 +48,7 @@ pub(crate) fn records(path: &Path) -> Result<Records, BuildError> {
 }
 
 /// What is kept of a block.
-pub(crate) fn kept(block: Block, row: &Row) -> Vec<u8> {
+pub(crate) fn kept(block: TableBlock, row: &Row) -> Vec<u8> {
     let [a, b, c, d] = row.each_ref().map(Vec::len);
     let mut bytes = packed([block.slice, block.kind as usize, block.row, a, b, c, d]);
     bytes.reserve(4 * (a + b + c + d));
@@ -59,15 +59,15 @@ pub(crate) fn kept(block: Block, row: &Row) -> Vec<u8> {
 }
 
 /// The block of a record and its numbers, as many as it says.
-pub(crate) fn parsed(kept: &[u8]) -> Option<(Block, Row)> {
+pub(crate) fn parsed(kept: &[u8]) -> Option<(TableBlock, Row)> {
     let ([slice, kind, row, lengths @ ..], numbers) = unpacked::<7>(kept)?;
-    let kind = *Kind::ALL.get(kind)?;
+    let kind = *PointKind::ALL.get(kind)?;
     let (values, rest) = numbers.as_chunks();
     let mut values = values.iter().map(|value| f32::from_le_bytes(*value));
     let found: Row = lengths.map(|length| values.by_ref().take(length).collect());
     let whole =
         found.each_ref().map(Vec::len) == lengths && rest.is_empty() && values.next().is_none();
-    whole.then_some((Block { slice, kind, row }, found))
+    whole.then_some((TableBlock { slice, kind, row }, found))
 }
 
 #[cfg(test)]
@@ -76,9 +76,9 @@ mod tests {
 
     #[test]
     fn blocks_are_read_as_they_were_recorded() {
-        let block = Block {
+        let block = TableBlock {
             slice: 4,
-            kind: Kind::Between,
+            kind: PointKind::Between,
             row: 7,
         };
         let row = [vec![1.0; 7], vec![f32::NAN; 7], Vec::new(), vec![-0.0, 3.0]];

@@ -1,6 +1,6 @@
 //! A finished table from which another takes the numbers that it already has.
 
-use crate::block::{Kind, Row};
+use crate::block::{PointKind, Row};
 use lookup::{Content, Numbers, Slice, Verification};
 use std::ops::Range;
 
@@ -55,18 +55,18 @@ impl Known {
     /// Its stencil is that of the new table: nodes are only ever added beyond the old ones.
     pub(crate) fn probe(
         &self,
-        kind: Kind,
+        kind: PointKind,
         poisson_ratio: f64,
         [r, z]: [f64; 2],
     ) -> Option<(&Verification, Range<usize>)> {
         let content = &self.content;
         let (places, verification) = match kind {
-            Kind::Nodes => return None,
-            Kind::Probes => {
+            PointKind::Nodes => return None,
+            PointKind::Probes => {
                 let slice = self.slice(poisson_ratio)?;
                 (content.probes(), &slice.verification)
             }
-            Kind::Between => {
+            PointKind::Between => {
                 let mut between = content.between.iter();
                 let there = between.find(|between| between.poisson_ratio == poisson_ratio)?;
                 let places = [content.between_r.clone(), content.between_z.clone()];

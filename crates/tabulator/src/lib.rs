@@ -23,23 +23,24 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-mod assemble;
-mod block;
-mod build;
+// From the bottom up: a module uses only those above it.
 mod error;
-mod extend;
+mod numbers;
+mod progress;
 mod grid;
+mod block;
+mod point;
 mod journal;
 mod known;
-mod measure;
-mod numbers;
-mod plan;
-mod point;
-mod progress;
 mod rows;
+mod plan;
+mod assemble;
+mod build;
+mod extend;
 mod shard;
+mod measure;
 
-pub use assemble::Summary;
+pub use assemble::BuildSummary;
 pub use build::{build, build_over};
 pub use error::BuildError;
 pub use extend::{Extension, extend};
@@ -51,7 +52,7 @@ pub use measure::difference::differences;
 pub use measure::refine::refine;
 pub use numbers::NUMBERS_REVISION;
 pub use output::{Existing, OutputError};
-pub use plan::Plan;
+pub use plan::TableCost;
 pub use point::PointPlan;
 pub use progress::{Progress, Silent};
 pub use shard::{build_shard, merge};

@@ -1,18 +1,18 @@
 //! Time, memory and size of a table before it is built.
 
-use crate::block::{Block, Kind};
+use crate::block::{PointKind, TableBlock};
 use crate::error::BuildError;
 use crate::grid::Grid;
 use crate::point::PointPlan;
 use crate::progress::Silent;
-use crate::rows::Work;
+use crate::rows::TableWork;
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 use std::time::Instant;
 
 /// Estimated cost of building a table.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Plan {
+pub struct TableCost {
     /// Points at which kernels are computed: the nodes, and the places where their errors are measured.
     pub points: usize,
     /// Blocks, which shards share out.
@@ -32,12 +32,16 @@ impl Grid {
     ///
     /// # Errors
     /// [`BuildError`] for a grid that cannot be built.
-    pub fn cost(&self, measured_s: f64, now: impl Fn() -> Option<f64>) -> Result<Plan, BuildError> {
+    pub fn cost(
+        &self,
+        measured_s: f64,
+        now: impl Fn() -> Option<f64>,
+    ) -> Result<TableCost, BuildError> {
         /// Fewest points: some take ten times as long as others.
-        const FEWEST: usize = 32;
+        const FEWEST_POINTS: usize = 32;
         let memory_bytes = self.memory_bytes()?;
-        let work = Work::new(self, None, &Silent)?;
-        let depths = |block: &Block| work.place(*block).2.len();
+        let work = TableWork::new(self, None, &Silent)?;
+        let depths = |block: &TableBlock| work.place(*block).2.len();
         let points: usize = work.blocks.iter().map(depths).sum();
         // equidistributed over blocks and over depths
         let part = |k: usize, step: f64| (k as f64 * step).fract();
@@ -48,12 +52,12 @@ impl Grid {
             None => began.elapsed().as_secs_f64(),
         };
         let mut count = 0;
-        while count < points && (count < FEWEST || passed_s() < measured_s) {
+        while count < points && (count < FEWEST_POINTS || passed_s() < measured_s) {
             let place = part(count, 0.618_033_988_749_895) * work.blocks.len() as f64;
             let block = work.blocks[place as usize];
             let (ratio, r, depths) = work.place(block);
             let z = depths[(part(count, 0.754_877_666_246_693) * depths.len() as f64) as usize];
-            let is_node = block.kind == Kind::Nodes;
+            let is_node = block.kind == PointKind::Nodes;
             let plan = match plans.entry((is_node, ratio.to_bits())) {
                 Entry::Occupied(plan) => plan.into_mut(),
                 Entry::Vacant(none) => none.insert(match is_node {
@@ -64,7 +68,7 @@ impl Grid {
             plan.compute(r, z)?;
             count += 1;
         }
-        Ok(Plan {
+        Ok(TableCost {
             points,
             blocks: work.blocks.len(),
             measured_points: count,

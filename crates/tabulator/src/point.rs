@@ -24,7 +24,7 @@ const TRACE: f64 = 25.0;
 
 /// Tolerance of the points off the grid over that of its nodes. What it leaves adds to the errors that are measured there: at
 /// 30 it is seen where these are 1e-8, at 100 where they are 1e-7.
-const PROBES: f64 = 30.0;
+const PROBE_TOLERANCE: f64 = 30.0;
 
 impl Grid {
     /// What is computed at every node of one slice.
@@ -37,7 +37,7 @@ impl Grid {
 
     /// The same for the points at which errors of the nodes' interpolation are measured, which need fewer digits.
     pub(crate) fn probe(&self, poisson_ratio: f64) -> Result<PointPlan, BuildError> {
-        self.plan(poisson_ratio, (PROBES * self.tolerance).min(0.1))
+        self.plan(poisson_ratio, (PROBE_TOLERANCE * self.tolerance).min(0.1))
     }
 
     fn plan(&self, poisson_ratio: f64, tolerance: f64) -> Result<PointPlan, BuildError> {
@@ -156,16 +156,16 @@ mod tests {
 
     /// Average, first and second moment from the remainder itself, by the midpoint rule on 4000 parts of a cell.
     fn summed(kernel: &Kernel, r: f64, z: f64, width: f64, j: usize) -> [Six; 3] {
-        const PARTS: usize = 4000;
+        const MIDPOINTS: usize = 4000;
         let mut sums = [[0.0; 6]; 3];
-        for i in 0..PARTS {
-            let fraction = (i as f64 + 0.5) / PARTS as f64;
+        for i in 0..MIDPOINTS {
+            let fraction = (i as f64 + 0.5) / MIDPOINTS as f64;
             let t = (j as f64 + fraction) * width;
             let value = kernel.remainder(r, z, t).unwrap().value;
             let s = fraction - 0.5;
             for (sum, weight) in sums.iter_mut().zip([1.0, s, s * s - 1.0 / 12.0]) {
                 for f in 0..6 {
-                    sum[f] += weight * value[f] / PARTS as f64;
+                    sum[f] += weight * value[f] / MIDPOINTS as f64;
                 }
             }
         }

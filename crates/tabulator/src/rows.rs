@@ -1,6 +1,6 @@
 //! All rows of a table: those that are there already, and the others computed on all threads.
 
-use crate::block::{Block, Kind, Row, positions};
+use crate::block::{PointKind, Row, TableBlock, positions};
 use crate::error::BuildError;
 use crate::grid::Grid;
 use crate::journal::{kept, parsed};
@@ -13,7 +13,7 @@ use std::path::Path;
 use std::sync::{Mutex, PoisonError};
 
 /// A table that is to be made of a grid.
-pub(crate) struct Work<'a> {
+pub(crate) struct TableWork<'a> {
     pub(crate) grid: &'a Grid,
     /// A smaller table that has some of the numbers.
     pub(crate) known: Option<&'a Known>,
@@ -23,10 +23,10 @@ pub(crate) struct Work<'a> {
     /// Of each kind of points: Poisson's ratios, then radii and depths.
     pub(crate) points: [(Vec<f64>, [Vec<f64>; 2]); 3],
     /// The blocks in the order in which they are stored.
-    pub(crate) blocks: Vec<Block>,
+    pub(crate) blocks: Vec<TableBlock>,
 }
 
-impl<'a> Work<'a> {
+impl<'a> TableWork<'a> {
     /// All blocks of a grid.
     ///
     /// # Errors
@@ -38,20 +38,20 @@ impl<'a> Work<'a> {
     ) -> Result<Self, BuildError> {
         let slices: Vec<f64> = grid.slices().iter().map(|slice| slice.0).collect();
         let between = grid.between()?;
-        let points = Kind::ALL.map(|kind| {
+        let points = PointKind::ALL.map(|kind| {
             let ratios = match kind {
-                Kind::Nodes | Kind::Probes => &slices,
-                Kind::Between => &between,
+                PointKind::Nodes | PointKind::Probes => &slices,
+                PointKind::Between => &between,
             };
             (ratios.clone(), positions(kind, grid))
         });
-        let of = |slice, kind: Kind| {
+        let of = |slice, kind: PointKind| {
             let rows = 0..points[kind as usize].1[0].len();
-            rows.map(move |row| Block { slice, kind, row })
+            rows.map(move |row| TableBlock { slice, kind, row })
         };
-        let on = |slice| of(slice, Kind::Nodes).chain(of(slice, Kind::Probes));
+        let on = |slice| of(slice, PointKind::Nodes).chain(of(slice, PointKind::Probes));
         let on = (0..slices.len()).flat_map(on);
-        let between = (0..between.len()).flat_map(|slice| of(slice, Kind::Between));
+        let between = (0..between.len()).flat_map(|slice| of(slice, PointKind::Between));
         let blocks = on.chain(between).collect();
         Ok(Self {
             grid,
@@ -64,7 +64,7 @@ impl<'a> Work<'a> {
     }
 
     /// Poisson's ratio, radius and depths of the points of a block.
-    pub(crate) fn place(&self, block: Block) -> (f64, f64, &[f64]) {
+    pub(crate) fn place(&self, block: TableBlock) -> (f64, f64, &[f64]) {
         let (ratios, [r, z]) = &self.points[block.kind as usize];
         (ratios[block.slice], r[block.row], z)
     }
@@ -81,7 +81,7 @@ impl<'a> Work<'a> {
         path: &Path,
         title: &Title,
         drops: impl Fn(&str) -> bool,
-    ) -> Result<(Mutex<Journal>, HashMap<Block, Row>), BuildError> {
+    ) -> Result<(Mutex<Journal>, HashMap<TableBlock, Row>), BuildError> {
         let mut found = HashMap::new();
         let drops = |other: &Title| drops(&other.about);
         let take = |_, kept: &[u8]| self.take(&mut found, kept);
@@ -93,7 +93,7 @@ impl<'a> Work<'a> {
     ///
     /// Left out are blocks that the grid does not have, rows of another length, and rows with blanks: an extension leaves
     /// probes blank whose errors it knows, and without that knowledge they are not there.
-    pub(crate) fn take(&self, found: &mut HashMap<Block, Row>, kept: &[u8]) -> bool {
+    pub(crate) fn take(&self, found: &mut HashMap<TableBlock, Row>, kept: &[u8]) -> bool {
         let Some((block, row)) = parsed(kept) else {
             return false;
         };
@@ -115,7 +115,7 @@ impl<'a> Work<'a> {
     }
 
     /// Whether the errors at a point of a block are known.
-    fn measured(&self, block: Block, z: f64) -> bool {
+    fn measured(&self, block: TableBlock, z: f64) -> bool {
         let (ratio, r, _) = self.place(block);
         let known = self.known;
         known.is_some_and(|known| known.probe(block.kind, ratio, [r, z]).is_some())
@@ -123,11 +123,11 @@ impl<'a> Work<'a> {
 
     /// Adds the rows of which nothing needs to be computed: those of nodes that are known as a whole, and empty ones for
     /// probes whose errors are all known.
-    pub(crate) fn add_known(&self, finished: &mut HashMap<Block, Row>) {
+    pub(crate) fn add_known(&self, finished: &mut HashMap<TableBlock, Row>) {
         for &block in &self.blocks {
             let (ratio, r, z) = self.place(block);
             let row = match (block.kind, self.known) {
-                (Kind::Nodes, Some(known)) => known.nodes(ratio, self.cells, r, z),
+                (PointKind::Nodes, Some(known)) => known.nodes(ratio, self.cells, r, z),
                 (_, _) => (z.iter().all(|&z| self.measured(block, z))).then(Row::default),
             };
             finished.extend(row.map(|row| (block, row)));
@@ -141,13 +141,13 @@ impl<'a> Work<'a> {
     /// [`BuildError`] when the exact kernels refuse a point or the journal cannot be written.
     pub(crate) fn rows(
         &self,
-        mut finished: HashMap<Block, Row>,
+        mut finished: HashMap<TableBlock, Row>,
         journal: Option<&Mutex<Journal>>,
     ) -> Result<Vec<Row>, BuildError> {
         let mut missing = self.blocks.clone();
         missing.retain(|block| !finished.contains_key(block));
         self.progress.total("kernels", missing.len() as u64);
-        let computed: Vec<(Block, Row)> = missing
+        let computed: Vec<(TableBlock, Row)> = missing
             .par_iter()
             .with_max_len(1)
             .map(|&block| {
@@ -167,11 +167,11 @@ impl<'a> Work<'a> {
     }
 
     /// Computes a row, of which known cells keep their numbers; probes whose errors are known are left blank.
-    fn row(&self, block: Block) -> Result<Row, BuildError> {
+    fn row(&self, block: TableBlock) -> Result<Row, BuildError> {
         let (ratio, r, depths) = self.place(block);
         let plan = match block.kind {
-            Kind::Nodes => self.grid.point(ratio)?,
-            Kind::Probes | Kind::Between => self.grid.probe(ratio)?,
+            PointKind::Nodes => self.grid.point(ratio)?,
+            PointKind::Probes | PointKind::Between => self.grid.probe(ratio)?,
         };
         self.progress.slice(ratio);
         let mut row = Row::default();
@@ -184,7 +184,7 @@ impl<'a> Work<'a> {
             }
             let mut point = plan.compute(r, z)?;
             lookup::round(&mut point);
-            if let (Kind::Nodes, Some(known)) = (block.kind, self.known) {
+            if let (PointKind::Nodes, Some(known)) = (block.kind, self.known) {
                 known.keep(ratio, [r, z], &mut point);
             }
             for field in 0..6 {
@@ -209,7 +209,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("t.journal");
         let small = Grid::demo();
-        let work = Work::new(&small, None, &Silent).unwrap();
+        let work = TableWork::new(&small, None, &Silent).unwrap();
         let grid = small.to_toml().unwrap();
         let other = grid.replace("0.3", "0.25");
         let (block, (.., z)) = (work.blocks[0], work.place(work.blocks[0]));

@@ -1,11 +1,11 @@
 //! A table in parts: shards computed apart, joined into one.
 
-use crate::assemble::{Summary, complete};
+use crate::assemble::{BuildSummary, complete};
 use crate::error::BuildError;
 use crate::grid::Grid;
 use crate::journal::{records, title};
 use crate::progress::Progress;
-use crate::rows::Work;
+use crate::rows::TableWork;
 use ledger::Shard;
 use output::{Existing, Output, Role, apart};
 use std::collections::HashMap;
@@ -25,7 +25,7 @@ pub fn build_shard(
     progress: &dyn Progress,
 ) -> Result<usize, BuildError> {
     grid.validate()?;
-    let mut work = Work::new(grid, None, progress)?;
+    let mut work = TableWork::new(grid, None, progress)?;
     let own = work.blocks.into_iter().skip(shard.index - 1);
     work.blocks = own.step_by(shard.count).collect();
     let text = grid.to_toml()?;
@@ -44,7 +44,7 @@ pub fn merge(
     path: &Path,
     existing: Existing,
     progress: &dyn Progress,
-) -> Result<Summary, BuildError> {
+) -> Result<BuildSummary, BuildError> {
     let started = Instant::now();
     let inputs: Vec<Role> = (parts.iter())
         .map(|part| ("a shard", part.clone()))
@@ -57,7 +57,7 @@ pub fn merge(
     };
     let settings = records(first)?.title.about;
     let grid = Grid::parse(&settings).map_err(|error| error.in_file(first))?;
-    let work = Work::new(&grid, None, progress)?;
+    let work = TableWork::new(&grid, None, progress)?;
     let mut found = HashMap::new();
     for part in parts {
         let mut records = records(part)?;

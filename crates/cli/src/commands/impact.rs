@@ -1,15 +1,16 @@
 //! `hertzlamb impact`: one scene.
 
-use crate::arguments::{AS_TEXT, Kernels, MemoryLimit, Overwrite, is_text, say_complete};
+use crate::arguments::{AS_TEXT, KernelOptions, MemoryLimit, Overwrite, is_text, say_complete};
 use crate::failure::{Failure, lines, say, show};
 use crate::progress::Bar;
 use crate::report::{text_report, understood};
 use clap::Args;
 use formats::{check_results, json_report, read_with_inputs, stage_results, stage_results_csv};
-use impact::{Allowance, Forecast, ImpactError, Scene, simulate_within};
+use impact::{Allowance, Forecast, ImpactError, Outcome, Scene, simulate_within};
 use output::{CSV, Ending, Existing, HDF5, Output, Role, Staged, apart};
-use serde_json::json;
+use serde::{Serialize, Serializer};
 use std::cell::Cell;
+use std::fmt::{self, Display, Formatter};
 use std::iter;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -26,7 +27,7 @@ pub(crate) struct Arguments {
     /// Scene file (TOML, see data-schema/scene.md); - is standard input.
     scene: PathBuf,
     #[command(flatten)]
-    kernels: Kernels,
+    kernels: KernelOptions,
     /// Results file (HDF5, see data-schema/results.md).
     #[arg(short, long, value_name = "OUT.h5")]
     output: Option<PathBuf>,
@@ -84,23 +85,68 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     for warning in &outcome.warnings {
         say(format!("warning: {warning}"));
     }
-    let value = json_report(&scene, &outcome, start.elapsed().as_secs_f64());
-    show(arguments.json, &value, text_report(&scene, &outcome))
+    let report = ImpactReport {
+        scene: &scene,
+        outcome: &outcome,
+        wall_s: start.elapsed().as_secs_f64(),
+    };
+    show(arguments.json, &report)
 }
 
-/// Says what a scene takes.
+/// Results of a scene.
+struct ImpactReport<'a> {
+    scene: &'a Scene,
+    outcome: &'a Outcome,
+    wall_s: f64,
+}
+
+impl Serialize for ImpactReport<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        json_report(self.scene, self.outcome, self.wall_s).serialize(serializer)
+    }
+}
+
+impl Display for ImpactReport<'_> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.write_str(&text_report(self.scene, self.outcome))
+    }
+}
+
+/// Prints what a scene takes.
 fn plan(arguments: &Arguments, scene: &Scene, forecast: &Forecast) -> Result<(), Failure> {
-    let plan = json!({
-        "points": forecast.points,
-        "samples": forecast.samples,
-        "seconds": forecast.seconds,
-        "memory_bytes": forecast.memory_bytes,
-        "disk_bytes": forecast.disk_bytes,
-        "threads": std::thread::available_parallelism().map_or(1, usize::from),
-    });
-    let understood = lines([("impact", understood(scene))]);
-    let text = format!("{understood}\n{}", takes(forecast));
-    show(arguments.json, &plan, text)
+    let report = ScenePlan {
+        points: forecast.points,
+        samples: forecast.samples,
+        seconds: forecast.seconds,
+        memory_bytes: forecast.memory_bytes,
+        disk_bytes: forecast.disk_bytes,
+        threads: std::thread::available_parallelism().map_or(1, usize::from),
+        text: format!(
+            "{}\n{}",
+            lines([("impact", understood(scene))]),
+            takes(forecast)
+        ),
+    };
+    show(arguments.json, &report)
+}
+
+/// Time, memory and disk that a scene takes.
+#[derive(Serialize)]
+struct ScenePlan {
+    points: usize,
+    samples: f64,
+    seconds: f64,
+    memory_bytes: f64,
+    disk_bytes: f64,
+    threads: usize,
+    #[serde(skip)]
+    text: String,
+}
+
+impl Display for ScenePlan {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.text)
+    }
 }
 
 /// The output that may stay and is there already, as this command would write it.

@@ -4,8 +4,11 @@ use crate::failure::{Failure, lines, show};
 use crate::report::si;
 use clap::builder::PossibleValuesParser;
 use clap::{ArgGroup, Args};
-use contact::{Choice, Measure, Unknown};
+use contact::{Choice, Inferred, Measure, Unknown};
 use formats::read_scene;
+use serde::{Serialize, Serializer};
+use serde_json::Value;
+use std::fmt::{self, Display, Formatter};
 use std::path::PathBuf;
 
 const EXAMPLES: &str = "Examples:
@@ -55,36 +58,68 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let (name, values) =
         given.unwrap_or_else(|| ("bounces", arguments.bounces.clone().unwrap_or_default()));
     let (found, report) = formats::infer(&scene, (name, &values), arguments.error, unknown)?;
-    let results = &found.results;
-    let in_units = |x| si(x, unknown.unit());
-    let end = |end: Option<f64>, none: &str| end.map_or(none.to_owned(), in_units);
-    let [low, high] = found.band;
-    let (low, high) = (end(low, "no lower bound"), end(high, "no upper bound"));
-    let value = in_units(found.value);
-    let over = results.plastic.velocity_over_yield.unwrap_or(1.0);
-    let yields = si(results.plastic.yield_velocity_m_s.unwrap_or(0.0), "m/s");
-    let mut text = vec![
-        (unknown.words(), format!("{value} ({low} to {high})")),
-        (
-            "yield",
-            format!("from {yields} on, {over:.4} times that here"),
-        ),
-        ("restitution", format!("{:.6}", results.restitution)),
-        ("contact time", si(results.contact_time_s, "s")),
-        ("peak force", si(results.peak_force_n, "N")),
-    ];
-    if found.elastic {
-        let told = "the measure is that of an elastic contact: any higher yield pressure has it";
-        text.push(("note", told.to_owned()));
+    let law = scene.settings.plasticity.name();
+    let report = InferReport {
+        unknown,
+        found,
+        law,
+        value: report,
+    };
+    show(arguments.json, &report)
+}
+
+/// Yield pressure or velocity that was found.
+struct InferReport {
+    unknown: Unknown,
+    found: Inferred,
+    /// Name of the law of flow.
+    law: &'static str,
+    value: Value,
+}
+
+impl Serialize for InferReport {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        self.value.serialize(serializer)
     }
-    if let Some(over) = results
-        .plastic
-        .velocity_over_trusted
-        .filter(|&over| over > 1.0)
-    {
-        let law = scene.settings.plasticity.name();
-        let told = format!("{over:.1} times as fast as plasticity = \"{law}\" is trusted");
-        text.push(("note", told));
+}
+
+impl Display for InferReport {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let (found, unknown) = (&self.found, self.unknown);
+        let results = &found.results;
+        let in_units = |x| si(x, unknown.unit());
+        let end = |end: Option<f64>, none: &str| end.map_or(none.to_owned(), in_units);
+        let [low, high] = found.band;
+        let (low, high) = (end(low, "no lower bound"), end(high, "no upper bound"));
+        let value = in_units(found.value);
+        let over = results.plastic.velocity_over_yield.unwrap_or(1.0);
+        let yields = si(results.plastic.yield_velocity_m_s.unwrap_or(0.0), "m/s");
+        let mut text = vec![
+            (unknown.words(), format!("{value} ({low} to {high})")),
+            (
+                "yield",
+                format!("from {yields} on, {over:.4} times that here"),
+            ),
+            ("restitution", format!("{:.6}", results.restitution)),
+            ("contact time", si(results.contact_time_s, "s")),
+            ("peak force", si(results.peak_force_n, "N")),
+        ];
+        if found.elastic {
+            let told =
+                "the measure is that of an elastic contact: any higher yield pressure has it";
+            text.push(("note", told.to_owned()));
+        }
+        if let Some(over) = results
+            .plastic
+            .velocity_over_trusted
+            .filter(|&over| over > 1.0)
+        {
+            let told = format!(
+                "{over:.1} times as fast as plasticity = \"{}\" is trusted",
+                self.law
+            );
+            text.push(("note", told));
+        }
+        f.write_str(&lines(text))
     }
-    show(arguments.json, &report, lines(text))
 }

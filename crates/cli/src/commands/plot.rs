@@ -7,7 +7,7 @@ use clap::builder::PossibleValuesParser;
 use contact::Choice;
 use figure::{Figure, Scale, to_gif, to_pdf, to_png, to_svg};
 use output::Role;
-use plot::{Kind, Request, animate, compose};
+use plot::{PictureKind, PlotError, Request, animate, compose};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -92,8 +92,9 @@ fn number(text: &str) -> Result<f64, String> {
 }
 
 fn kinds() -> PossibleValuesParser {
-    let value = |kind: &Kind| clap::builder::PossibleValue::new(kind.name()).help(kind.meaning());
-    PossibleValuesParser::new(Kind::ALL.iter().map(value))
+    let value =
+        |kind: &PictureKind| clap::builder::PossibleValue::new(kind.name()).help(kind.meaning());
+    PossibleValuesParser::new(PictureKind::ALL.iter().map(value))
 }
 
 /// The end of a picture's name, which says what it becomes.
@@ -116,7 +117,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let inputs: Vec<Role> = files.map(|path| ("a file", path)).collect();
     let output = arguments.overwrite.claim(&arguments.output, &inputs)?;
     let request = Request {
-        kind: arguments.kind.as_deref().and_then(Kind::named),
+        kind: arguments.kind.as_deref().and_then(PictureKind::named),
         quantities: arguments.quantity.clone(),
         times_s: arguments.times.clone(),
         frames: arguments.frames.map(usize::from),
@@ -136,11 +137,11 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         None => figure,
     };
     let (bytes, notes) = if ending == "gif" {
-        let (figures, notes) = animate(&arguments.files, &request)?;
+        let (figures, notes) = animate(&arguments.files, &request).map_err(failure)?;
         let figures: Vec<Figure> = figures.into_iter().map(size).collect();
         (to_gif(&figures, 1.0, FRAME_S), notes)
     } else {
-        let (figure, notes) = compose(&arguments.files, &request)?;
+        let (figure, notes) = compose(&arguments.files, &request).map_err(failure)?;
         let figure = size(figure);
         let bytes = match ending.as_str() {
             "png" => to_png(&figure, f32::from(arguments.scale.unwrap_or(PNG_SCALE))),
@@ -155,6 +156,20 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         say(format!("note: {note}"));
     }
     print(line(arguments.output.display()))
+}
+
+/// A picture that was not drawn, with what to do.
+fn failure(error: PlotError) -> Failure {
+    let hint = match &error {
+        PlotError::NoAxis(_) => "; sweep --csv writes its rows".to_owned(),
+        PlotError::TooManyCurves {
+            example: Some(example),
+            ..
+        } => format!(", such as by --at {example}"),
+        PlotError::NoSlice(_) => ": hertzlamb table verify says what is wrong with it".to_owned(),
+        _ => String::new(),
+    };
+    Failure::from(error).hint_if(true, &hint)
 }
 
 /// Pixels of a PNG for each of its own, unless asked for.

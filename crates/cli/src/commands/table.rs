@@ -2,12 +2,15 @@
 
 use crate::arguments::Overwrite;
 use crate::commands::tabulate;
-use crate::failure::{Failure, line, print, show};
+use crate::failure::{Failure, line, show};
 use crate::progress::Bar;
 use clap::{Args, Subcommand};
 use formats::table_report;
+use lookup::Table;
 use output::{Existing, TABLE};
-use serde_json::json;
+use serde::{Serialize, Serializer};
+use serde_json::Value;
+use std::fmt::{self, Display, Formatter};
 use std::path::{Path, PathBuf};
 use tabulator::{check_table, differences, merge};
 
@@ -21,14 +24,14 @@ const EXAMPLES: &str = "Examples:
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Arguments {
     #[command(subcommand)]
-    action: Action,
+    action: TableAction,
     /// Print one JSON object instead of text.
     #[arg(long, global = true)]
     json: bool,
 }
 
 #[derive(Debug, Subcommand)]
-enum Action {
+enum TableAction {
     /// Says what a table covers, how it was made and how exact it is.
     Info {
         /// Kernel table.
@@ -67,14 +70,14 @@ enum Action {
 
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     match &arguments.action {
-        Action::Info { table } => info(table, arguments.json),
-        Action::Verify {
+        TableAction::Info { table } => info(table, arguments.json),
+        TableAction::Verify {
             table,
             sample,
             seed,
         } => verify(table, *sample, *seed, arguments.json),
-        Action::Diff { first, second } => diff(first, second, arguments.json),
-        Action::Merge {
+        TableAction::Diff { first, second } => diff(first, second, arguments.json),
+        TableAction::Merge {
             shards,
             output,
             overwrite,
@@ -83,114 +86,197 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 fn info(path: &Path, json: bool) -> Result<(), Failure> {
-    let table = lookup::Table::open(path).map_err(Failure::input)?;
-    let content = table.content();
+    let table = Table::open(path).map_err(Failure::input)?;
     let value = table_report(path, &table);
-    let cells = content.slices.iter().map(|slice| slice.cells);
-    let cells = match (cells.clone().min(), cells.max()) {
-        (Some(fewest), Some(most)) if fewest < most => format!("{fewest} to {most}"),
-        (_, most) => most.unwrap_or(0).to_string(),
-    };
-    let text = format!(
-        "file            {} ({:.1} MB)\n\
-         id              {}, format {}, written by {}\n\
-         content         sha256 {}\n\
-         Poisson ratios  {:?}\n\
-         r               0 .. {} r0, {} nodes\n\
-         z               0 .. {} r0, {} nodes\n\
-         time            cells of {} r0/c1, {cells} of them, then a tail\n\
-         interpolation   {} points\n{}",
-        line(path.display()),
-        value["bytes"].as_f64().unwrap_or(0.0) / 1e6,
-        table.id(),
-        content.origin.format_version,
-        content.origin.software_version,
-        value["content_sha256"].as_str().unwrap_or(""),
-        table.poisson_ratios(),
-        content.r_max,
-        content.r.len(),
-        content.z_max,
-        content.z.len(),
-        content.cell_width,
-        content.stencil_points,
-        tabulate::errors_in_words(&content.accuracy())
-    );
-    show(json, &value, text)
+    show(json, &TableInfo { path, table, value })
+}
+
+/// A table, how it was made and how exact it is.
+struct TableInfo<'a> {
+    path: &'a Path,
+    table: Table,
+    value: Value,
+}
+
+impl Serialize for TableInfo<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        self.value.serialize(serializer)
+    }
+}
+
+impl Display for TableInfo<'_> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let (table, value) = (&self.table, &self.value);
+        let content = table.content();
+        let cells = content.slices.iter().map(|slice| slice.cells);
+        let cells = match (cells.clone().min(), cells.max()) {
+            (Some(fewest), Some(most)) if fewest < most => format!("{fewest} to {most}"),
+            (_, most) => most.unwrap_or(0).to_string(),
+        };
+        write!(
+            f,
+            "file            {} ({:.1} MB)\n\
+             id              {}, format {}, written by {}\n\
+             content         sha256 {}\n\
+             Poisson ratios  {:?}\n\
+             r               0 .. {} r0, {} nodes\n\
+             z               0 .. {} r0, {} nodes\n\
+             time            cells of {} r0/c1, {cells} of them, then a tail\n\
+             interpolation   {} points\n{}",
+            line(self.path.display()),
+            value["bytes"].as_f64().unwrap_or(0.0) / 1e6,
+            table.id(),
+            content.origin.format_version,
+            content.origin.software_version,
+            value["content_sha256"].as_str().unwrap_or(""),
+            table.poisson_ratios(),
+            content.r_max,
+            content.r.len(),
+            content.z_max,
+            content.z.len(),
+            content.cell_width,
+            content.stencil_points,
+            tabulate::errors_in_words(&content.accuracy())
+        )
+    }
 }
 
 fn verify(path: &Path, sample: usize, seed: Option<u64>, json: bool) -> Result<(), Failure> {
     // another one at each call: the time in seconds
     let time = || std::time::UNIX_EPOCH.elapsed();
     let seed = seed.unwrap_or_else(|| time().map_or(1, |time| time.as_secs()));
-    let report = check_table(path, sample, seed).map_err(tabulate::failure)?;
-    let file = path.display().to_string();
-    let (nodes, largest) = (report.nodes_checked, report.largest_difference);
-    let (bad, damaged) = (&report.bad, &report.damaged);
-    let value = json!({
-        "file": file,
-        "nodes_checked": nodes,
-        "seed": seed,
-        "largest_relative_difference": largest,
-        "hash_right": report.hash_right,
-        "bad_nodes": bad,
-        "damaged_patches": damaged,
-    });
-    if report.is_good() {
-        let text = format!(
-            "{file}: complete, checksum right, {nodes} nodes of seed {seed} computed again, largest difference {largest:.1e}"
-        );
-        return show(json, &value, line(text));
+    let found = check_table(path, sample, seed).map_err(tabulate::failure)?;
+    let is_good = found.is_good();
+    let report = Verified {
+        file: path.display().to_string(),
+        nodes_checked: found.nodes_checked,
+        seed,
+        largest_relative_difference: found.largest_difference,
+        hash_right: found.hash_right,
+        bad_nodes: found.bad,
+        damaged_patches: found.damaged,
+    };
+    if is_good {
+        return show(json, &report);
     }
     if json {
-        print(value)?;
+        show(json, &report)?;
     }
-    // what is wrong, in one line
-    let first = |list: &[String]| match list.split_at_checked(5) {
-        Some((first, more @ [_, ..])) => format!("{}; and {} more", first.join("; "), more.len()),
-        _ => list.join("; "),
-    };
-    let mut parts = Vec::new();
-    if !damaged.is_empty() {
-        let patches = first(damaged);
-        parts.push(format!("damaged, nodes that cannot be read: {patches}"));
-    } else if !report.hash_right {
-        parts.push("the content is not that of content_sha256, it was changed".to_owned());
+    Err(Failure::work(report.wrong(sample)))
+}
+
+/// A table whose checksums were compared, with a sample of nodes computed again.
+#[derive(Serialize)]
+struct Verified {
+    file: String,
+    nodes_checked: usize,
+    seed: u64,
+    largest_relative_difference: f64,
+    hash_right: bool,
+    bad_nodes: Vec<String>,
+    damaged_patches: Vec<String>,
+}
+
+impl Display for Verified {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let text = format!(
+            "{}: complete, checksum right, {} nodes of seed {} computed again, largest difference {:.1e}",
+            self.file, self.nodes_checked, self.seed, self.largest_relative_difference
+        );
+        f.write_str(&line(text))
     }
-    if !bad.is_empty() {
-        parts.push(format!("{} wrong: {}", bad.len(), first(bad)));
-    } else if damaged.is_empty() {
-        let advice = format!("no wrong node among {sample}, try a larger --sample");
-        parts.push(advice);
+}
+
+impl Verified {
+    /// Everything that is wrong, in one line.
+    fn wrong(&self, sample: usize) -> String {
+        let first = |list: &[String]| match list.split_at_checked(5) {
+            Some((first, more @ [_, ..])) => {
+                format!("{}; and {} more", first.join("; "), more.len())
+            }
+            _ => list.join("; "),
+        };
+        let (bad, damaged) = (&self.bad_nodes, &self.damaged_patches);
+        let mut parts = Vec::new();
+        if !damaged.is_empty() {
+            let patches = first(damaged);
+            parts.push(format!("damaged, nodes that cannot be read: {patches}"));
+        } else if !self.hash_right {
+            parts.push("the content is not that of content_sha256, it was changed".to_owned());
+        }
+        if !bad.is_empty() {
+            parts.push(format!("{} wrong: {}", bad.len(), first(bad)));
+        } else if damaged.is_empty() {
+            let advice = format!("no wrong node among {sample}, try a larger --sample");
+            parts.push(advice);
+        }
+        format!("{}: {}", self.file, parts.join("; "))
     }
-    Err(Failure::work(format!("{file}: {}", parts.join("; "))))
 }
 
 fn diff(first: &Path, second: &Path, json: bool) -> Result<(), Failure> {
     let read = |path: &Path| lookup::read(path).map_err(Failure::input);
     let found = differences(&read(first)?, &read(second)?);
-    let value = json!({ "same": found.is_empty(), "differences": found });
-    if found.is_empty() {
-        return show(json, &value, "the tables hold the same");
+    let report = Compared {
+        same: found.is_empty(),
+        differences: found,
+    };
+    show(json, &report)?;
+    if report.same {
+        return Ok(());
     }
-    let found: Vec<String> = found.iter().map(line).collect();
-    show(json, &value, found.join("\n"))?;
     let (first, second) = (first.display(), second.display());
     Err(Failure::work(format!("{first} and {second} differ")))
+}
+
+/// Differences of two tables.
+#[derive(Serialize)]
+struct Compared {
+    same: bool,
+    differences: Vec<String>,
+}
+
+impl Display for Compared {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        if self.same {
+            return f.write_str("the tables hold the same");
+        }
+        let found: Vec<String> = self.differences.iter().map(line).collect();
+        f.write_str(&found.join("\n"))
+    }
 }
 
 fn join(shards: &[PathBuf], output: &Path, existing: Existing, json: bool) -> Result<(), Failure> {
     TABLE.check(output)?;
     let summary = merge(shards, output, existing, &Bar::new());
     let summary = summary.map_err(tabulate::failure)?;
-    let file = output.display().to_string();
-    let (id, points, megabytes) = (summary.id, summary.points, summary.bytes as f64 / 1e6);
-    let value = json!({
-        "file": file,
-        "id": id,
-        "content_sha256": summary.content_sha256,
-        "points": points,
-        "bytes": summary.bytes,
-    });
-    let text = format!("{file}: {points} points, {megabytes:.1} MB, id {id}");
-    show(json, &value, line(text))
+    let report = Joined {
+        file: output.display().to_string(),
+        id: summary.id,
+        content_sha256: summary.content_sha256,
+        points: summary.points,
+        bytes: summary.bytes,
+    };
+    show(json, &report)
+}
+
+/// A table that was joined from shards.
+#[derive(Serialize)]
+struct Joined {
+    file: String,
+    id: String,
+    content_sha256: String,
+    points: usize,
+    bytes: u64,
+}
+
+impl Display for Joined {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let megabytes = self.bytes as f64 / 1e6;
+        let text = format!(
+            "{}: {} points, {megabytes:.1} MB, id {}",
+            self.file, self.points, self.id
+        );
+        f.write_str(&line(text))
+    }
 }

@@ -8,9 +8,11 @@ use clap::Args;
 use formats::accuracy_report;
 use lookup::{Accuracy, Quantiles, schema, worst};
 use output::{Existing, Output, OutputError, SHARD, TABLE, apart, processor_s};
-use serde_json::json;
+use serde::Serialize;
+use serde_json::Value;
+use std::fmt::{self, Display, Formatter};
 use std::path::{Path, PathBuf};
-use tabulator::{BuildError, Extension, Grid, NUMBERS_REVISION, Shard, Summary};
+use tabulator::{BuildError, BuildSummary, Extension, Grid, NUMBERS_REVISION, Shard};
 use tabulator::{build_over, build_shard, extend, refine};
 
 const EXAMPLES: &str = "Examples:
@@ -91,39 +93,62 @@ fn plan(arguments: &Arguments) -> Result<(), Failure> {
         .cost(MEASURED_S, processor_s)
         .map_err(failure)?;
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
-    let seconds = found.seconds / threads as f64;
-    let value = json!({
-        "points": found.points,
-        "blocks": found.blocks,
-        "seconds": seconds,
-        "threads": threads,
-        "measured_points": found.measured_points,
-        "memory_bytes": found.memory_bytes,
-        "most_bytes": found.most_bytes,
-    });
-    let [memory, size] = [found.memory_bytes, found.most_bytes].map(|bytes| 1e-9 * bytes);
-    let text = lines([
-        (
-            "points",
-            format!("{} in {} blocks", found.points, found.blocks),
-        ),
-        (
-            "time",
-            format!(
-                "{seconds:.0} s on {threads} threads, from {} points",
-                found.measured_points
-            ),
-        ),
-        (
-            "memory",
-            format!("{memory:.2} GB; a shard takes its part of it"),
-        ),
-        (
-            "size",
-            format!("{size:.2} GB at most, a third of it as a rule: the file is compressed"),
-        ),
-    ]);
-    show(arguments.json, &value, text)
+    let report = TablePlan {
+        points: found.points,
+        blocks: found.blocks,
+        seconds: found.seconds / threads as f64,
+        threads,
+        measured_points: found.measured_points,
+        memory_bytes: found.memory_bytes,
+        most_bytes: found.most_bytes,
+    };
+    show(arguments.json, &report)
+}
+
+/// Time, memory and disk that a table takes.
+#[derive(Serialize)]
+struct TablePlan {
+    points: usize,
+    blocks: usize,
+    seconds: f64,
+    threads: usize,
+    measured_points: usize,
+    memory_bytes: f64,
+    most_bytes: f64,
+}
+
+impl Display for TablePlan {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let [memory, size] = [self.memory_bytes, self.most_bytes].map(|bytes| 1e-9 * bytes);
+        let points = format!("{} in {} blocks", self.points, self.blocks);
+        let time = format!(
+            "{:.0} s on {} threads, from {} points",
+            self.seconds, self.threads, self.measured_points
+        );
+        let memory = format!("{memory:.2} GB; a shard takes its part of it");
+        let size = format!("{size:.2} GB at most, a third of it as a rule: the file is compressed");
+        f.write_str(&lines([
+            ("points", points),
+            ("time", time),
+            ("memory", memory),
+            ("size", size),
+        ]))
+    }
+}
+
+/// A shard that was written.
+#[derive(Serialize)]
+struct ShardReport {
+    file: String,
+    blocks: usize,
+}
+
+impl Display for ShardReport {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let Self { file, blocks } = self;
+        let text = format!("{file}: {blocks} blocks; join all shards with hertzlamb table merge");
+        f.write_str(&line(text))
+    }
 }
 
 fn tabulate(arguments: &Arguments, output: &Path) -> Result<(), Failure> {
@@ -141,16 +166,15 @@ fn tabulate(arguments: &Arguments, output: &Path) -> Result<(), Failure> {
         let summary = extend(output, &extension, &Bar::new()).map_err(failure)?;
         let content = lookup::read(output).map_err(Failure::work)?;
         let grid = Grid::parse(&content.origin.grid).map_err(failure)?;
-        return tell(&grid, output, arguments.json, &summary);
+        let report = TableReport::new(&grid, output, summary);
+        return show(arguments.json, &report);
     }
     let grid = grid(arguments)?;
     // ends at once where it has all its blocks
     if let Some(shard) = arguments.shard {
         let blocks = build_shard(&grid, shard, output, &Bar::new()).map_err(failure)?;
         let file = output.display().to_string();
-        let text = format!("{file}: {blocks} blocks; join all shards with hertzlamb table merge");
-        let value = json!({ "file": file, "blocks": blocks });
-        return show(arguments.json, &value, line(text));
+        return show(arguments.json, &ShardReport { file, blocks });
     }
     if arguments.skip_complete && output.exists() {
         // also removes what a killed run has left beside it
@@ -163,7 +187,7 @@ fn tabulate(arguments: &Arguments, output: &Path) -> Result<(), Failure> {
     let change = "ask for fewer nodes, fewer slices or wider cells";
     arguments.memory.check(needed, "the table", change)?;
     let summary = build_over(&grid, output, existing, &Bar::new()).map_err(failure)?;
-    tell(&grid, output, arguments.json, &summary)
+    show(arguments.json, &TableReport::new(&grid, output, summary))
 }
 
 /// Fails where a file is not the whole table of a grid, made by this version.
@@ -225,33 +249,60 @@ fn grid(arguments: &Arguments) -> Result<Grid, Failure> {
     Ok(grid)
 }
 
-fn tell(grid: &Grid, output: &Path, json: bool, summary: &Summary) -> Result<(), Failure> {
-    let file = output.display().to_string();
-    let (id, points, wall_s) = (&summary.id, summary.points, summary.wall_s);
-    let accuracy = &summary.accuracy[..];
-    let lengths: Vec<f64> = accuracy.iter().map(|errors| errors.pulse_length).collect();
-    let p99 = accuracy.iter().map(|errors| worst(&errors.on_slices).1.p99);
-    let value = json!({
-        "file": file,
-        "id": id,
-        "content_sha256": summary.content_sha256,
-        "format_version": schema::FORMAT_VERSION_VALUE,
-        "poisson_ratios": grid.slices().iter().map(|slice| slice.0).collect::<Vec<f64>>(),
-        "points": points,
-        "bytes": summary.bytes,
-        "wall_s": wall_s,
-        "resumed_blocks": summary.resumed_blocks,
-        "pulse_lengths": lengths,
-        "p99_relative_error": p99.collect::<Vec<f64>>(),
-        "relative_errors": accuracy_report(accuracy),
-    });
-    let megabytes = summary.bytes as f64 / 1e6;
-    let errors = errors_in_words(accuracy);
-    let text = format!(
-        "{}: {points} points, {megabytes:.1} MB, {wall_s:.1} s, id {id}\n{errors}",
-        line(&file)
-    );
-    show(json, &value, text)
+/// A table that was written.
+#[derive(Serialize)]
+struct TableReport {
+    file: String,
+    id: String,
+    content_sha256: String,
+    format_version: &'static str,
+    poisson_ratios: Vec<f64>,
+    points: usize,
+    bytes: u64,
+    wall_s: f64,
+    resumed_blocks: usize,
+    pulse_lengths: Vec<f64>,
+    p99_relative_error: Vec<f64>,
+    relative_errors: Value,
+    #[serde(skip)]
+    accuracy: Vec<Accuracy>,
+}
+
+impl TableReport {
+    fn new(grid: &Grid, output: &Path, summary: BuildSummary) -> Self {
+        let accuracy = summary.accuracy;
+        let p99 = accuracy.iter().map(|errors| worst(&errors.on_slices).1.p99);
+        Self {
+            file: output.display().to_string(),
+            id: summary.id,
+            content_sha256: summary.content_sha256,
+            format_version: schema::FORMAT_VERSION_VALUE,
+            poisson_ratios: grid.slices().iter().map(|slice| slice.0).collect(),
+            points: summary.points,
+            bytes: summary.bytes,
+            wall_s: summary.wall_s,
+            resumed_blocks: summary.resumed_blocks,
+            pulse_lengths: accuracy.iter().map(|errors| errors.pulse_length).collect(),
+            p99_relative_error: p99.collect(),
+            relative_errors: accuracy_report(&accuracy),
+            accuracy,
+        }
+    }
+}
+
+impl Display for TableReport {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let megabytes = self.bytes as f64 / 1e6;
+        write!(
+            f,
+            "{}: {} points, {megabytes:.1} MB, {:.1} s, id {}\n{}",
+            line(&self.file),
+            self.points,
+            self.wall_s,
+            self.id,
+            errors_in_words(&self.accuracy)
+        )
+    }
 }
 
 /// The errors of the worst field in each region, for each length of the pulse.

@@ -1,10 +1,10 @@
 //! A map of a few classes.
 
 use super::{Swatch, count};
+use crate::drawing::{Drawing, DrawnPath};
 use crate::error::FigureError;
 use crate::geometry::Rect;
 use crate::look::fills;
-use crate::scene::{Scene, Shape};
 
 /// A few classes on a regular grid of cells that fills the panel, at most five.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -32,14 +32,14 @@ impl Classes {
 
     /// One shape a class, each over the lighter ones: it covers the cells of its own class and of all darker ones, so
     /// that no background shines through where two classes meet.
-    pub(super) fn draw(&self, scene: &mut Scene, area: Rect) {
+    pub(super) fn draw(&self, drawing: &mut Drawing, area: Rect) {
         let [columns, rows] = self.shape;
         if columns == 0 || rows == 0 {
             return;
         }
         let (width, height) = (area.width() / columns as f64, area.height() / rows as f64);
         for (least, &colour) in fills(self.names.len()).iter().enumerate() {
-            let mut shape = Shape::default();
+            let mut shape = DrawnPath::default();
             for (row, cells) in self.class.chunks(columns).enumerate() {
                 let bottom = area.bottom - height * row as f64;
                 let mut start = 0;
@@ -48,13 +48,13 @@ impl Classes {
                         let left = area.left + width * start as f64;
                         let cells =
                             Rect::new(left, bottom - height, width * run.len() as f64, height);
-                        shape.segments.extend(Shape::rectangle(cells).segments);
+                        shape.segments.extend(DrawnPath::rectangle(cells).segments);
                     }
                     start += run.len();
                 }
             }
             if !shape.segments.is_empty() {
-                scene.shape(shape.filled(colour, 1.0));
+                drawing.shape(shape.filled(colour, 1.0));
             }
         }
     }

@@ -2,7 +2,6 @@
 
 use crate::axis::{Axis, Interval, Scale};
 use crate::colour::ColourMap;
-use crate::layers::{Image, Layer};
 
 /// What the colours of some images mean.
 #[derive(Debug, Clone, PartialEq)]
@@ -15,26 +14,23 @@ pub(crate) struct Colours {
 }
 
 impl Colours {
-    /// Those of the first image among some layers, for the values of all; none without an image.
-    pub(crate) fn of<'a>(layers: impl IntoIterator<Item = &'a Layer>) -> Option<Self> {
-        let images = layers.into_iter().filter_map(|layer| match layer {
-            Layer::Image(image) => Some(image),
-            _ => None,
-        });
-        let images: Vec<&Image> = images.collect();
-        let first = images.first()?;
-        let values = || images.iter().flat_map(|image| image.values.iter().copied());
-        let limits = limits(&first.colours, first.map, values());
-        let shown = || values().filter(|value| limits.scale.shows(*value));
-        Some(Self {
-            axis: first.colours.clone(),
-            map: first.map,
+    /// The colours of a map for some values; the range of the axis, if it has one, limits them.
+    pub(super) fn new(
+        axis: &Axis,
+        map: ColourMap,
+        values: &(impl Iterator<Item = f64> + Clone),
+    ) -> Self {
+        let limits = limits(axis, map, values.clone());
+        let shown = || values.clone().filter(|value| limits.scale.shows(*value));
+        Self {
+            axis: axis.clone(),
+            map,
             limits,
             beyond: [
                 shown().any(|value| limits.fraction(value) < -1e-9),
                 shown().any(|value| limits.fraction(value) > 1.0 + 1e-9),
             ],
-        })
+        }
     }
 
     /// The colour of a value; none for one that is not shown.

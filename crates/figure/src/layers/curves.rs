@@ -3,9 +3,9 @@
 use super::Swatch;
 use crate::axis::{Interval, Scale};
 use crate::colour::WHITE;
+use crate::drawing::{Drawing, DrawnPath, Stroke};
 use crate::geometry::{Frame, Point, Rect};
 use crate::look::{Look, Style};
-use crate::scene::{Scene, Shape, Stroke};
 
 /// How much a band hides.
 pub(crate) const BAND: f64 = 0.22;
@@ -64,7 +64,7 @@ impl Line {
         points
     }
 
-    fn draw_band(&self, scene: &mut Scene, frame: &Frame, look: &Look) {
+    fn draw_band(&self, drawing: &mut Drawing, frame: &Frame, look: &Look) {
         let place = |point: &Point| frame.place(*point);
         let [lower, upper] = self.band.each_ref().map(|side| frame.sides(side));
         for (lower, upper) in lower.iter().zip(&upper) {
@@ -74,8 +74,8 @@ impl Line {
                 let run = || run.iter().flatten();
                 let back = run().rev().map(|pair| pair.1);
                 let outline: Vec<Point> = run().map(|pair| pair.0).chain(back).collect();
-                let area = Shape::polygon(&outline).filled(look.stroke.colour, BAND);
-                scene.shape(area.clipped(frame.area));
+                let area = DrawnPath::polygon(&outline).filled(look.stroke.colour, BAND);
+                drawing.shape(area.clipped(frame.area));
             }
         }
     }
@@ -102,18 +102,18 @@ impl Line {
         Swatch::Curve { look, has_band }
     }
 
-    pub(super) fn draw(&self, scene: &mut Scene, frame: &Frame, numbers: [usize; 2]) {
+    pub(super) fn draw(&self, drawing: &mut Drawing, frame: &Frame, numbers: [usize; 2]) {
         let look = Look::new(numbers, self.style);
-        self.draw_band(scene, frame, &look);
+        self.draw_band(drawing, frame, &look);
         for points in frame.sides(&self.standing(frame)) {
             let runs = frame.runs(&points);
             for run in runs.iter().filter(|run| look.has_line() && run.len() > 1) {
-                draw_run(scene, run, &look, frame.area);
+                draw_run(drawing, run, &look, frame.area);
             }
             for &at in runs.iter().flatten() {
                 // whole markers at the sides of a plot, none of points beyond them
                 if frame.area.grown(0.01).has(at) {
-                    look.mark(scene, at);
+                    look.mark(drawing, at);
                 }
             }
         }
@@ -121,16 +121,16 @@ impl Line {
 }
 
 /// Draws a line through points in pixels, over its rim or the light filling of its bars, which lie over one another.
-pub(crate) fn draw_run(scene: &mut Scene, run: &[Point], look: &Look, clip: Rect) {
+pub(crate) fn draw_run(drawing: &mut Drawing, run: &[Point], look: &Look, clip: Rect) {
     if look.style == Style::Bars {
-        let fill = Shape::polygon(run).filled(look.stroke.colour, 0.18);
-        scene.shape(fill.clipped(clip));
+        let fill = DrawnPath::polygon(run).filled(look.stroke.colour, 0.18);
+        drawing.shape(fill.clipped(clip));
     }
     if look.style == Style::Rimmed {
         let rim = Stroke::solid(WHITE, look.stroke.width + 2.4);
-        scene.shape(Shape::polyline(run).stroked(rim).clipped(clip));
+        drawing.shape(DrawnPath::polyline(run).stroked(rim).clipped(clip));
     }
-    scene.shape(Shape::polyline(run).stroked(look.stroke).clipped(clip));
+    drawing.shape(DrawnPath::polyline(run).stroked(look.stroke).clipped(clip));
 }
 
 #[cfg(test)]

@@ -3,9 +3,9 @@
 use super::{Colours, count};
 use crate::axis::Axis;
 use crate::colour::ColourMap;
+use crate::drawing::Bitmap;
 use crate::error::FigureError;
 use crate::geometry::{Frame, Point};
-use crate::scene::Picture;
 
 /// A field on a grid, which need not be even.
 #[derive(Debug, Clone, PartialEq)]
@@ -50,12 +50,12 @@ impl Image {
     }
 
     /// A pixel for every place of the plot, so that uneven grids, logarithmic axes and mirrors need nothing else.
-    pub(super) fn pixels(&self, frame: &Frame, colours: &Colours) -> Picture {
+    pub(super) fn pixels(&self, frame: &Frame, colours: &Colours) -> Bitmap {
         /// Pixels of the image for each pixel of the canvas.
         const FINE: f64 = 2.0;
         /// Most pixels along a side.
-        const MOST: f64 = 2000.0;
-        let count = |length: f64| (FINE * length).ceil().clamp(1.0, MOST);
+        const MOST_PIXELS: f64 = 2000.0;
+        let count = |length: f64| (FINE * length).ceil().clamp(1.0, MOST_PIXELS);
         let (columns, rows) = (count(frame.area.width()), count(frame.area.height()));
         let at = |column: u32, row: u32| {
             let across = (f64::from(column) + 0.5) / columns * frame.area.width();
@@ -65,7 +65,7 @@ impl Image {
             colours.of_value(self.at(x, y))
         };
         let places = (0..rows as u32).flat_map(|row| (0..columns as u32).map(move |i| (i, row)));
-        Picture {
+        Bitmap {
             area: frame.area,
             columns: columns as u32,
             rows: rows as u32,

@@ -15,10 +15,10 @@ pub use image::Image;
 pub(crate) use colours::Colours;
 pub(crate) use curves::{BAND, draw_run};
 
+use crate::drawing::{Drawing, Item};
 use crate::error::FigureError;
 use crate::geometry::{Frame, Point};
 use crate::look::{Look, Style};
-use crate::scene::{Item, Scene};
 
 /// One layer of a panel; later ones lie over earlier ones.
 #[derive(Debug, Clone, PartialEq)]
@@ -67,6 +67,22 @@ impl Layer {
     /// A label alone, on the point or near it.
     pub fn text(at: (f64, f64), label: &str) -> Self {
         Self::point(at, label, false)
+    }
+
+    /// The curve, if it is one.
+    pub fn as_line(&self) -> Option<&Line> {
+        match self {
+            Self::Line(line) => Some(line),
+            Self::Image(_) | Self::Classes(_) | Self::Mark { .. } | Self::Point { .. } => None,
+        }
+    }
+
+    /// The image, if it is one.
+    fn as_image(&self) -> Option<&Image> {
+        match self {
+            Self::Image(image) => Some(image),
+            Self::Line(_) | Self::Classes(_) | Self::Mark { .. } | Self::Point { .. } => None,
+        }
     }
 
     fn point(at: (f64, f64), label: &str, is_starred: bool) -> Self {
@@ -120,21 +136,29 @@ impl Layer {
     /// Draws it, an image in the colours of its panel; labels come later, over everything else.
     pub(crate) fn draw(
         &self,
-        scene: &mut Scene,
+        drawing: &mut Drawing,
         frame: &Frame,
         colours: Option<&Colours>,
         numbers: [usize; 2],
     ) {
         match self {
-            Self::Line(line) => line.draw(scene, frame, numbers),
+            Self::Line(line) => line.draw(drawing, frame, numbers),
             Self::Image(image) => {
                 let picture = colours.map(|colours| image.pixels(frame, colours));
-                scene.items.extend(picture.map(Item::Picture));
+                drawing.items.extend(picture.map(Item::Bitmap));
             }
-            Self::Classes(classes) => classes.draw(scene, frame.area),
+            Self::Classes(classes) => classes.draw(drawing, frame.area),
             Self::Mark { .. } | Self::Point { .. } => {}
         }
     }
+}
+
+/// The colours of the first image among some layers, for the values of all images; none without an image.
+pub(crate) fn colours_of<'a>(layers: impl IntoIterator<Item = &'a Layer>) -> Option<Colours> {
+    let images: Vec<&Image> = layers.into_iter().filter_map(Layer::as_image).collect();
+    let first = images.first()?;
+    let values = images.iter().flat_map(|image| image.values.iter().copied());
+    Some(Colours::new(&first.colours, first.map, &values))
 }
 
 /// The sample beside a name.

@@ -3,8 +3,8 @@
 use super::plan::PanelPlan;
 use crate::axis::{Axis, Interval};
 use crate::colour::{BLACK, GRID};
+use crate::drawing::{Drawing, DrawnPath, END, MIDDLE, Stroke, Text};
 use crate::geometry::Frame;
-use crate::scene::{END, MIDDLE, Scene, Shape, Stroke, Text};
 use crate::text::{LINE, Typeface, width as width_of, wrap};
 use crate::ticks::{Room, Ticks, shown, ticks};
 
@@ -54,14 +54,14 @@ pub(super) const THIN: Stroke = Stroke::solid(BLACK, 1.0);
 
 /// Both axes fitted to a plot.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Axes {
+pub(crate) struct PlotAxes {
     x: FittedAxis,
     y: FittedAxis,
     /// Whether numbers and labels are written, which a panel may leave to another one.
     labelled: [bool; 2],
 }
 
-impl Axes {
+impl PlotAxes {
     /// Fits the axes to a plot of a size.
     pub(super) fn new(plan: &PanelPlan<'_>, [width, height]: [f64; 2], faces: &Typeface) -> Self {
         let beside = Room {
@@ -112,7 +112,7 @@ impl Axes {
     }
 
     /// Draws lines at the ticks, below everything else.
-    pub(crate) fn draw_grid(&self, scene: &mut Scene, frame: &Frame) {
+    pub(crate) fn draw_grid(&self, drawing: &mut Drawing, frame: &Frame) {
         let area = frame.area;
         let upright = self.x.ticks.major.iter().map(|tick| {
             let x = frame.across(tick.0);
@@ -122,11 +122,11 @@ impl Axes {
             let y = frame.down(tick.0);
             [(area.left, y), (area.right, y)]
         });
-        scene.shape(Shape::lines(upright.chain(level)).stroked(Stroke::solid(GRID, 1.0)));
+        drawing.shape(DrawnPath::lines(upright.chain(level)).stroked(Stroke::solid(GRID, 1.0)));
     }
 
     /// Draws frame, ticks, numbers and labels.
-    pub(crate) fn draw(&self, scene: &mut Scene, frame: &Frame, faces: &Typeface) {
+    pub(crate) fn draw(&self, drawing: &mut Drawing, frame: &Frame, faces: &Typeface) {
         let area = frame.area;
         let below = self.x.lengths(faces).map(|(value, length)| {
             let x = frame.across(value);
@@ -136,18 +136,18 @@ impl Axes {
             let y = frame.down(value);
             [(area.left - length, y), (area.left, y)]
         });
-        scene.shape(Shape::lines(below.chain(beside)).stroked(THIN));
-        scene.shape(Shape::rectangle(area).stroked(THIN));
+        drawing.shape(DrawnPath::lines(below.chain(beside)).stroked(THIN));
+        drawing.shape(DrawnPath::rectangle(area).stroked(THIN));
         let middle = area.centre();
         if self.labelled[0] {
             let mut line = area.bottom + faces.tick_length() + 0.2 * faces.tick + faces.tick;
             for (value, label) in &self.x.ticks.major {
                 let at = (frame.across(*value), line);
-                scene.text(Text::new(label, at, faces.tick, MIDDLE));
+                drawing.text(Text::new(label, at, faces.tick, MIDDLE));
             }
             line += 0.55 * faces.tick + faces.label;
             for label in &self.x.label {
-                scene.text(Text::new(label, (middle.0, line), faces.label, MIDDLE));
+                drawing.text(Text::new(label, (middle.0, line), faces.label, MIDDLE));
                 line += LINE * faces.label;
             }
         }
@@ -155,12 +155,12 @@ impl Axes {
             let right = area.left - faces.tick_length() - 0.35 * faces.tick;
             for (value, label) in &self.y.ticks.major {
                 let at = (right, frame.down(*value) + 0.35 * faces.tick);
-                scene.text(Text::new(label, at, faces.tick, END));
+                drawing.text(Text::new(label, at, faces.tick, END));
             }
             // upward text stands on its right side, its first line at the left
             let mut line = right - self.y.numbers - faces.gap() - 0.25 * faces.label;
             for label in self.y.label.iter().rev() {
-                scene.text(Text::upward(label, (line, middle.1), faces.label));
+                drawing.text(Text::upward(label, (line, middle.1), faces.label));
                 line -= LINE * faces.label;
             }
         }

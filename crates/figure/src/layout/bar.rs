@@ -1,9 +1,9 @@
 //! The colour bar beside a panel or beside all of them, fitted and drawn.
 
 use super::axes::{FittedAxis, THIN};
+use crate::drawing::{Bitmap, Drawing, DrawnPath, Item, START, Text};
 use crate::geometry::Rect;
 use crate::layers::Colours;
-use crate::scene::{Item, Picture, START, Scene, Shape, Text};
 use crate::text::{LINE, Typeface};
 use crate::ticks::Room;
 
@@ -16,11 +16,11 @@ fn arrow(is_beyond: bool) -> f64 {
 }
 
 /// Colours of the strip from its bottom to its top.
-const STEPS: u32 = 256;
+const STRIP_COLOURS: u32 = 256;
 
 /// A colour bar of a known height; x from the right side of the plot.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Bar {
+pub(crate) struct ColourBar {
     colours: Colours,
     /// Its label runs upward at the right.
     axis: FittedAxis,
@@ -34,7 +34,7 @@ pub(crate) struct Bar {
     pub(super) width: f64,
 }
 
-impl Bar {
+impl ColourBar {
     /// Fits a bar of a height.
     pub(super) fn new(colours: &Colours, height: f64, faces: &Typeface) -> Self {
         let room = Room {
@@ -57,33 +57,33 @@ impl Bar {
     }
 
     /// Draws it at the right of a plot, or of all plots.
-    pub(crate) fn draw(&self, scene: &mut Scene, plot: Rect, faces: &Typeface) {
+    pub(crate) fn draw(&self, drawing: &mut Drawing, plot: Rect, faces: &Typeface) {
         let [left, right] = self.strip.map(|x| plot.right + x);
         let strip = Rect {
             left,
             right,
             ..plot
         };
-        let body = self.draw_strip(scene, strip);
+        let body = self.draw_strip(drawing, strip);
         let down = |value: f64| body.bottom - self.colours.limits.fraction(value) * body.height();
         for (value, label) in &self.axis.ticks.major {
             let start = (plot.right + self.numbers, down(*value) + 0.35 * faces.tick);
-            scene.text(Text::new(label, start, faces.tick, START));
+            drawing.text(Text::new(label, start, faces.tick, START));
         }
         let ticks = self.axis.lengths(faces).map(|(value, length)| {
             let y = down(value);
             [(right, y), (right + length, y)]
         });
-        scene.shape(Shape::lines(ticks).stroked(THIN));
+        drawing.shape(DrawnPath::lines(ticks).stroked(THIN));
         let mut line = plot.right + self.text + 0.3 * faces.label;
         for label in &self.axis.label {
-            scene.text(Text::upward(label, (line, plot.centre().1), faces.label));
+            drawing.text(Text::upward(label, (line, plot.centre().1), faces.label));
             line += LINE * faces.label;
         }
     }
 
     /// The strip of colours with arrows where values go on beyond its limits; gives the strip between the arrows.
-    fn draw_strip(&self, scene: &mut Scene, strip: Rect) -> Rect {
+    fn draw_strip(&self, drawing: &mut Drawing, strip: Rect) -> Rect {
         let at = |fraction: f64| self.colours.map.at(fraction);
         let Rect { left, right, .. } = strip;
         let beyond = self.colours.beyond;
@@ -94,12 +94,15 @@ impl Bar {
             bottom: strip.bottom - below,
             ..strip
         };
-        let middle_of = |i: u32| (f64::from(i) + 0.5) / f64::from(STEPS);
-        scene.items.push(Item::Picture(Picture {
+        let middle_of = |i: u32| (f64::from(i) + 0.5) / f64::from(STRIP_COLOURS);
+        drawing.items.push(Item::Bitmap(Bitmap {
             area: body,
             columns: 1,
-            rows: STEPS,
-            pixels: (0..STEPS).rev().map(|i| Some(at(middle_of(i)))).collect(),
+            rows: STRIP_COLOURS,
+            pixels: (0..STRIP_COLOURS)
+                .rev()
+                .map(|i| Some(at(middle_of(i))))
+                .collect(),
         }));
         let middle = body.centre().0;
         for (is, fraction, base, tip) in [
@@ -107,13 +110,13 @@ impl Bar {
             (beyond[1], 1.0, body.top, strip.top),
         ] {
             if is {
-                let triangle = Shape::polygon(&[(left, base), (right, base), (middle, tip)]);
-                scene.shape(triangle.filled(at(fraction), 1.0));
+                let triangle = DrawnPath::polygon(&[(left, base), (right, base), (middle, tip)]);
+                drawing.shape(triangle.filled(at(fraction), 1.0));
             }
         }
         let outline = match beyond {
-            [false, false] => Shape::rectangle(strip),
-            [true, _] | [_, true] => Shape::polygon(&[
+            [false, false] => DrawnPath::rectangle(strip),
+            [true, _] | [_, true] => DrawnPath::polygon(&[
                 (left, body.top),
                 (middle, strip.top),
                 (right, body.top),
@@ -122,7 +125,7 @@ impl Bar {
                 (left, body.bottom),
             ]),
         };
-        scene.shape(outline.stroked(THIN));
+        drawing.shape(outline.stroked(THIN));
         body
     }
 }

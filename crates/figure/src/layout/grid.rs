@@ -1,22 +1,22 @@
-//! From a figure to a scene: panels fitted around their plots, their areas on the canvas, and everything drawn.
+//! From a figure to a drawing: panels fitted around their plots, their areas on the canvas, and everything drawn.
 
-use super::axes::{Axes, Needs};
-use super::bar::Bar;
+use super::axes::{Needs, PlotAxes};
+use super::bar::ColourBar;
 use super::labels::{self, Label};
-use super::legend::Legend;
+use super::legend::LegendBox;
 use super::plan::{PanelPlan, plan};
 use crate::colour::WHITE;
+use crate::drawing::{Drawing, DrawnPath, Item, MIDDLE, START, Text};
 use crate::error::FigureError;
 use crate::figure::Figure;
 use crate::geometry::{Frame, Rect};
-use crate::scene::{Item, MIDDLE, START, Scene, Shape, Text};
 use crate::text::{LINE, Typeface, wrap};
 
 /// Everything that a figure shows, with places in pixels: no two texts overlap, and none leaves the canvas.
 ///
 /// # Errors
 /// [`FigureError`] for a figure that cannot be drawn.
-pub fn draw(figure: &Figure) -> Result<Scene, FigureError> {
+pub fn draw(figure: &Figure) -> Result<Drawing, FigureError> {
     figure.check()?;
     let faces = &Typeface::new(figure.text);
     let plans = plan(figure);
@@ -24,28 +24,32 @@ pub fn draw(figure: &Figure) -> Result<Scene, FigureError> {
     let common = first.and_then(|plan| plan.colours.as_ref());
     // a bar needs the width of its numbers, which depend on the height, which depends on the width
     let mut reserved = 0.0;
-    let (mut scene, panels, plots, bar) = loop {
-        let (scene, panels) = arrange(figure, &plans, reserved);
+    let (mut drawing, panels, plots, bar) = loop {
+        let (drawing, panels) = arrange(figure, &plans, reserved);
         let plots = plots(&panels);
-        match common.map(|colours| Bar::new(colours, plots.height(), faces)) {
+        match common.map(|colours| ColourBar::new(colours, plots.height(), faces)) {
             Some(bar) if bar.width > reserved => reserved = bar.width,
-            bar => break (scene, panels, plots, bar),
+            bar => break (drawing, panels, plots, bar),
         }
     };
     for panel in &panels {
-        panel.draw(&mut scene, faces);
+        panel.draw(&mut drawing, faces);
     }
     if let Some(bar) = bar {
-        bar.draw(&mut scene, plots, faces);
+        bar.draw(&mut drawing, plots, faces);
     }
-    Ok(scene)
+    Ok(drawing)
 }
 
 /// The canvas with the title and the line below it, and each panel with its place; the common colour bar gets a width at
 /// the right.
 ///
 /// All plots are equally wide; the width of the figure is exceeded rather than that they vanish.
-fn arrange<'a>(figure: &Figure, plans: &'a [PanelPlan<'a>], bar: f64) -> (Scene, Vec<Fitted<'a>>) {
+fn arrange<'a>(
+    figure: &Figure,
+    plans: &'a [PanelPlan<'a>],
+    bar: f64,
+) -> (Drawing, Vec<Fitted<'a>>) {
     let faces = &Typeface::new(figure.text);
     let count = figure.columns.min(plans.len());
     let legend_width = (0.34 * figure.width / count as f64).min(22.0 * faces.tick);
@@ -92,14 +96,14 @@ fn arrange<'a>(figure: &Figure, plans: &'a [PanelPlan<'a>], bar: f64) -> (Scene,
     };
     let starts: Vec<f64> = (0..count).map(start).collect();
     let bottom = place(&mut fitted, &starts, top, 1.2 * faces.tick);
-    let mut scene = Scene {
+    let mut drawing = Drawing {
         canvas: Rect::new(0.0, 0.0, width + bar, bottom + PAD),
         plots: fitted.iter().map(|fitted| fitted.frame.area).collect(),
         items: Vec::new(),
     };
-    scene.shape(Shape::rectangle(scene.canvas).filled(WHITE, 1.0));
-    scene.items.extend(heading.into_iter().map(Item::Text));
-    (scene, fitted)
+    drawing.shape(DrawnPath::rectangle(drawing.canvas).filled(WHITE, 1.0));
+    drawing.items.extend(heading.into_iter().map(Item::Text));
+    (drawing, fitted)
 }
 
 /// Gives every panel its place in columns that start at some places, row below row from `top` on; and the bottom of the
@@ -153,11 +157,11 @@ fn size(plan: &PanelPlan<'_>, width: f64) -> [f64; 2] {
 pub(super) struct Fitted<'a> {
     plan: &'a PanelPlan<'a>,
     frame: Frame,
-    axes: Axes,
+    axes: PlotAxes,
     title: Vec<String>,
     marks: Vec<Label>,
-    legend: Option<Legend>,
-    bar: Option<Bar>,
+    legend: Option<LegendBox>,
+    bar: Option<ColourBar>,
     needs: Needs,
 }
 
@@ -168,7 +172,7 @@ impl<'a> Fitted<'a> {
     fn new(plan: &'a PanelPlan<'a>, plot: f64, faces: &Typeface, legend_width: f64) -> Self {
         let [width, height] = size(plan, plot);
         let frame = plan.frame(Rect::new(0.0, 0.0, width, height));
-        let axes = Axes::new(plan, [width, height], faces);
+        let axes = PlotAxes::new(plan, [width, height], faces);
         let mut needs = axes.needs(plan, width, faces);
         let title = wrap(&plan.panel.title, faces.label, width);
         let marks = labels::of_marks(plan, &frame, faces);
@@ -178,11 +182,11 @@ impl<'a> Fitted<'a> {
             needs.top = needs.top.max(above + faces.gap());
         }
         let colours = plan.colours.as_ref().filter(|_| plan.has_bar);
-        let bar = colours.map(|colours| Bar::new(colours, height, faces));
+        let bar = colours.map(|colours| ColourBar::new(colours, height, faces));
         if let Some(bar) = &bar {
             needs.right = needs.right.max(bar.width);
         }
-        let legend = Legend::new(plan, &frame, faces, &mut needs, legend_width);
+        let legend = LegendBox::new(plan, &frame, faces, &mut needs, legend_width);
         Self {
             plan,
             frame,
@@ -195,31 +199,31 @@ impl<'a> Fitted<'a> {
         }
     }
 
-    fn draw(&self, scene: &mut Scene, faces: &Typeface) {
+    fn draw(&self, drawing: &mut Drawing, faces: &Typeface) {
         let Self { plan, frame, .. } = self;
         if !plan.panel.is_filled() {
-            self.axes.draw_grid(scene, frame);
+            self.axes.draw_grid(drawing, frame);
         }
         for (layer, &numbers) in plan.panel.layers.iter().zip(&plan.numbers) {
-            layer.draw(scene, frame, plan.colours.as_ref(), numbers);
+            layer.draw(drawing, frame, plan.colours.as_ref(), numbers);
         }
-        labels::draw_marks(scene, (plan, frame), &self.marks, faces);
-        self.axes.draw(scene, frame, faces);
+        labels::draw_marks(drawing, (plan, frame), &self.marks, faces);
+        self.axes.draw(drawing, frame, faces);
         let mark_rows = labels::rows(&self.marks);
         let mut line = frame.area.top - faces.gap() - Typeface::lines(faces.mark, mark_rows);
         for title in self.title.iter().rev() {
             let at = (frame.area.centre().0, line - 0.2 * faces.label);
-            scene.text(Text::new(title, at, faces.label, MIDDLE));
+            drawing.text(Text::new(title, at, faces.label, MIDDLE));
             line -= LINE * faces.label;
         }
         let legend = self.legend.as_ref();
         let taken = legend.and_then(|legend| legend.covered(frame.area));
-        labels::draw_points(scene, (plan, frame), taken, faces.tick);
+        labels::draw_points(drawing, (plan, frame), taken, faces.tick);
         if let Some(legend) = legend {
-            legend.draw(scene, frame.area, faces.legend);
+            legend.draw(drawing, frame.area, faces.legend);
         }
         if let Some(bar) = &self.bar {
-            bar.draw(scene, frame.area, faces);
+            bar.draw(drawing, frame.area, faces);
         }
     }
 }

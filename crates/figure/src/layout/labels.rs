@@ -3,11 +3,11 @@
 
 use super::plan::PanelPlan;
 use crate::colour::{MARK, WHITE};
+use crate::drawing::{Drawing, DrawnPath, END, MIDDLE, START, Stroke, Text};
 use crate::figure::Panel;
 use crate::geometry::{Frame, Point, Rect};
 use crate::layers::Layer;
 use crate::look::star;
-use crate::scene::{END, MIDDLE, START, Scene, Shape, Stroke, Text};
 use crate::text::{LINE, Typeface, width as width_of, wrap};
 
 /// The label of a vertical line.
@@ -28,8 +28,8 @@ fn lines<'a>(plan: &PanelPlan<'a>) -> impl Iterator<Item = (f64, &'a str)> {
     let interval = plan.intervals[0];
     let layers = plan.panel.layers.iter();
     layers.filter_map(move |layer| match layer {
-        Layer::Mark { x, label } if interval.contains(*x) => Some((*x, label.as_str())),
-        _ => None,
+        Layer::Mark { x, label } => interval.contains(*x).then_some((*x, label.as_str())),
+        Layer::Line(_) | Layer::Image(_) | Layer::Classes(_) | Layer::Point { .. } => None,
     })
 }
 
@@ -97,7 +97,7 @@ fn stacked(marks: &[(f64, &str)], width: f64, faces: &Typeface) -> Vec<Label> {
 
 /// Draws the lines of a panel and their labels.
 pub(super) fn draw_marks(
-    scene: &mut Scene,
+    drawing: &mut Drawing,
     (plan, frame): (&PanelPlan<'_>, &Frame),
     labels: &[Label],
     faces: &Typeface,
@@ -105,21 +105,21 @@ pub(super) fn draw_marks(
     let area = frame.area;
     for (x, _) in lines(plan) {
         let x = frame.across(x);
-        let line = Shape::polyline(&[(x, area.bottom), (x, area.top)]);
+        let line = DrawnPath::polyline(&[(x, area.bottom), (x, area.top)]);
         if plan.panel.is_filled() {
-            scene.shape(line.clone().stroked(Stroke::solid(WHITE, 2.2)));
+            drawing.shape(line.clone().stroked(Stroke::solid(WHITE, 2.2)));
         }
-        scene.shape(line.stroked(Stroke::new(MARK, 1.0, &[3.0, 3.0])));
+        drawing.shape(line.stroked(Stroke::new(MARK, 1.0, &[3.0, 3.0])));
     }
     for label in labels {
         let rise = faces.gap() + (label.row as f64 + 0.2) * LINE * faces.mark;
         let at = (area.left + label.centre, area.top - rise);
-        scene.text(Text::new(&label.text, at, faces.mark, MIDDLE));
+        drawing.text(Text::new(&label.text, at, faces.mark, MIDDLE));
         if label.row == 0 {
             // from the line to its label, which may have moved aside
             let from = (area.left + label.line, area.top);
             let foot = (at.0, area.top - 0.8 * faces.gap());
-            scene.shape(Shape::polyline(&[from, foot]).stroked(Stroke::solid(MARK, 1.0)));
+            drawing.shape(DrawnPath::polyline(&[from, foot]).stroked(Stroke::solid(MARK, 1.0)));
         }
     }
 }
@@ -161,7 +161,7 @@ const STAR: f64 = 7.0;
 
 /// Draws the points of a panel, each label where it covers least and no place that is taken, such as by the legend.
 pub(super) fn draw_points(
-    scene: &mut Scene,
+    drawing: &mut Drawing,
     (plan, frame): (&PanelPlan<'_>, &Frame),
     taken: Option<Rect>,
     size: f64,
@@ -187,7 +187,7 @@ pub(super) fn draw_points(
     let stars = points.iter().filter(|(_, is_starred, _)| *is_starred);
     let stars: Vec<Point> = stars.map(|(.., place)| *place).collect();
     for &at in &stars {
-        star(scene, at, STAR);
+        star(drawing, at, STAR);
     }
     let mut written: Vec<Rect> = taken.into_iter().collect();
     for point in points {
@@ -207,7 +207,7 @@ pub(super) fn draw_points(
         for mut text in best.into_iter().flatten() {
             written.push(text.bounds());
             text.has_rim = true;
-            scene.text(text);
+            drawing.text(text);
         }
     }
 }
@@ -266,8 +266,8 @@ fn bounds(lines: &[Text]) -> Rect {
 
 /// Points along everything that is drawn in a plot, in pixels, at most four apart.
 pub(super) fn occupied(panel: &Panel, frame: &Frame) -> Vec<Point> {
-    const STEP: f64 = 4.0;
-    let near = frame.area.grown(STEP);
+    const OCCUPIED_SPACING: f64 = 4.0;
+    let near = frame.area.grown(OCCUPIED_SPACING);
     let mut found = Vec::new();
     let curves = panel.layers.iter().flat_map(|layer| layer.curves(frame));
     let sides = curves.flat_map(|curve| frame.sides(&curve));
@@ -281,7 +281,7 @@ pub(super) fn occupied(panel: &Panel, frame: &Frame) -> Vec<Point> {
                 continue;
             };
             let length = (to - from) * (bx - ax).hypot(by - ay);
-            let parts = (length / STEP).ceil().max(1.0) as usize;
+            let parts = (length / OCCUPIED_SPACING).ceil().max(1.0) as usize;
             for i in 0..=parts {
                 let s = from + (to - from) * i as f64 / parts as f64;
                 found.push((ax + s * (bx - ax), ay + s * (by - ay)));

@@ -4,11 +4,11 @@ use super::axes::Needs;
 use super::labels::{free, occupied};
 use super::plan::PanelPlan;
 use crate::colour::{MARK, WHITE};
+use crate::drawing::{Drawing, DrawnPath, START, Stroke, Text};
 use crate::figure::Legend as Wish;
 use crate::geometry::{Frame, Point, Rect};
 use crate::layers::{BAND, Swatch, draw_run};
 use crate::look::Style;
-use crate::scene::{START, Scene, Shape, Stroke, Text};
 use crate::text::{LINE, Typeface, width as width_of, wrap};
 
 /// Width of the sample of a curve.
@@ -26,7 +26,7 @@ struct Entry {
 
 /// Where a legend is.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Place {
+enum LegendPlace {
     /// In the plot, which starts at 0, 0.
     Inside(Rect),
     /// At its right, so far from the side of the plot.
@@ -37,14 +37,14 @@ enum Place {
 
 /// A legend with its place.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Legend {
+pub(crate) struct LegendBox {
     entries: Vec<Entry>,
     width: f64,
     height: f64,
-    place: Place,
+    place: LegendPlace,
 }
 
-impl Legend {
+impl LegendBox {
     /// The legend around a plot at 0, 0, at its right no wider than `most_right`; it is added to the needs of the plot.
     pub(super) fn new(
         plan: &PanelPlan<'_>,
@@ -66,21 +66,21 @@ impl Legend {
             let taken = occupied(plan.panel, frame);
             let size = (legend.width + air, legend.height + 0.6 * air);
             if let Some(found) = free(frame.area, size, air, &taken) {
-                legend.place = Place::Inside(found);
+                legend.place = LegendPlace::Inside(found);
                 return Some(legend);
             }
         }
         let mut legend = Self::block(&named, most_right, 1, faces.legend);
         if most_right >= 14.0 * faces.tick && legend.height < 1.6 * height {
             let from = needs.right + 1.3 * faces.tick;
-            legend.place = Place::Right(from);
+            legend.place = LegendPlace::Right(from);
             needs.right = from + legend.width;
             needs.bottom = needs.bottom.max(legend.height - height);
             return Some(legend);
         }
         legend = Self::block(&named, width, 6, faces.legend);
         let from = needs.bottom + faces.gap();
-        legend.place = Place::Below(from);
+        legend.place = LegendPlace::Below(from);
         needs.bottom = from + legend.height;
         Some(legend)
     }
@@ -118,13 +118,13 @@ impl Legend {
             entries,
             width: widest,
             height: top,
-            place: Place::Below(0.0),
+            place: LegendPlace::Below(0.0),
         }
     }
 
     /// What it covers of a plot.
     pub(crate) fn covered(&self, plot: Rect) -> Option<Rect> {
-        let Place::Inside(found) = self.place else {
+        let LegendPlace::Inside(found) = self.place else {
             return None;
         };
         let (left, top) = (plot.left + found.left, plot.top + found.top);
@@ -132,25 +132,25 @@ impl Legend {
     }
 
     /// Draws it around a plot.
-    pub(crate) fn draw(&self, scene: &mut Scene, plot: Rect, size: f64) {
+    pub(crate) fn draw(&self, drawing: &mut Drawing, plot: Rect, size: f64) {
         if let Some(back) = self.covered(plot) {
             let edge = Stroke::solid(0xcc_cc_cc, 0.8);
-            scene.shape(Shape::rectangle(back).filled(WHITE, 0.85).stroked(edge));
+            drawing.shape(DrawnPath::rectangle(back).filled(WHITE, 0.85).stroked(edge));
         }
         let (left, top) = match self.place {
-            Place::Inside(found) => (
+            LegendPlace::Inside(found) => (
                 plot.left + found.left + 0.5 * (found.width() - self.width),
                 plot.top + found.top + 0.5 * (found.height() - self.height),
             ),
-            Place::Right(from) => (plot.right + from, plot.top),
-            Place::Below(from) => (plot.left, plot.bottom + from),
+            LegendPlace::Right(from) => (plot.right + from, plot.top),
+            LegendPlace::Below(from) => (plot.left, plot.bottom + from),
         };
         for entry in &self.entries {
             let (x, mut line) = (left + entry.left, top + entry.top + size);
-            sample(scene, &entry.swatch, (x, line - 0.33 * size), size);
+            sample(drawing, &entry.swatch, (x, line - 0.33 * size), size);
             for text in &entry.lines {
                 let at = (x + SWATCH + 0.5 * size, line);
-                scene.text(Text::new(text, at, size, START));
+                drawing.text(Text::new(text, at, size, START));
                 line += LINE * size;
             }
         }
@@ -172,12 +172,16 @@ fn named<'a>(plan: &PanelPlan<'a>) -> Vec<(&'a str, Swatch)> {
 }
 
 /// Draws the sample of an entry, from a place at its left to the right.
-fn sample(scene: &mut Scene, swatch: &Swatch, (x, y): Point, size: f64) {
+fn sample(drawing: &mut Drawing, swatch: &Swatch, (x, y): Point, size: f64) {
     let patch = Rect::new(x + 2.0, y - 0.45 * size, SWATCH - 4.0, 0.9 * size);
     match swatch {
         Swatch::Fill(colour) => {
             let edge = Stroke::solid(MARK, 0.8);
-            scene.shape(Shape::rectangle(patch).filled(*colour, 1.0).stroked(edge));
+            drawing.shape(
+                DrawnPath::rectangle(patch)
+                    .filled(*colour, 1.0)
+                    .stroked(edge),
+            );
         }
         Swatch::Curve { look, .. } if look.style == Style::Bars => {
             let bar = [
@@ -186,17 +190,17 @@ fn sample(scene: &mut Scene, swatch: &Swatch, (x, y): Point, size: f64) {
                 (patch.right, patch.top),
                 (patch.right, patch.bottom),
             ];
-            draw_run(scene, &bar, look, patch.grown(2.0));
+            draw_run(drawing, &bar, look, patch.grown(2.0));
         }
         Swatch::Curve { look, has_band } => {
             if *has_band {
-                scene.shape(Shape::rectangle(patch).filled(look.stroke.colour, BAND));
+                drawing.shape(DrawnPath::rectangle(patch).filled(look.stroke.colour, BAND));
             }
             if look.has_line() {
-                let line = Shape::polyline(&[(x, y), (x + SWATCH, y)]);
-                scene.shape(line.stroked(look.stroke));
+                let line = DrawnPath::polyline(&[(x, y), (x + SWATCH, y)]);
+                drawing.shape(line.stroked(look.stroke));
             }
-            look.mark(scene, (x + 0.5 * SWATCH, y));
+            look.mark(drawing, (x + 0.5 * SWATCH, y));
         }
     }
 }

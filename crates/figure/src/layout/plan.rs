@@ -4,7 +4,7 @@
 use crate::axis::Interval;
 use crate::figure::{Figure, Panel, Sharing};
 use crate::geometry::{Frame, Point, Rect};
-use crate::layers::{Colours, Layer};
+use crate::layers::{Colours, Layer, colours_of};
 use std::collections::BTreeMap;
 
 /// A panel with everything that is known before its size.
@@ -41,13 +41,13 @@ impl PanelPlan<'_> {
 /// Plans every panel of a figure.
 pub(crate) fn plan(figure: &Figure) -> Vec<PanelPlan<'_>> {
     let layers = figure.panels.iter().flat_map(|panel| &panel.layers);
-    let common = Colours::of(layers).filter(|_| figure.has_common_bar);
+    let common = colours_of(layers).filter(|_| figure.has_common_bar);
     let panels = figure.panels.iter().zip(numbers(figure));
     let plan = |(panel, numbers)| PanelPlan {
         panel,
         intervals: intervals(panel),
         labelled: [true; 2],
-        colours: common.clone().or_else(|| Colours::of(&panel.layers)),
+        colours: common.clone().or_else(|| colours_of(&panel.layers)),
         has_bar: !figure.has_common_bar,
         numbers,
     };
@@ -123,15 +123,13 @@ fn numbers(figure: &Figure) -> Vec<Vec<[usize; 2]>> {
 /// The name of each layer of a panel that has a colour of its own; one without a name is named by its number among them.
 fn names(panel: &Panel) -> Vec<Option<String>> {
     let mut coloured = 0;
-    let names = panel.layers.iter().map(|layer| match layer {
-        Layer::Line(line) if line.style.is_coloured() => {
-            coloured += 1;
-            Some(match line.name.as_str() {
-                "" => format!("\0{coloured}"),
-                name => name.to_owned(),
-            })
-        }
-        _ => None,
+    let names = panel.layers.iter().map(|layer| {
+        let line = layer.as_line().filter(|line| line.style.is_coloured())?;
+        coloured += 1;
+        Some(match line.name.as_str() {
+            "" => format!("\0{coloured}"),
+            name => name.to_owned(),
+        })
     });
     names.collect()
 }

@@ -1,11 +1,11 @@
 //! PDF: one page, shapes as shapes and text as text in an embedded font.
 
 use crate::colour::{self, BLACK, WHITE};
+use crate::drawing::{Bitmap, Drawing, DrawnPath, Item, OutlinePart, Text};
 use crate::error::FigureError;
 use crate::figure::Figure;
 use crate::font;
 use crate::layout::draw;
-use crate::scene::{Item, Picture, Scene, Segment, Shape, Text};
 use miniz_oxide::deflate::compress_to_vec_zlib;
 use pdf_writer::types::{
     CidFontType, FontFlags, LineJoinStyle, SystemInfo, TextRenderingMode, UnicodeCmap,
@@ -34,22 +34,25 @@ const SYSTEM: SystemInfo<'_> = SystemInfo {
 /// # Errors
 /// [`FigureError`] for a figure that cannot be drawn.
 pub fn to_pdf(figure: &Figure) -> Result<Vec<u8>, FigureError> {
-    let scene = draw(figure)?;
-    let subset = Subset::of(&scene)?;
+    let drawing = draw(figure)?;
+    let subset = Subset::of(&drawing)?;
     let mut next = Ref::new(1);
     let [catalog, tree, page, content, font] = std::array::from_fn(|_| next.bump());
     let font_parts = std::array::from_fn(|_| next.bump());
-    let (width, height) = (scene.canvas.width() as f32, scene.canvas.height() as f32);
+    let (width, height) = (
+        drawing.canvas.width() as f32,
+        drawing.canvas.height() as f32,
+    );
     let mut painted = Content::new();
     // pixels from the upper left corner
     painted.transform([POINT, 0.0, 0.0, -POINT, 0.0, POINT * height]);
     // pictures by their names, and opacities
     let (mut pictures, mut opacities) = (Vec::new(), BTreeSet::new());
-    for item in &scene.items {
+    for item in &drawing.items {
         painted.save_state();
         match item {
-            Item::Shape(shape) => opacities.extend(draw_shape(&mut painted, shape)),
-            Item::Picture(picture) => {
+            Item::DrawnPath(shape) => opacities.extend(draw_shape(&mut painted, shape)),
+            Item::Bitmap(picture) => {
                 let area = picture.area;
                 // a picture stands on its lower side in a unit square
                 let (width, height) = (area.width() as f32, area.height() as f32);
@@ -99,7 +102,7 @@ fn compressed(bytes: &[u8]) -> Vec<u8> {
 }
 
 /// The pixels of a picture; white where there is nothing.
-fn write_picture(pdf: &mut Pdf, id: Ref, picture: &Picture) {
+fn write_picture(pdf: &mut Pdf, id: Ref, picture: &Bitmap) {
     let colours = picture.pixels.iter().map(|pixel| pixel.unwrap_or(WHITE));
     let bytes: Vec<u8> = colours.flat_map(colour::rgb).collect();
     let stream = compressed(&bytes);
@@ -111,7 +114,7 @@ fn write_picture(pdf: &mut Pdf, id: Ref, picture: &Picture) {
     image.color_space().device_rgb();
 }
 
-/// The letters of the font that a scene uses, embedded.
+/// The letters of the font that a drawing uses, embedded.
 struct Subset {
     file: Vec<u8>,
     /// Number of each letter in the part, and its width over the font's size.
@@ -119,10 +122,10 @@ struct Subset {
 }
 
 impl Subset {
-    fn of(scene: &Scene) -> Result<Self, FigureError> {
+    fn of(drawing: &Drawing) -> Result<Self, FigureError> {
         let mut remapper = GlyphRemapper::new();
         let mut letters = BTreeMap::new();
-        for item in &scene.items {
+        for item in &drawing.items {
             if let Item::Text(text) = item {
                 for letter in text.plain().chars() {
                     let glyph = font::glyph(letter);
@@ -190,7 +193,7 @@ fn rgb(colour: u32) -> [f32; 3] {
 }
 
 /// Draws a shape; and how much its filling hides, in thousandths, which name the state for it.
-fn draw_shape(content: &mut Content, shape: &Shape) -> Option<u32> {
+fn draw_shape(content: &mut Content, shape: &DrawnPath) -> Option<u32> {
     let opacity = shape.fill.map(|fill| (1000.0 * fill.1).round() as u32);
     if let Some(area) = shape.clip {
         let corner = [area.left, area.top, area.width(), area.height()];
@@ -213,13 +216,13 @@ fn draw_shape(content: &mut Content, shape: &Shape) -> Option<u32> {
     }
     for segment in &shape.segments {
         match *segment {
-            Segment::Move(x, y) => content.move_to(x as f32, y as f32),
-            Segment::Line(x, y) => content.line_to(x as f32, y as f32),
-            Segment::Curve(points) => {
+            OutlinePart::Move(x, y) => content.move_to(x as f32, y as f32),
+            OutlinePart::Line(x, y) => content.line_to(x as f32, y as f32),
+            OutlinePart::Curve(points) => {
                 let [a, b, c, d, e, f] = points.map(|p| p as f32);
                 content.cubic_to(a, b, c, d, e, f)
             }
-            Segment::Close => content.close_path(),
+            OutlinePart::Close => content.close_path(),
         };
     }
     match (shape.fill, shape.stroke) {

@@ -1,12 +1,12 @@
-//! Pixels: PNG, and GIF of several scenes.
+//! Pixels: PNG, and GIF of several drawings.
 
 use crate::colour::{BLACK, WHITE, rgb};
+use crate::drawing::{Bitmap, Drawing, DrawnPath, Item, OutlinePart, Text};
 use crate::error::FigureError;
 use crate::figure::Figure;
 use crate::font;
 use crate::geometry::Rect;
 use crate::layout::draw;
-use crate::scene::{Item, Picture, Scene, Segment, Shape, Text};
 use gif::{Encoder, Frame, Repeat};
 use std::fmt::Display;
 use tiny_skia::{
@@ -23,24 +23,24 @@ pub fn to_png(figure: &Figure, scale: f32) -> Result<Vec<u8>, FigureError> {
 }
 
 /// Width and height in pixels.
-fn size(scene: &Scene, scale: f32) -> [u32; 2] {
+fn size(drawing: &Drawing, scale: f32) -> [u32; 2] {
     // a hundredth of a pixel more is none
     let pixels = |side: f64| (f64::from(scale) * (side - 0.005)).ceil() as u32;
-    [scene.canvas.width(), scene.canvas.height()].map(pixels)
+    [drawing.canvas.width(), drawing.canvas.height()].map(pixels)
 }
 
-/// The pixels of a scene.
-fn rendered(scene: &Scene, scale: f32) -> Result<Pixmap, FigureError> {
-    let [width, height] = size(scene, scale);
+/// The pixels of a drawing.
+fn rendered(drawing: &Drawing, scale: f32) -> Result<Pixmap, FigureError> {
+    let [width, height] = size(drawing, scale);
     let mut canvas = Canvas {
         map: page(width, height)?,
         place: Transform::from_scale(scale, scale),
         clip: None,
     };
-    for item in &scene.items {
+    for item in &drawing.items {
         match item {
-            Item::Shape(shape) => canvas.shape(shape),
-            Item::Picture(picture) => canvas.picture(picture)?,
+            Item::DrawnPath(shape) => canvas.shape(shape),
+            Item::Bitmap(picture) => canvas.picture(picture)?,
             Item::Text(text) => canvas.text(text),
         }
     }
@@ -55,17 +55,19 @@ const SPEED: i32 = 10;
 /// # Errors
 /// [`FigureError`] for a figure that cannot be drawn, or frames that are not of one size.
 pub fn to_gif(figures: &[Figure], scale: f32, frame_s: f64) -> Result<Vec<u8>, FigureError> {
-    let scenes = figures.iter().map(draw).collect::<Result<Vec<_>, _>>()?;
-    let first = scenes.first().map_or([0, 0], |scene| size(scene, scale));
+    let drawings = figures.iter().map(draw).collect::<Result<Vec<_>, _>>()?;
+    let first = drawings
+        .first()
+        .map_or([0, 0], |drawing| size(drawing, scale));
     let [width, height] = first.map(|pixels| u16::try_from(pixels).unwrap_or(0));
     let mut encoder = Encoder::new(Vec::new(), width, height, &[]).map_err(no_gif)?;
     encoder.set_repeat(Repeat::Infinite).map_err(no_gif)?;
-    for scene in &scenes {
-        if size(scene, scale) != [width, height].map(u32::from) {
+    for drawing in &drawings {
+        if size(drawing, scale) != [width, height].map(u32::from) {
             return Err(no_gif("its frames are not of one size, below 65536 pixels"));
         }
         // the page is white throughout: no pixel is transparent
-        let mut rgba = rendered(scene, scale)?.take();
+        let mut rgba = rendered(drawing, scale)?.take();
         let mut frame = Frame::from_rgba_speed(width, height, &mut rgba, SPEED);
         frame.delay = (100.0 * frame_s).round().clamp(2.0, 6000.0) as u16;
         encoder.write_frame(&frame).map_err(no_gif)?;
@@ -77,7 +79,7 @@ fn no_gif(why: impl Display) -> FigureError {
     FigureError(format!("the GIF cannot be encoded: {why}"))
 }
 
-/// A white page, to its last row: a scene may end within a pixel.
+/// A white page, to its last row: a drawing may end within a pixel.
 fn page(width: u32, height: u32) -> Result<Pixmap, FigureError> {
     let mut map = pixmap(width, height)?;
     let [red, green, blue] = rgb(WHITE);
@@ -92,7 +94,7 @@ fn pixmap(width: u32, height: u32) -> Result<Pixmap, FigureError> {
 }
 
 /// A picture's pixels, transparent where nothing is to be seen.
-pub(super) fn pixels(picture: &Picture) -> Result<Pixmap, FigureError> {
+pub(super) fn pixels(picture: &Bitmap) -> Result<Pixmap, FigureError> {
     let mut map = pixmap(picture.columns, picture.rows)?;
     for (to, from) in map.pixels_mut().iter_mut().zip(&picture.pixels) {
         if let Some([red, green, blue]) = from.map(rgb) {
@@ -110,24 +112,24 @@ pub(super) fn encode(map: &Pixmap) -> Result<Vec<u8>, FigureError> {
 
 struct Canvas {
     map: Pixmap,
-    /// From a scene's pixels to those of the map.
+    /// From a drawing's pixels to those of the map.
     place: Transform,
     /// The last area outside of which nothing was drawn; shapes of a plot follow one another.
     clip: Option<(Rect, Mask)>,
 }
 
 impl Canvas {
-    fn shape(&mut self, shape: &Shape) {
+    fn shape(&mut self, shape: &DrawnPath) {
         let mut outline = PathBuilder::new();
         for segment in &shape.segments {
             match *segment {
-                Segment::Move(x, y) => outline.move_to(x as f32, y as f32),
-                Segment::Line(x, y) => outline.line_to(x as f32, y as f32),
-                Segment::Curve(points) => {
+                OutlinePart::Move(x, y) => outline.move_to(x as f32, y as f32),
+                OutlinePart::Line(x, y) => outline.line_to(x as f32, y as f32),
+                OutlinePart::Curve(points) => {
                     let [a, b, c, d, x, y] = points.map(|p| p as f32);
                     outline.cubic_to(a, b, c, d, x, y);
                 }
-                Segment::Close => outline.close(),
+                OutlinePart::Close => outline.close(),
             }
         }
         let Some(outline) = outline.finish() else {
@@ -168,7 +170,7 @@ impl Canvas {
         });
     }
 
-    fn picture(&mut self, picture: &Picture) -> Result<(), FigureError> {
+    fn picture(&mut self, picture: &Bitmap) -> Result<(), FigureError> {
         let source = pixels(picture)?;
         if let Some(area) = rectangle(picture.area) {
             let size = [source.width(), source.height()].map(|pixels| pixels as f32);

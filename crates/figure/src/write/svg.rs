@@ -1,12 +1,12 @@
 //! SVG.
 
 use super::png::{encode, pixels};
+use crate::drawing::{Bitmap, DrawnPath, Item, OutlinePart, Text};
 use crate::error::FigureError;
 use crate::figure::Figure;
 use crate::font;
 use crate::geometry::{Point, Rect};
 use crate::layout::draw;
-use crate::scene::{Item, Picture, Segment, Shape, Text};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use std::collections::BTreeSet;
@@ -21,15 +21,15 @@ use tiny_skia::PathSegment;
 /// # Errors
 /// [`FigureError`] for a figure that cannot be drawn.
 pub fn to_svg(figure: &Figure) -> Result<String, FigureError> {
-    let scene = draw(figure)?;
+    let drawing = draw(figure)?;
     // the different areas outside of which something is not drawn
     let mut clips: Vec<Rect> = Vec::new();
     let mut letters: BTreeSet<char> = BTreeSet::new();
-    let mut drawn: Vec<Box<dyn Node>> = Vec::with_capacity(scene.items.len());
-    for item in &scene.items {
+    let mut drawn: Vec<Box<dyn Node>> = Vec::with_capacity(drawing.items.len());
+    for item in &drawing.items {
         drawn.push(match item {
-            Item::Shape(shape) => path(shape, &mut clips).into(),
-            Item::Picture(picture) => image(picture)?.into(),
+            Item::DrawnPath(shape) => path(shape, &mut clips).into(),
+            Item::Bitmap(picture) => image(picture)?.into(),
             Item::Text(text) => label(text, &mut letters).into(),
         });
     }
@@ -44,7 +44,10 @@ pub fn to_svg(figure: &Figure) -> Result<String, FigureError> {
             definitions = definitions.add(path);
         }
     }
-    let (width, height) = (number(scene.canvas.width()), number(scene.canvas.height()));
+    let (width, height) = (
+        number(drawing.canvas.width()),
+        number(drawing.canvas.height()),
+    );
     let document = Document::new()
         .set("viewBox", format!("0 0 {width} {height}"))
         .set("width", width)
@@ -65,7 +68,7 @@ fn placed<N: Node>(mut node: N, area: Rect) -> N {
     node
 }
 
-fn path(shape: &Shape, clips: &mut Vec<Rect>) -> Path {
+fn path(shape: &DrawnPath, clips: &mut Vec<Rect>) -> Path {
     let fill = shape.fill.map_or("none".to_owned(), |fill| hex(fill.0));
     let mut path = Path::new()
         .set("d", outline(&shape.segments))
@@ -94,17 +97,17 @@ fn hex(colour: u32) -> String {
     format!("#{colour:06x}")
 }
 
-fn outline(segments: &[Segment]) -> String {
+fn outline(segments: &[OutlinePart]) -> String {
     let written = segments.iter().map(|segment| match *segment {
-        Segment::Move(x, y) => format!("M{} {}", number(x), number(y)),
-        Segment::Line(x, y) => format!("L{} {}", number(x), number(y)),
-        Segment::Curve(points) => format!("C{}", points.map(number).join(" ")),
-        Segment::Close => "Z".to_owned(),
+        OutlinePart::Move(x, y) => format!("M{} {}", number(x), number(y)),
+        OutlinePart::Line(x, y) => format!("L{} {}", number(x), number(y)),
+        OutlinePart::Curve(points) => format!("C{}", points.map(number).join(" ")),
+        OutlinePart::Close => "Z".to_owned(),
     });
     written.collect()
 }
 
-fn image(picture: &Picture) -> Result<Image, FigureError> {
+fn image(picture: &Bitmap) -> Result<Image, FigureError> {
     let png = encode(&pixels(picture)?)?;
     let data = format!("data:image/png;base64,{}", STANDARD.encode(png));
     Ok(placed(Image::new(), picture.area)
@@ -113,7 +116,7 @@ fn image(picture: &Picture) -> Result<Image, FigureError> {
 }
 
 /// Letters are outlined in so many units of their size.
-const UNITS: f64 = 1000.0;
+const OUTLINE_UNITS: f64 = 1000.0;
 
 fn letter_id(letter: char) -> String {
     format!("u{:x}", u32::from(letter))
@@ -121,7 +124,7 @@ fn letter_id(letter: char) -> String {
 
 /// The outline of a letter in the font's units; none for a blank.
 fn letter_outline(letter: char) -> Option<String> {
-    let outline = font::outline(letter.encode_utf8(&mut [0; 4]), UNITS)?;
+    let outline = font::outline(letter.encode_utf8(&mut [0; 4]), OUTLINE_UNITS)?;
     let at = |p: tiny_skia::Point| format!("{} {}", number(p.x.into()), number(p.y.into()));
     let segments = outline.segments().map(|segment| match segment {
         PathSegment::MoveTo(p) => format!("M{}", at(p)),
@@ -142,7 +145,7 @@ fn label(text: &Text, used: &mut BTreeSet<char>) -> Group {
         for part in text.parts() {
             let rim = letters(part, text.is_upward)
                 .set("stroke", "#ffffff")
-                .set("stroke-width", number(3.0 * UNITS / part.1))
+                .set("stroke-width", number(3.0 * OUTLINE_UNITS / part.1))
                 .set("stroke-linejoin", "round");
             group = group.add(rim);
         }
@@ -155,7 +158,7 @@ fn label(text: &Text, used: &mut BTreeSet<char>) -> Group {
 
 fn letters((text, size, (x, y)): (&str, f64, Point), is_upward: bool) -> Group {
     let turned = if is_upward { "rotate(-90)" } else { "" };
-    let (x, y, size) = (number(x), number(y), size / UNITS);
+    let (x, y, size) = (number(x), number(y), size / OUTLINE_UNITS);
     let mut group = Group::new().set(
         "transform",
         format!("translate({x} {y}){turned}scale({size:.5})"),
@@ -167,7 +170,7 @@ fn letters((text, size, (x, y)): (&str, f64, Point), is_upward: bool) -> Group {
             let letter = Use::new().set("xlink:href", link);
             group = group.add(letter.set("x", number(along)));
         }
-        along += UNITS * font::width(letter.encode_utf8(&mut [0; 4]));
+        along += OUTLINE_UNITS * font::width(letter.encode_utf8(&mut [0; 4]));
     }
     group
 }

@@ -1,8 +1,8 @@
 //! What makes the results of two scenes the same, and whether a results file is the whole result of a scene.
 
-use super::schema;
 use crate::error::SceneError;
 use crate::scene::resolved;
+use crate::schema::results as schema;
 use crate::stored::StoredImpact;
 use contact::NUMBERS_REVISION;
 use impact::numbers::FIELDS_REVISION;

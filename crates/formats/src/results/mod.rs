@@ -1,10 +1,9 @@
 //! The results file: HDF5, or its histories as text, as `data-schema/results.md` writes it down.
 //!
-//! Every name on disk is a constant of [`schema`] or of the table of quantities. The file is written beside its final
+//! Every name on disk is a constant of [`schema`](crate::schema::results) or of the table of quantities. The file is written beside its final
 //! name and renamed when it is complete.
 
 mod identity;
-pub mod schema;
 mod section;
 mod write;
 

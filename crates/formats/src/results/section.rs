@@ -2,11 +2,11 @@
 //!
 //! Both are the same data: the fields in `/map` are hard links to those in `/VTKHDF`.
 
-use super::schema;
 use crate::hdf::{
     array, attach_scales, describe, numbers, scalar, scale, set_scale, text, texts, vector,
 };
 use crate::quantities::{Described, Labels, labels_of};
+use crate::schema::results as schema;
 use hdf5::types::FixedAscii;
 use hdf5::{Dataset, File, Group};
 use impact::{Peaks, SectionFields};

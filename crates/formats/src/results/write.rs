@@ -1,15 +1,15 @@
 //! Writing results files, and the same as text: one table of everything over time.
 
 use super::identity::scene_sha256;
-use super::schema;
 use super::section::{beside, waves, write_section};
 use crate::hdf::{attach_scales, new_file, numbers, reason, scalar, scale, text, vector};
 use crate::quantities::QUANTITIES;
 use crate::report::{choices, kernel_name, treatment};
 use crate::scene::resolved;
+use crate::schema::results as schema;
 use hdf5::{Dataset, File};
 use impact::{EnergySeries, Outcome, Peaks, ProbeFields, Scene};
-use output::{Existing, Fault, Output, OutputError, Staged};
+use output::{Existing, Output, OutputError, OutputFault, Staged};
 use std::io::{BufWriter, Write};
 use std::path::Path;
 
@@ -32,7 +32,7 @@ pub fn stage_results<'a>(
 ) -> Result<Staged<'a>, OutputError> {
     output.stage_made(|name| {
         new_file(name, |file, _| {
-            fill(file, scene, outcome).map_err(|error| Fault::from(reason(&error)))
+            fill(file, scene, outcome).map_err(|error| OutputFault::from(reason(&error)))
         })
     })
 }

@@ -3,7 +3,7 @@
 
 use super::keys::{Form, Set, keys_of};
 use super::section::read_text;
-use super::section::{Section, parse};
+use super::section::{TomlSection, parse};
 use crate::error::SceneError;
 use contact::{BodyError, Choice, Library, Material, Shape, Striker};
 use contact::{fall_velocity_m_s, from_wave_speeds};
@@ -12,7 +12,7 @@ use impact::Strike;
 use std::path::Path;
 
 /// Relative difference up to which quantities given twice are taken as rounded, not different.
-const ROUNDING: f64 = 0.02;
+const ROUNDED_DIFFERENCE: f64 = 0.02;
 
 /// Reads a file of materials: one section a material, the keys of a scene's bodies plus `group` and `source`.
 ///
@@ -28,7 +28,7 @@ pub fn read_materials(path: &Path) -> Result<Library, SceneError> {
 /// [`SceneError`] with the section and the key at fault.
 pub fn parse_materials(text: &str) -> Result<Library, SceneError> {
     let table = parse(text)?;
-    let root = Section::root(&table);
+    let root = TomlSection::root(&table);
     let own = root.names().map(|name| {
         if name.is_empty() || name.contains(char::is_control) {
             let key = "the name of a material".to_owned();
@@ -50,7 +50,7 @@ pub fn parse_materials(text: &str) -> Result<Library, SceneError> {
 }
 
 /// The body of a section that may name a material of a library.
-pub(super) fn body(section: &Section<'_>, library: &Library) -> Result<Material, SceneError> {
+pub(super) fn body(section: &TomlSection<'_>, library: &Library) -> Result<Material, SceneError> {
     let named = section.text("material")?.map(|name| library.find(name));
     let unknown = |unknown| SceneError::unknown_material(section.key("material"), unknown);
     elastic(section, named.transpose().map_err(unknown)?)
@@ -59,7 +59,7 @@ pub(super) fn body(section: &Section<'_>, library: &Library) -> Result<Material,
 /// The elastic body of a section: the numbers of `base` with those given replaced.
 ///
 /// E and nu may be given by both wave speeds and the density instead.
-fn elastic(section: &Section<'_>, base: Option<&Material>) -> Result<Material, SceneError> {
+fn elastic(section: &TomlSection<'_>, base: Option<&Material>) -> Result<Material, SceneError> {
     let mut material = base.cloned().unwrap_or_else(|| {
         let mut given = Material::given(f64::NAN, f64::NAN);
         given.source = "the scene".to_owned();
@@ -80,7 +80,7 @@ fn elastic(section: &Section<'_>, base: Option<&Material>) -> Result<Material, S
     for (i, (key, quantity, own)) in constants.into_iter().enumerate() {
         match speeds.map(|found| found[i]) {
             Some((value, _)) if section.value(key).is_none() => *own = value,
-            Some((value, size)) if (*own - value).abs() > ROUNDING * size => {
+            Some((value, size)) if (*own - value).abs() > ROUNDED_DIFFERENCE * size => {
                 let (name, by) = (section.name, "longitudinal_speed_m_s and shear_speed_m_s");
                 let sentence = format!(
                     "[{name}] gives {quantity} twice: {own} from {key} and {value} from {by}; leave one pair out"
@@ -99,7 +99,7 @@ fn elastic(section: &Section<'_>, base: Option<&Material>) -> Result<Material, S
 /// Young's modulus in Pa and Poisson's ratio from the wave speeds, where they are given, each with the size that differences are
 /// compared with.
 fn from_speeds(
-    section: &Section<'_>,
+    section: &TomlSection<'_>,
     density: Option<f64>,
 ) -> Result<Option<[(f64, f64); 2]>, SceneError> {
     let both = "both wave speeds are needed";
@@ -124,7 +124,10 @@ fn from_speeds(
 }
 
 /// A striker with its velocity: a mass with a tip, or a body of a shape.
-pub(super) fn read_strike(section: &Section<'_>, library: &Library) -> Result<Strike, SceneError> {
+pub(super) fn read_strike(
+    section: &TomlSection<'_>,
+    library: &Library,
+) -> Result<Strike, SceneError> {
     section.allow_keys_of("striker")?;
     let striker = match section.choice("shape")? {
         Some(form) => of_form(section, library, form)?,
@@ -147,7 +150,11 @@ pub(super) fn read_strike(section: &Section<'_>, library: &Library) -> Result<St
 }
 
 /// A body whose mass follows from lengths and a density.
-fn of_form(section: &Section<'_>, library: &Library, form: Form) -> Result<Striker, SceneError> {
+fn of_form(
+    section: &TomlSection<'_>,
+    library: &Library,
+    form: Form,
+) -> Result<Striker, SceneError> {
     let (superfluous, reason): (&[&str], _) = match form {
         Form::Ball => (
             &["mass_kg", "tip_radius_m", "length_m"],
@@ -183,7 +190,7 @@ fn of_form(section: &Section<'_>, library: &Library, form: Form) -> Result<Strik
 }
 
 /// Velocity of approach in m/s: as given, or after a fall.
-fn velocity(section: &Section<'_>) -> Result<f64, SceneError> {
+fn velocity(section: &TomlSection<'_>) -> Result<f64, SceneError> {
     match section.number("drop_height_m")? {
         None => section.needed("velocity_m_s"),
         Some(_) if section.value("velocity_m_s").is_some() => Err(SceneError::superfluous(

@@ -3,10 +3,10 @@
 use super::body::{body, read_materials, read_strike};
 use super::keys::{SECTIONS, Set, keys_of};
 use super::record::{read_record, record_of_samples};
-use super::section::{Section, as_number, parse, read_standard, read_text};
+use super::section::{TomlSection, as_number, parse, read_standard, read_text};
 use crate::error::SceneError;
 use contact::{Choice, Conflict, HalfSpace, Library, Settings};
-use impact::{Load, Probe, Reading, Scene, Section as MeridionalSection, Strike};
+use impact::{Load, Probe, Reading, Scene, Section, Strike};
 use lookup::schema::FIELD_NAMES;
 use output::{Role, is_standard};
 use std::path::Path;
@@ -59,7 +59,7 @@ pub fn parse_scene(text: &str, directory: &Path) -> Result<Scene, SceneError> {
 
 /// Reads a scene from a parsed table, as sweeps make them.
 pub fn scene_of(table: &Table, directory: &Path) -> Result<Scene, SceneError> {
-    let root = Section::root(table);
+    let root = TomlSection::root(table);
     let of_sweeps = ["product", "list", "random"];
     if let Some(key) = of_sweeps.iter().find(|&&key| table.contains_key(key)) {
         let what = "this is a sweep, not a scene";
@@ -76,7 +76,7 @@ pub(crate) fn scene_with(
     directory: &Path,
     library: &Library,
 ) -> Result<Scene, SceneError> {
-    let root = Section::root(table);
+    let root = TomlSection::root(table);
     root.allow(SECTIONS)?;
     let target = read_target(&root, library)?;
     let settings = read_settings(&root)?;
@@ -85,7 +85,7 @@ pub(crate) fn scene_with(
     inside(&target, &probes, section.as_ref())?;
     let output = root.section("output")?;
     let none = Table::new();
-    let output = output.unwrap_or(Section::of("output", &none));
+    let output = output.unwrap_or(TomlSection::of("output", &none));
     output.allow_keys_of("output")?;
     always_there(&output)?;
     Ok(Scene {
@@ -101,7 +101,7 @@ pub(crate) fn scene_with(
 }
 
 /// Refuses to be asked for a field that is written in any case.
-fn always_there(output: &Section<'_>) -> Result<(), SceneError> {
+fn always_there(output: &TomlSection<'_>) -> Result<(), SceneError> {
     let asked = output.value("quantities").and_then(Value::as_array);
     let mut words = asked.into_iter().flatten().filter_map(Value::as_str);
     let Some(word) = words.find(|word| FIELD_NAMES.contains(word)) else {
@@ -116,14 +116,14 @@ fn always_there(output: &Section<'_>) -> Result<(), SceneError> {
 
 /// The half-space and the striker of a parsed scene; none for a force record, whose file is not read.
 pub(crate) fn bodies_of(table: &Table) -> Result<(HalfSpace, Option<Strike>), SceneError> {
-    let (root, library) = (Section::root(table), Library::built_in());
+    let (root, library) = (TomlSection::root(table), Library::built_in());
     let target = read_target(&root, library)?;
     let striker = root.section("striker")?;
     let strike = striker.map(|section| read_strike(&section, library));
     Ok((target, strike.transpose()?))
 }
 
-fn read_target(root: &Section<'_>, library: &Library) -> Result<HalfSpace, SceneError> {
+fn read_target(root: &TomlSection<'_>, library: &Library) -> Result<HalfSpace, SceneError> {
     let target = root
         .section("target")?
         .ok_or_else(|| root.missing("target", "describe the half-space in a section [target]"))?;
@@ -138,7 +138,7 @@ fn read_target(root: &Section<'_>, library: &Library) -> Result<HalfSpace, Scene
     Ok(half_space)
 }
 
-fn read_library(root: &Section<'_>, directory: &Path) -> Result<Library, SceneError> {
+fn read_library(root: &TomlSection<'_>, directory: &Path) -> Result<Library, SceneError> {
     let Some(section) = root.section("materials")? else {
         return Ok(Library::built_in().clone());
     };
@@ -148,10 +148,10 @@ fn read_library(root: &Section<'_>, directory: &Path) -> Result<Library, SceneEr
     Ok(Library::built_in().extended(&own))
 }
 
-fn read_settings(root: &Section<'_>) -> Result<Settings, SceneError> {
+fn read_settings(root: &TomlSection<'_>) -> Result<Settings, SceneError> {
     let (mut settings, none) = (Settings::default(), Table::new());
     let section = root.section("contact")?;
-    let section = section.unwrap_or(Section::of("contact", &none));
+    let section = section.unwrap_or(TomlSection::of("contact", &none));
     section.allow_keys_of("contact")?;
     for key in keys_of("contact") {
         match key.set {
@@ -165,7 +165,7 @@ fn read_settings(root: &Section<'_>) -> Result<Settings, SceneError> {
                     section.named(key.name, word, |word| set(&mut settings, word))?;
                 }
             }
-            _ => {}
+            Some(Set::Strike(_) | Set::Body(_) | Set::Ball(_)) | None => {}
         }
     }
     settings
@@ -213,7 +213,7 @@ fn in_words(conflict: Conflict) -> SceneError {
 }
 
 fn read_load(
-    root: &Section<'_>,
+    root: &TomlSection<'_>,
     settings: &Settings,
     library: &Library,
     directory: &Path,
@@ -240,8 +240,8 @@ fn read_load(
                 samples: None,
             };
             let record = match source {
-                Source::File(file) => read_record(&directory.join(file), reading)?,
-                Source::Samples(samples) => record_of_samples(samples, reading)?,
+                RecordSource::File(file) => read_record(&directory.join(file), reading)?,
+                RecordSource::Samples(samples) => record_of_samples(samples, reading)?,
             };
             Ok(Load::Record(record.treat(baseline_s, low_pass_hz)?))
         }
@@ -258,17 +258,17 @@ fn read_load(
 }
 
 /// Where the samples of a record are.
-enum Source<'a> {
+enum RecordSource<'a> {
     File(&'a str),
     /// In the scene itself: times in s and forces in N.
     Samples([Vec<f64>; 2]),
 }
 
-fn read_source<'a>(force: &Section<'a>) -> Result<Source<'a>, SceneError> {
+fn read_source<'a>(force: &TomlSection<'a>) -> Result<RecordSource<'a>, SceneError> {
     let (time_s, force_n) = (force.numbers("time_s")?, force.numbers("force_n")?);
     if time_s.is_none() && force_n.is_none() {
         let hint = "name a CSV file with columns time_s,force_n or an HDF5 file with /time and /force, or give the lists time_s and force_n in its place";
-        return force.needed_text("file", hint).map(Source::File);
+        return force.needed_text("file", hint).map(RecordSource::File);
     }
     let of_files = ["file", "columns", "units"];
     let superfluous = |key: &&str| force.value(key).is_some();
@@ -283,14 +283,14 @@ fn read_source<'a>(force: &Section<'a>) -> Result<Source<'a>, SceneError> {
     let hint = "time_s and force_n are given together";
     let time_s = time_s.ok_or_else(|| force.missing("time_s", hint))?;
     let force_n = force_n.ok_or_else(|| force.missing("force_n", hint))?;
-    Ok(Source::Samples([time_s, force_n]))
+    Ok(RecordSource::Samples([time_s, force_n]))
 }
 
 /// Refuses what lies outside the block.
 fn inside(
     block: &HalfSpace,
     probes: &[Probe],
-    section: Option<&MeridionalSection>,
+    section: Option<&Section>,
 ) -> Result<(), SceneError> {
     let probes = (1..).zip(probes).map(|(i, probe)| {
         let name = format!("probe[{i}]");
@@ -313,11 +313,11 @@ fn inside(
     Ok(())
 }
 
-fn read_probes(root: &Section<'_>) -> Result<Vec<Probe>, SceneError> {
+fn read_probes(root: &TomlSection<'_>) -> Result<Vec<Probe>, SceneError> {
     root.list("probe")?
         .iter()
         .map(|(name, table)| {
-            let section = Section::of(name, table);
+            let section = TomlSection::of(name, table);
             section.allow_keys_of("probe")?;
             Ok(Probe {
                 r_m: section.needed("r_m")?,
@@ -327,13 +327,13 @@ fn read_probes(root: &Section<'_>) -> Result<Vec<Probe>, SceneError> {
         .collect()
 }
 
-fn read_section(root: &Section<'_>) -> Result<Option<MeridionalSection>, SceneError> {
+fn read_section(root: &TomlSection<'_>) -> Result<Option<Section>, SceneError> {
     let Some(section) = root.section("map")? else {
         return Ok(None);
     };
     section.allow_keys_of("map")?;
     let times_s = frame_times(&section)?;
-    let frames = section.count("frames", 1..=MOST_FRAMES, "[1, 100000]")?;
+    let frames = section.count("frames", 1..=MOST_SECTION_FRAMES, "[1, 100000]")?;
     let frames = match (frames, times_s.len()) {
         (Some(_), 1..) => {
             let reason = "times_s has a frame at each of its times";
@@ -349,7 +349,7 @@ fn read_section(root: &Section<'_>) -> Result<Option<MeridionalSection>, SceneEr
         }
         (None, times) => times,
     };
-    Ok(Some(MeridionalSection {
+    Ok(Some(Section {
         r_max_m: section.needed("r_max_m")?,
         z_max_m: section.needed("z_max_m")?,
         points: section
@@ -361,10 +361,10 @@ fn read_section(root: &Section<'_>) -> Result<Option<MeridionalSection>, SceneEr
 }
 
 /// Frames of a section, at most.
-const MOST_FRAMES: usize = 100_000;
+const MOST_SECTION_FRAMES: usize = 100_000;
 
 /// The times of the frames of a section, where it has some.
-fn frame_times(section: &Section<'_>) -> Result<Vec<f64>, SceneError> {
+fn frame_times(section: &TomlSection<'_>) -> Result<Vec<f64>, SceneError> {
     let key = "times_s";
     let expected = "a list of numbers that rise from 0 or later, such as [2e-6, 5e-6]";
     let times = section.typed(key, expected, |value| {
@@ -373,7 +373,7 @@ fn frame_times(section: &Section<'_>) -> Result<Vec<f64>, SceneError> {
         let rises = times_s.windows(2).all(|pair| pair[0] < pair[1]);
         let first_s = times_s.first()?;
         let is_list = rises && *first_s >= 0.0 && times_s.iter().all(|t| t.is_finite());
-        (is_list && times_s.len() <= MOST_FRAMES).then_some(times_s)
+        (is_list && times_s.len() <= MOST_SECTION_FRAMES).then_some(times_s)
     })?;
     Ok(times.unwrap_or_default())
 }

@@ -3,7 +3,7 @@
 use super::keys::FINITE;
 use super::section::{MOST_OF_RECORD, read_text_up_to};
 use crate::error::SceneError;
-use crate::results::schema::{FILE_TYPE, SEALED_FROM};
+use crate::schema::results::{FILE_TYPE, SEALED_FROM};
 use impact::{ASCENDING, ForceRecord, Reading, RecordError, TreatmentError, follows};
 use ledger::{Group, HdfError, HdfFile};
 use output::HDF5;
@@ -11,7 +11,7 @@ use std::io::ErrorKind;
 use std::path::Path;
 
 /// Samples at most: they are held in memory several times.
-const MOST_SAMPLES: usize = 1 << 24;
+const MOST_RECORD_SAMPLES: usize = 1 << 24;
 
 /// Samples that stand in a scene at most: results files hold their scene, so that all readers of a result parse them.
 /// So many take 5.7 MB of the 8 MB that a text has at most; tests/python/package/test_numbers.py has them read back.
@@ -165,7 +165,7 @@ fn cut((time_s, force_n): Rows, reading: &Reading) -> Result<Rows, SceneError> {
 }
 
 /// The columns of a record that is one as it stands.
-const COLUMNS: [&str; 2] = ["time_s", "force_n"];
+const PLAIN_COLUMNS: [&str; 2] = ["time_s", "force_n"];
 
 /// Units of time and force in s and N; the last of each are three ways to write the same letter.
 const TIMES: [(&str, f64); 6] = [
@@ -226,7 +226,7 @@ fn unit<'a>(name: &'a str, given: Option<&'a String>, own: &'static str) -> &'a 
     };
     match given {
         Some(unit) => unit,
-        None if COLUMNS.contains(&name) => own,
+        None if PLAIN_COLUMNS.contains(&name) => own,
         None => named().unwrap_or(""),
     }
 }
@@ -286,7 +286,7 @@ fn from_text(text: &str, reading: &Reading) -> Result<Rows, (usize, String)> {
         let lines = lines.enumerate().map(|(i, line)| (i + 1, line.trim()));
         lines.filter(|(_, line)| !line.is_empty() && !line.starts_with('#'))
     };
-    let wanted = (reading.columns.clone()).unwrap_or(COLUMNS.map(str::to_owned));
+    let wanted = (reading.columns.clone()).unwrap_or(PLAIN_COLUMNS.map(str::to_owned));
     if lines().next().is_none() {
         let header = wanted.join(",");
         return Err((1, format!("the file is empty; its header is \"{header}\"")));
@@ -340,8 +340,9 @@ fn from_text(text: &str, reading: &Reading) -> Result<Rows, (usize, String)> {
         if let Some(&before) = time_s.last().filter(|_| !follows(&time_s, t)) {
             return Err((line, not_ascending(&wanted[0], t, before)));
         }
-        if time_s.len() == MOST_SAMPLES {
-            let reason = format!("there are more than {MOST_SAMPLES} rows: cut or thin the record");
+        if time_s.len() == MOST_RECORD_SAMPLES {
+            let reason =
+                format!("there are more than {MOST_RECORD_SAMPLES} rows: cut or thin the record");
             return Err((line, reason));
         }
         time_s.push(t);
@@ -452,10 +453,10 @@ fn samples(root: &Group, name: &str) -> Result<Vec<f64>, String> {
     if dimensions != 1 {
         return Err(format!("/{name} has {dimensions} dimensions, needed 1"));
     }
-    if count > MOST_SAMPLES {
+    if count > MOST_RECORD_SAMPLES {
         return Err(format!(
-            "/{name} has {count} samples, more than {MOST_SAMPLES}: cut or thin the record"
+            "/{name} has {count} samples, more than {MOST_RECORD_SAMPLES}: cut or thin the record"
         ));
     }
-    data.as_f64(8 * MOST_SAMPLES as u64).map_err(failed)
+    data.as_f64(8 * MOST_RECORD_SAMPLES as u64).map_err(failed)
 }

@@ -13,12 +13,12 @@ use toml::{Table, Value};
 
 /// One section of a scene, or its root.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Section<'a> {
+pub(crate) struct TomlSection<'a> {
     pub(crate) name: &'a str,
     table: &'a Table,
 }
 
-impl<'a> Section<'a> {
+impl<'a> TomlSection<'a> {
     pub(crate) fn root(table: &'a Table) -> Self {
         Self { name: "", table }
     }
@@ -76,9 +76,9 @@ impl<'a> Section<'a> {
     }
 
     /// The table of a key that holds one.
-    pub(crate) fn inner(&self, key: &'a str) -> Option<Section<'a>> {
+    pub(crate) fn inner(&self, key: &'a str) -> Option<TomlSection<'a>> {
         let table = self.value(key)?.as_table()?;
-        Some(Section { name: key, table })
+        Some(TomlSection { name: key, table })
     }
 
     /// The table of a key that is there.
@@ -86,15 +86,15 @@ impl<'a> Section<'a> {
         &self,
         key: &'a str,
         expected: &'static str,
-    ) -> Result<Section<'a>, SceneError> {
+    ) -> Result<TomlSection<'a>, SceneError> {
         let wrong = || self.wrong_kind(key, &self.table[key], expected);
         self.inner(key).ok_or_else(wrong)
     }
 
     /// A subsection such as [target].
-    pub(crate) fn section(&self, key: &'a str) -> Result<Option<Section<'a>>, SceneError> {
+    pub(crate) fn section(&self, key: &'a str) -> Result<Option<TomlSection<'a>>, SceneError> {
         let table = self.typed(key, "a section", Value::as_table)?;
-        Ok(table.map(|table| Section { name: key, table }))
+        Ok(table.map(|table| TomlSection { name: key, table }))
     }
 
     /// A list of subsections such as [[probe]], with the names of their elements.
@@ -126,7 +126,7 @@ impl<'a> Section<'a> {
     }
 
     /// All subsections but for the keys `other`.
-    pub(crate) fn subsections(&self, other: &[&str]) -> Result<Vec<Section<'a>>, SceneError> {
+    pub(crate) fn subsections(&self, other: &[&str]) -> Result<Vec<TomlSection<'a>>, SceneError> {
         let names = self.names().filter(|name| !other.contains(name));
         names
             .map(|name| self.subsection(name, "a section of scene keys"))

@@ -1,11 +1,11 @@
 //! Groups of rows of a Parquet file: nothing is decoded before its hash was compared.
 
-use super::rows::NOT_HELD;
-use crate::sweep::schema::{FAILURE, MODEL};
-use crate::sweep::{Block, Footer, NO_MODEL, Part, Precision};
+use crate::schema::sweep::{FAILURE, MODEL};
+use crate::sweep::{Block, Footer, NO_MODEL, NOT_HELD, Part, Precision};
 use bytes::Bytes;
 use contact::{Choice, Model};
-use output::Fault;
+use ledger::sha256_hex;
+use output::OutputFault;
 use parquet::column::reader::{ColumnReader, ColumnReaderImpl, get_column_reader};
 use parquet::data_type::{ByteArray, DataType};
 use parquet::errors::ParquetError;
@@ -14,7 +14,6 @@ use parquet::file::metadata::{
 };
 use parquet::file::serialized_reader::SerializedPageReader;
 use rayon::prelude::*;
-use sha2::{Digest, Sha256};
 use std::collections::HashMap;
 use std::fs::File;
 use std::io::{Read, Seek, SeekFrom};
@@ -24,9 +23,9 @@ use std::sync::Arc;
 pub(super) fn each(
     part: &Part,
     hashes: &[String],
-    visit: &mut dyn FnMut(&Block) -> Result<(), Fault>,
-) -> Result<(), Fault> {
-    let damaged = |what: String| Fault::from(format!("{}: {what}", part.path.display()));
+    visit: &mut dyn FnMut(&Block) -> Result<(), OutputFault>,
+) -> Result<(), OutputFault> {
+    let damaged = |what: String| OutputFault::from(format!("{}: {what}", part.path.display()));
     let metadata = metadata(part).map_err(damaged)?;
     let places = places(part, &metadata).map_err(damaged)?;
     let mut next = part.selection.rows.start;
@@ -47,7 +46,7 @@ pub(super) fn each(
 }
 
 /// Compares the rows of a file with the hashes of their groups.
-pub(super) fn check(part: &Part, hashes: &[String]) -> Result<(), Fault> {
+pub(super) fn check(part: &Part, hashes: &[String]) -> Result<(), OutputFault> {
     each_group(part, hashes, &metadata(part)?, |_, _| Ok(()))
 }
 
@@ -61,11 +60,11 @@ fn each_group(
     part: &Part,
     hashes: &[String],
     metadata: &ParquetMetaData,
-    mut visit: impl FnMut(&RowGroupMetaData, &Arc<Bytes>) -> Result<(), Fault>,
-) -> Result<(), Fault> {
+    mut visit: impl FnMut(&RowGroupMetaData, &Arc<Bytes>) -> Result<(), OutputFault>,
+) -> Result<(), OutputFault> {
     let mut file = File::open(&part.path)?;
     if metadata.num_row_groups() != hashes.len() {
-        return Err(Fault::from("it has other groups of rows".to_owned()));
+        return Err(OutputFault::from("it has other groups of rows".to_owned()));
     }
     let mut next = part.selection.rows.start;
     for (group, hash) in metadata.row_groups().iter().zip(hashes) {
@@ -73,8 +72,10 @@ fn each_group(
         file.seek(SeekFrom::Start(start))?;
         let mut bytes = Vec::new();
         (&file).take(end - start).read_to_end(&mut bytes)?;
-        if format!("{:x}", Sha256::digest(&bytes)) != *hash {
-            return Err(Fault::from(format!("the rows from {next} on were changed")));
+        if sha256_hex([&bytes[..]]) != *hash {
+            return Err(OutputFault::from(format!(
+                "the rows from {next} on were changed"
+            )));
         }
         next += usize::try_from(group.num_rows()).unwrap_or(0);
         visit(group, &Arc::new(bytes.into()))?;

@@ -3,12 +3,12 @@
 use super::open::{FileKind, Stored};
 use crate::error::SceneError;
 use crate::quantities::Described;
-use crate::results::schema::{
+use crate::scene::bodies_of;
+use crate::scene::section::{as_number, parse};
+use crate::schema::results::{
     ENERGIES, ENERGY, ERROR_SUFFIX, MAP, MAP_SCALES, PEAK_SUFFIXES, PLACES, PROBES, SCENE, SERIES,
     WARNINGS,
 };
-use crate::scene::bodies_of;
-use crate::scene::section::{as_number, parse};
 use contact::HalfSpace;
 use impact::{EnergySeries, Series, Strike, StrikerSeries};
 use std::path::Path;

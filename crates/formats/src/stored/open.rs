@@ -2,10 +2,10 @@
 
 use crate::error::SceneError;
 use crate::quantities::Described;
-use crate::results;
 use crate::scene::section::parse;
-use crate::sweep::schema::{self, TEXTS, part};
-use crate::sweep::{Fields, Footer, MAGIC, Part, Precision, stored_columns};
+use crate::schema::sweep::{TEXTS, part};
+use crate::schema::{results, sweep};
+use crate::sweep::{Footer, MAGIC, Part, Precision, WrittenResults, stored_columns};
 use ledger::{Dataset, Group, H5Type, HdfError, HdfFile};
 use std::fmt;
 use std::io::{self, Read};
@@ -13,7 +13,7 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 /// Most bytes of numbers that are read from a dataset at once.
-const MOST_BYTES: u64 = 1 << 29;
+const MOST_BYTES_AT_ONCE: u64 = 1 << 29;
 
 /// Major version of the files that are read.
 const MAJOR: &str = "1";
@@ -35,8 +35,8 @@ impl FileKind {
     /// That of a value of the attribute `file_type`.
     fn of_type(found: &str) -> Option<Self> {
         Some(match found {
-            results::schema::FILE_TYPE => Self::Impact,
-            schema::FILE_TYPE => Self::Sweep,
+            results::FILE_TYPE => Self::Impact,
+            sweep::FILE_TYPE => Self::Sweep,
             part::FILE_TYPE => Self::SweepPart,
             lookup::schema::FILE_TYPE_VALUE => Self::Table,
             _ => return None,
@@ -46,7 +46,7 @@ impl FileKind {
     /// What the file is, and the minor version of the format from which on its files have a seal.
     fn row(self) -> (&'static str, u32) {
         match self {
-            Self::Impact => ("the results of an impact", results::schema::SEALED_FROM),
+            Self::Impact => ("the results of an impact", results::SEALED_FROM),
             Self::Sweep => ("a sweep", 6),
             Self::SweepPart => ("a part of a sweep", 2),
             Self::Table => ("a kernel table", lookup::schema::SEALED_FROM),
@@ -146,17 +146,17 @@ impl Stored {
 
     /// All numbers of a dataset of a shape.
     pub(super) fn numbers(&self, path: &str, shape: &[usize]) -> Result<Vec<f64>, SceneError> {
-        self.read(path, self.of_shape(path, shape)?.as_f64(MOST_BYTES))
+        self.read(path, self.of_shape(path, shape)?.as_f64(MOST_BYTES_AT_ONCE))
     }
 
     /// All numbers of a list.
     pub(super) fn vector(&self, path: &str) -> Result<Vec<f64>, SceneError> {
-        self.read(path, self.list(path)?.as_f64(MOST_BYTES))
+        self.read(path, self.list(path)?.as_f64(MOST_BYTES_AT_ONCE))
     }
 
     /// All texts of a list.
     pub(super) fn texts(&self, path: &str) -> Result<Vec<String>, SceneError> {
-        self.read(path, self.list(path)?.texts(MOST_BYTES))
+        self.read(path, self.list(path)?.texts(MOST_BYTES_AT_ONCE))
     }
 
     /// A dataset with one dimension.
@@ -174,12 +174,20 @@ impl Stored {
     ) -> Result<Vec<T>, SceneError> {
         let mut block: Vec<_> = shape.iter().map(|&n| 0..n).collect();
         block[0] = first;
-        self.read(path, self.of_shape(path, shape)?.block(&block, MOST_BYTES))
+        self.read(
+            path,
+            self.of_shape(path, shape)?
+                .block(&block, MOST_BYTES_AT_ONCE),
+        )
     }
 
     /// Which results a group has as datasets of a shape, and how exactly.
-    pub(super) fn fields(&self, group: &str, shape: &[usize]) -> Result<Fields, SceneError> {
-        let mut fields = Fields::all(self.probed()?);
+    pub(super) fn fields(
+        &self,
+        group: &str,
+        shape: &[usize],
+    ) -> Result<WrittenResults, SceneError> {
+        let mut fields = WrittenResults::all(self.probed()?);
         let (mut single, mut double) = (true, true);
         fields.retain(|name| {
             let dataset = self.dataset(&format!("{group}/{name}"));

@@ -1,32 +1,31 @@
 //! The results of a sweep, and rows of it, some or all, read back from either format.
 
+#[cfg(feature = "parquet")]
+use super::groups;
 use super::open::{FileKind, Stored, parquet_of_kind};
 use crate::error::SceneError;
 use crate::quantities::Described;
-use crate::sweep::schema::{
+use crate::schema::sweep::{
     AXES, FAILED, FAILURE, FAILURES, LIST, MODEL, RESULTS, ROWS, SAMPLE, SHA256, part,
 };
 use crate::sweep::{
-    Axis, BLOCK, Block, Blocks, Cells, Column, Fields, Footer, Part, Precision, Selection, Spec,
-    Values, What, columns,
+    BLOCK, Block, Blocks, Cells, Footer, NOT_HELD, Part, Precision, Selection, Spec, SweepAxis,
+    SweptKey, Values, What, WrittenResults, columns,
 };
-use output::Fault;
+use output::OutputFault;
 use std::ops::Range;
 use std::path::Path;
-
-/// What is wrong with a block that cannot have been computed.
-pub(super) const NOT_HELD: &str = "it has models that are not known, or failures without reasons";
 
 /// An open part; its rows are read a block at a time.
 #[derive(Debug, Clone)]
 pub struct StoredPart {
     /// What it says of itself.
     pub part: Part,
-    rows: Rows,
+    rows: PartRows,
 }
 
 #[derive(Debug, Clone)]
-enum Rows {
+enum PartRows {
     /// An open file, and the reasons of its failures.
     Hdf5(Stored, Vec<String>),
     Parquet(Box<Footer>),
@@ -39,7 +38,7 @@ impl StoredPart {
     /// [`SceneError`], which says what the file is instead.
     pub fn open(path: &Path) -> Result<Self, SceneError> {
         if let Some((footer, part)) = parquet_of_kind(path, FileKind::SweepPart)? {
-            let rows = Rows::Parquet(Box::new(footer));
+            let rows = PartRows::Parquet(Box::new(footer));
             return Ok(Self { part, rows });
         }
         let stored = Stored::open(path, FileKind::SweepPart)?;
@@ -72,7 +71,7 @@ impl StoredPart {
             sealed: stored.file.is_sealed(),
         };
         let reasons = stored.texts(FAILURES.0)?;
-        let rows = Rows::Hdf5(stored, reasons);
+        let rows = PartRows::Hdf5(stored, reasons);
         Ok(Self { part, rows })
     }
 
@@ -82,8 +81,8 @@ impl StoredPart {
     /// [`SceneError`].
     pub fn check(&self) -> Result<(), SceneError> {
         match &self.rows {
-            Rows::Hdf5(stored, _) => stored.check(),
-            Rows::Parquet(footer) => check_groups(&self.part, footer),
+            PartRows::Hdf5(stored, _) => stored.check(),
+            PartRows::Parquet(footer) => check_groups(&self.part, footer),
         }
     }
 
@@ -93,7 +92,7 @@ impl StoredPart {
             let what = "its sweep is not that of the other parts";
             return Err(SceneError::damaged(&self.part.path, what));
         }
-        let Rows::Hdf5(stored, _) = &self.rows else {
+        let PartRows::Hdf5(stored, _) = &self.rows else {
             // the hash of a group is over its keys too
             return Ok(());
         };
@@ -129,7 +128,7 @@ impl StoredPart {
 
     /// The same without its results: models and failures alone are read; nothing for a part that is not HDF5.
     pub(crate) fn failures(&self) -> Option<impl Blocks> {
-        matches!(self.rows, Rows::Hdf5(..)).then(|| {
+        matches!(self.rows, PartRows::Hdf5(..)).then(|| {
             let mut bare = self.clone();
             bare.part.fields.retain(|_| false);
             bare
@@ -142,8 +141,8 @@ impl StoredPart {
     /// [`SceneError`] where it is missing.
     pub fn sweep(&self) -> Result<String, SceneError> {
         match &self.rows {
-            Rows::Hdf5(stored, _) => stored.text("sweep"),
-            Rows::Parquet(footer) => Ok(footer.sweep.clone()),
+            PartRows::Hdf5(stored, _) => stored.text("sweep"),
+            PartRows::Parquet(footer) => Ok(footer.sweep.clone()),
         }
     }
 
@@ -193,16 +192,19 @@ impl StoredPart {
 }
 
 impl Blocks for StoredPart {
-    fn each(&self, visit: &mut dyn FnMut(&Block) -> Result<(), Fault>) -> Result<(), Fault> {
+    fn each(
+        &self,
+        visit: &mut dyn FnMut(&Block) -> Result<(), OutputFault>,
+    ) -> Result<(), OutputFault> {
         match &self.rows {
-            Rows::Hdf5(stored, reasons) => self.blocks().try_for_each(|rows| {
+            PartRows::Hdf5(stored, reasons) => self.blocks().try_for_each(|rows| {
                 let block = self.block(stored, reasons, rows);
-                visit(&block.map_err(|error| Fault::from(error.to_string()))?)
+                visit(&block.map_err(|error| OutputFault::from(error.to_string()))?)
             }),
             #[cfg(feature = "parquet")]
-            Rows::Parquet(footer) => super::groups::each(&self.part, &footer.row_groups, visit),
+            PartRows::Parquet(footer) => groups::each(&self.part, &footer.row_groups, visit),
             #[cfg(not(feature = "parquet"))]
-            Rows::Parquet(footer) => Err(Fault::from(format!(
+            PartRows::Parquet(footer) => Err(OutputFault::from(format!(
                 "{} is a Parquet file, the {} groups of which this program was built without reading",
                 self.part.path.display(),
                 footer.row_groups.len()
@@ -216,7 +218,7 @@ impl Blocks for StoredPart {
 ///
 /// # Errors
 /// [`SceneError`], which says what the file is instead.
-pub(crate) fn whole_sweep(path: &Path) -> Result<(Option<String>, Fields), SceneError> {
+pub(crate) fn whole_sweep(path: &Path) -> Result<(Option<String>, WrittenResults), SceneError> {
     if let Some((footer, part)) = parquet_of_kind(path, FileKind::Sweep)? {
         check_groups(&part, &footer)?;
         return Ok((Some(part.sha256), part.fields));
@@ -229,7 +231,7 @@ pub(crate) fn whole_sweep(path: &Path) -> Result<(Option<String>, Fields), Scene
 /// Compares the rows of a Parquet file with their hashes, where the program can read them.
 fn check_groups(part: &Part, footer: &Footer) -> Result<(), SceneError> {
     #[cfg(feature = "parquet")]
-    super::groups::check(part, &footer.row_groups)
+    groups::check(part, &footer.row_groups)
         .map_err(|fault| SceneError::damaged(&part.path, fault.reason))?;
     let _ = (part, footer);
     Ok(())
@@ -240,7 +242,7 @@ fn check_groups(part: &Part, footer: &Footer) -> Result<(), SceneError> {
 pub struct StoredSweep {
     stored: Stored,
     /// The axes; the last runs fastest.
-    pub axes: Vec<Axis>,
+    pub axes: Vec<SweepAxis>,
     /// Failed scenes.
     pub failed: u64,
 }
@@ -294,11 +296,11 @@ impl StoredSweep {
 }
 
 /// The axes in the order of the dimensions: those of the product by their names, then the list's, then the draws'.
-fn read_axes(stored: &Stored) -> Result<Vec<Axis>, SceneError> {
+fn read_axes(stored: &Stored) -> Result<Vec<SweepAxis>, SceneError> {
     let group = stored.group(AXES);
     let group = group.ok_or_else(|| stored.damaged(format!("the group {AXES} is missing")))?;
     let names = group.members();
-    let mut axes: Vec<Axis> = Vec::new();
+    let mut axes: Vec<SweepAxis> = Vec::new();
     for name in names.map_err(|error| stored.damaged(error))? {
         let path = format!("{AXES}/{name}");
         let data = stored.dataset(&path);
@@ -314,7 +316,7 @@ fn read_axes(stored: &Stored) -> Result<Vec<Axis>, SceneError> {
         let (section, key) = name
             .split_once('.')
             .ok_or_else(|| stored.damaged(format!("{path} is no key of a scene")))?;
-        let column = Column {
+        let column = SweptKey {
             section: section.to_owned(),
             key: key.to_owned(),
             values,
@@ -326,7 +328,7 @@ fn read_axes(stored: &Stored) -> Result<Vec<Axis>, SceneError> {
                     "{path} has {len} values, unlike others of its axis"
                 )));
             }
-            None => axes.push(Axis {
+            None => axes.push(SweepAxis {
                 name: axis,
                 len,
                 columns: vec![column],

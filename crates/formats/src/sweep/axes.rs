@@ -1,10 +1,10 @@
 //! The keys that vary and their values.
 
 use super::draws::Drawn;
-use super::schema::SAMPLE;
 use crate::error::SceneError;
 use crate::scene::keys::{FINITE, POSITIVE};
-use crate::scene::section::{Section, as_number};
+use crate::scene::section::{TomlSection, as_number};
+use crate::schema::sweep::SAMPLE;
 use contact::choice;
 use toml::{Table, Value};
 
@@ -42,7 +42,7 @@ impl Values {
     }
 
     /// Those that a key of a section lists, or that lie between two ends.
-    pub(super) fn read(section: &Section<'_>, key: &str) -> Result<Self, SceneError> {
+    pub(super) fn read(section: &TomlSection<'_>, key: &str) -> Result<Self, SceneError> {
         if let Some(range) = section.inner(key) {
             return spaced(&range).map(Self::Numbers);
         }
@@ -82,7 +82,7 @@ enum Spacing {
 
 choice!(Spacing: Linear = "linear", Log = "log");
 
-fn spaced(range: &Section<'_>) -> Result<Vec<f64>, SceneError> {
+fn spaced(range: &TomlSection<'_>) -> Result<Vec<f64>, SceneError> {
     range.allow(["from", "to", "count", "spacing"])?;
     let spacing = range.choice("spacing")?.unwrap_or(Spacing::Linear);
     let allowed = match spacing {
@@ -106,12 +106,12 @@ fn spaced(range: &Section<'_>) -> Result<Vec<f64>, SceneError> {
 /// A value that is whole decades from another but for rounding, as the decimal that it is meant to be.
 fn decade(from: f64, value: f64) -> f64 {
     /// Rounding of a logarithm and a power, in decades.
-    const ROUNDING: f64 = 1e-13;
+    const DECADE_ROUNDING: f64 = 1e-13;
     let decades = (value / from).log10();
     let whole = decades.round();
     let shown = format!("{from:e}");
     match shown.split_once('e') {
-        Some((digits, exponent)) if (decades - whole).abs() < ROUNDING => {
+        Some((digits, exponent)) if (decades - whole).abs() < DECADE_ROUNDING => {
             let exponent = exponent.parse::<f64>().unwrap_or(0.0) + whole;
             format!("{digits}e{exponent}").parse().unwrap_or(value)
         }
@@ -121,7 +121,7 @@ fn decade(from: f64, value: f64) -> f64 {
 
 /// A scene key with its values along an axis.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Column {
+pub struct SweptKey {
     /// Section of the scene.
     pub section: String,
     /// Key in that section.
@@ -130,7 +130,7 @@ pub struct Column {
     pub values: Values,
 }
 
-impl Column {
+impl SweptKey {
     /// The full name, such as `striker.mass_kg`.
     pub fn name(&self) -> String {
         format!("{}.{}", self.section, self.key)
@@ -151,16 +151,16 @@ impl Column {
 
 /// One dimension of a sweep: one key, or several that vary together.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Axis {
+pub struct SweepAxis {
     /// The key, or "list", or "sample".
     pub name: String,
     /// Its keys; all have as many values as the axis is long.
-    pub columns: Vec<Column>,
+    pub columns: Vec<SweptKey>,
     /// Length.
     pub len: usize,
 }
 
-impl Axis {
+impl SweepAxis {
     /// Whether it runs over random draws.
     pub fn is_drawn(&self) -> bool {
         self.name == SAMPLE
@@ -168,7 +168,7 @@ impl Axis {
 }
 
 /// Number of rows of some axes, or nothing when it is beyond all counting.
-pub(super) fn rows(axes: &[Axis]) -> Option<usize> {
+pub(super) fn rows(axes: &[SweepAxis]) -> Option<usize> {
     axes.iter()
         .try_fold(1_usize, |rows, axis| rows.checked_mul(axis.len))
 }
@@ -181,7 +181,7 @@ mod tests {
     fn logarithmic_values_hit_their_decades() {
         let values = |text: &str| {
             let table: Table = text.parse().unwrap_or_default();
-            spaced(&Section::of("x", &table)).unwrap_or_default()
+            spaced(&TomlSection::of("x", &table)).unwrap_or_default()
         };
         let found = values("from = 2e-4\nto = 20\ncount = 51\nspacing = \"log\"");
         let decades: Vec<f64> = found.iter().copied().step_by(10).collect();

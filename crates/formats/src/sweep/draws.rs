@@ -8,7 +8,7 @@
 
 use crate::error::SceneError;
 use crate::scene::keys::{FINITE, POSITIVE, Range};
-use crate::scene::section::Section;
+use crate::scene::section::TomlSection;
 use contact::choice;
 use std::f64::consts::{FRAC_1_SQRT_2, TAU};
 
@@ -27,7 +27,7 @@ pub struct Drawn {
 impl Drawn {
     /// Those of all keys of the section `[random]`, each with its section and name; how many `samples` are.
     pub(super) fn read(
-        random: &Section<'_>,
+        random: &TomlSection<'_>,
         samples: usize,
     ) -> Result<Vec<(String, String, Self)>, SceneError> {
         let seed = random
@@ -91,14 +91,14 @@ impl Drawn {
 /// A distribution of a number.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Distribution {
-    kind: Kind,
+    kind: DistributionKind,
     /// Both ends, or the mean or median and the deviation.
     numbers: [f64; 2],
 }
 
 /// The kind of a distribution.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Kind {
+enum DistributionKind {
     /// Even between two numbers.
     Uniform,
     /// Even in the logarithm between two positive numbers.
@@ -109,18 +109,18 @@ enum Kind {
     LogNormal,
 }
 
-choice!(Kind: Uniform = "uniform", LogUniform = "log_uniform", Normal = "normal", LogNormal = "log_normal");
+choice!(DistributionKind: Uniform = "uniform", LogUniform = "log_uniform", Normal = "normal", LogNormal = "log_normal");
 
 impl Distribution {
-    fn read(section: &Section<'_>) -> Result<Self, SceneError> {
+    fn read(section: &TomlSection<'_>) -> Result<Self, SceneError> {
         let kind = section.choice("distribution")?.ok_or_else(|| {
             section.missing("distribution", "uniform, log_uniform, normal or log_normal")
         })?;
         let (keys, ranges) = match kind {
-            Kind::Uniform => (["low", "high"], [FINITE, FINITE]),
-            Kind::LogUniform => (["low", "high"], [POSITIVE, POSITIVE]),
-            Kind::Normal => (["mean", "deviation"], [FINITE, POSITIVE]),
-            Kind::LogNormal => (["median", "deviation"], [POSITIVE, POSITIVE]),
+            DistributionKind::Uniform => (["low", "high"], [FINITE, FINITE]),
+            DistributionKind::LogUniform => (["low", "high"], [POSITIVE, POSITIVE]),
+            DistributionKind::Normal => (["mean", "deviation"], [FINITE, POSITIVE]),
+            DistributionKind::LogNormal => (["median", "deviation"], [POSITIVE, POSITIVE]),
         };
         section.allow(["distribution", keys[0], keys[1]])?;
         let a = section.required(keys[0], ranges[0], "the distribution needs it")?;
@@ -146,10 +146,10 @@ impl Distribution {
     fn value(self, uniform: impl Fn() -> f64, normal: impl Fn() -> f64) -> f64 {
         let [a, b] = self.numbers;
         match self.kind {
-            Kind::Uniform => a + (b - a) * uniform(),
-            Kind::LogUniform => a * (b / a).powf(uniform()),
-            Kind::Normal => a + b * normal(),
-            Kind::LogNormal => a * (b * normal()).exp(),
+            DistributionKind::Uniform => a + (b - a) * uniform(),
+            DistributionKind::LogUniform => a * (b / a).powf(uniform()),
+            DistributionKind::Normal => a + b * normal(),
+            DistributionKind::LogNormal => a * (b * normal()).exp(),
         }
     }
 }
@@ -187,13 +187,13 @@ fn mix(state: u64) -> u64 {
 const COEFFICIENT: Range = Range::new("(-1, 1)", |x| x > -1.0 && x < 1.0);
 
 /// The factor of `[[random.correlation]]`, sections of `keys`, a pair, and `coefficient`.
-fn correlations(random: &Section<'_>, keys: &[String]) -> Result<Vec<Vec<f64>>, SceneError> {
+fn correlations(random: &TomlSection<'_>, keys: &[String]) -> Result<Vec<Vec<f64>>, SceneError> {
     let n = keys.len();
     let mut matrix: Vec<Vec<f64>> = (0..n)
         .map(|i| (0..n).map(|j| f64::from(u8::from(i == j))).collect())
         .collect();
     for (name, table) in random.list("correlation")? {
-        let section = Section::of(&name, table);
+        let section = TomlSection::of(&name, table);
         section.allow(["keys", "coefficient"])?;
         let [i, j] = pair(&section, keys)?;
         let hint = "the correlation of the two keys";
@@ -217,7 +217,7 @@ fn correlations(random: &Section<'_>, keys: &[String]) -> Result<Vec<Vec<f64>>, 
     })
 }
 
-fn pair(section: &Section<'_>, keys: &[String]) -> Result<[usize; 2], SceneError> {
+fn pair(section: &TomlSection<'_>, keys: &[String]) -> Result<[usize; 2], SceneError> {
     let hint =
         "two keys that are drawn, such as [\"striker.diameter_m\", \"striker.velocity_m_s\"]";
     let words = section.words("keys", "a pair of keys that are drawn")?;
@@ -263,7 +263,7 @@ fn normal_probability(normal: f64) -> f64 {
 mod tests {
     use super::*;
 
-    fn of(kind: Kind, numbers: [f64; 2]) -> Distribution {
+    fn of(kind: DistributionKind, numbers: [f64; 2]) -> Distribution {
         Distribution { kind, numbers }
     }
 
@@ -284,15 +284,15 @@ mod tests {
         };
         let even = 12.0_f64.sqrt();
         close(
-            moments(of(Kind::Uniform, [2.0, 5.0]), |x| x),
+            moments(of(DistributionKind::Uniform, [2.0, 5.0]), |x| x),
             3.5,
             3.0 / even,
         );
-        let log = of(Kind::LogUniform, [1.0, 1f64.exp()]);
+        let log = of(DistributionKind::LogUniform, [1.0, 1f64.exp()]);
         close(moments(log, f64::ln), 0.5, 1.0 / even);
-        let normal = of(Kind::Normal, [-1.0, 0.3]);
+        let normal = of(DistributionKind::Normal, [-1.0, 0.3]);
         close(moments(normal, |x| x), -1.0, 0.3);
-        let log_normal = of(Kind::LogNormal, [1.0, 0.2]);
+        let log_normal = of(DistributionKind::LogNormal, [1.0, 0.2]);
         close(moments(log_normal, f64::ln), 0.0, 0.2);
     }
 
@@ -305,7 +305,7 @@ mod tests {
 
     #[test]
     fn draws_of_two_keys_and_two_seeds_differ() {
-        let even = of(Kind::Uniform, [0.0, 1.0]);
+        let even = of(DistributionKind::Uniform, [0.0, 1.0]);
         let a = even.draw(stream(1, "striker.mass_kg"), 3);
         assert_eq!(a, even.draw(stream(1, "striker.mass_kg"), 3));
         assert_ne!(a, even.draw(stream(2, "striker.mass_kg"), 3));

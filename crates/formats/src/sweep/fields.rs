@@ -1,17 +1,17 @@
 //! Which results a file of rows has, and how exactly: the quantities of a contact and, behind them, what probes bring.
 
-use super::schema::FIELDS as SECTION;
 use crate::error::SceneError;
 use crate::quantities::{Described, Labels, QUANTITIES, labels_of};
-use crate::results::schema::beside;
-use crate::scene::section::Section;
+use crate::scene::section::TomlSection;
+use crate::schema::results::beside;
+use crate::schema::sweep::FIELDS as SECTION;
 use impact::{ProbePeaks, Quantity};
 use std::sync::Arc;
 use toml::{Table, Value};
 
 /// Results that are written; the model and the reason of a failure always are.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Fields {
+pub struct WrittenResults {
     /// Places among the known ones; ascending.
     pub(crate) places: Vec<usize>,
     /// All that could be written.
@@ -30,13 +30,13 @@ pub enum Precision {
     Single = 32,
 }
 
-impl Default for Fields {
+impl Default for WrittenResults {
     fn default() -> Self {
         Self::all(Vec::new())
     }
 }
 
-impl Fields {
+impl WrittenResults {
     /// All results, with the columns of some probes.
     pub(crate) fn all(probed: Vec<Described>) -> Self {
         let own = QUANTITIES.iter();
@@ -87,7 +87,7 @@ impl Fields {
 }
 
 /// Columns of the probes at most: a dimension scale names every dataset that it belongs to in 64 kB.
-const MOST: usize = 2000;
+const MOST_PROBE_COLUMNS: usize = 2000;
 
 /// Whether the kernels of a row were looked up.
 const TABLE: (&str, &str, &str) = (
@@ -98,7 +98,7 @@ const TABLE: (&str, &str, &str) = (
 
 /// The columns of the probes of a base scene: peaks of fields, their instants and errors; none without probes.
 pub(super) fn columns_of_probes(scene: &Table) -> Result<Vec<Described>, SceneError> {
-    let root = Section::root(scene);
+    let root = TomlSection::root(scene);
     let probes = root.list("probe")?.len();
     if probes == 0 {
         return Ok(Vec::new());
@@ -108,7 +108,7 @@ pub(super) fn columns_of_probes(scene: &Table) -> Result<Vec<Described>, SceneEr
     let quantities = quantities.transpose()?.unwrap_or_default();
     let fields: Vec<_> = labels_of(&quantities).collect();
     let count = 1 + 3 * probes * fields.len();
-    if count > MOST {
+    if count > MOST_PROBE_COLUMNS {
         let key = "the number of columns of the probes";
         return Err(SceneError::out_of_range(key, count as f64, "[0, 2000]"));
     }

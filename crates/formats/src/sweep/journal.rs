@@ -5,14 +5,14 @@
 //! failures. It has the results that are written and those that are counted: what was kept without one of them is computed
 //! anew.
 
-use super::fields::Fields;
+use super::fields::WrittenResults;
 use super::rows::{Block, Blocks};
-use super::schema::COUNTED;
 use super::shard::BLOCK;
 use super::spec::Spec;
 use crate::quantities::QUANTITIES;
+use crate::schema::sweep::COUNTED;
 use ledger::Identity;
-use output::{Fault, Journal, OutputError, Record, Records, Title, packed, unpacked};
+use output::{Journal, OutputError, OutputFault, Record, Records, Title, packed, unpacked};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
@@ -73,11 +73,15 @@ impl Kept {
 }
 
 impl Blocks for Kept {
-    fn each(&self, visit: &mut dyn FnMut(&Block) -> Result<(), Fault>) -> Result<(), Fault> {
+    fn each(
+        &self,
+        visit: &mut dyn FnMut(&Block) -> Result<(), OutputFault>,
+    ) -> Result<(), OutputFault> {
         let mut kept = Vec::new();
         for (_, record) in &self.spans {
             self.journal.read(*record, &mut kept)?;
-            let changed = || Fault::from("its journal was changed while it was read".to_owned());
+            let changed =
+                || OutputFault::from("its journal was changed while it was read".to_owned());
             let (block, _) = parsed(&kept).ok_or_else(changed)?;
             visit(&block)?;
         }
@@ -173,7 +177,7 @@ fn apart(spans: &mut Vec<(Range<usize>, Record)>) -> usize {
 }
 
 /// The results of a contact that are kept, a bit each: those that are written, and those that are counted.
-pub(super) fn results(fields: &Fields) -> u64 {
+pub(super) fn results(fields: &WrittenResults) -> u64 {
     let written = |place: &usize| fields.places.contains(place);
     let counted = |place: &usize| COUNTED.contains(&QUANTITIES[*place].name);
     let places = (0..QUANTITIES.len()).filter(|place| written(place) || counted(place));

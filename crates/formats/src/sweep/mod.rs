@@ -17,23 +17,22 @@ mod journal;
 mod kernels;
 mod rows;
 mod run;
-pub mod schema;
 mod shard;
 mod spec;
 mod template;
 
-pub use axes::{Axis, Column, Values};
+pub use axes::{SweepAxis, SweptKey, Values};
 pub use draws::Drawn;
 pub use error::SweepError;
 pub(crate) use fields::stored_columns;
-pub use fields::{Fields, Precision};
+pub use fields::{Precision, WrittenResults};
 pub use journal::{Kept, Unfinished, is_computed, kept_places};
 pub use ledger::Shard;
 pub use rows::{
     Block, Blocks, Held, NO_MODEL, PARQUET_VERSION, check_rows, column_names, described_keys,
     key_unit, print_csv, row_bytes, stage_csv, stage_rows,
 };
-pub(crate) use rows::{Cells, Footer, MAGIC, What, columns, stage_hdf5};
+pub(crate) use rows::{Cells, Footer, MAGIC, NOT_HELD, What, columns, stage_hdf5};
 pub use run::{Computed, check_at_once, compute_columns, compute_rows, fields_bytes, run_rows};
 pub use shard::{BLOCK, Part, Selection, grain};
 pub use spec::Spec;

@@ -14,7 +14,7 @@ use contact::{Choice, Model, Outcomes, Solver, Tabulated};
 use fault::AnyError;
 use impact::sweep::{Observed, collide, observe, outcomes};
 use ledger::gaps;
-use output::{Existing, Fault};
+use output::{Existing, OutputFault};
 use rayon::prelude::*;
 use std::ops::Range;
 use std::path::Path;
@@ -200,7 +200,10 @@ impl<'a> Computed<'a> {
 }
 
 impl Blocks for Computed<'_> {
-    fn each(&self, visit: &mut dyn FnMut(&Block) -> Result<(), Fault>) -> Result<(), Fault> {
+    fn each(
+        &self,
+        visit: &mut dyn FnMut(&Block) -> Result<(), OutputFault>,
+    ) -> Result<(), OutputFault> {
         let computer = &self.0;
         let (mut block, mut size) = (Block::default(), computer.first_block());
         let Range { mut start, end } = computer.spec.selected();
@@ -208,7 +211,7 @@ impl Blocks for Computed<'_> {
             let until = (start + size).min(end);
             block.make_room(start, until - start, computer.spec.fields.width());
             let filled = computer.fill(&mut block, start..until, BLOCK_S, |row| row);
-            size = filled.map_err(|error| Fault::from(error.to_string()))?;
+            size = filled.map_err(|error| OutputFault::from(error.to_string()))?;
             visit(&block)?;
             start = until;
         }

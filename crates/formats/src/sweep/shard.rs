@@ -1,6 +1,6 @@
 //! Some rows of a sweep.
 
-use super::fields::Fields;
+use super::fields::WrittenResults;
 use crate::quantities::QUANTITIES;
 use ledger::Shard;
 use std::ops::Range;
@@ -10,7 +10,7 @@ use std::path::PathBuf;
 pub const BLOCK: usize = 32_768;
 
 /// Rows that shards do not divide: with probes one may take seconds.
-pub fn grain(fields: &Fields) -> usize {
+pub fn grain(fields: &WrittenResults) -> usize {
     let has_probes = fields.width() > QUANTITIES.len();
     if has_probes { 1 } else { BLOCK }
 }
@@ -38,7 +38,7 @@ pub struct Part {
     /// Failed rows.
     pub failed: usize,
     /// Which results it has.
-    pub fields: Fields,
+    pub fields: WrittenResults,
     /// Whether damage to it is seen: those of older versions have no seal.
     pub sealed: bool,
 }

@@ -1,17 +1,17 @@
 //! What a sweep is: a base scene, the keys that vary, and what of the results is written.
 
-use super::axes::{Axis, Column, Values, rows};
+use super::axes::{SweepAxis, SweptKey, Values, rows};
 use super::draws::Drawn;
 use super::error::SweepError;
-use super::fields::{Fields, columns_of_probes, stored_columns};
+use super::fields::{WrittenResults, columns_of_probes, stored_columns};
 use super::kernels::Kernels;
-use super::schema::{FIELDS, FORMAT_VERSION, LIST, SAMPLE};
 use super::shard::{BLOCK, Selection, grain};
 use crate::error::SceneError;
 use crate::quantities::{Described, QUANTITIES};
 use crate::scene::body::parse_materials;
 use crate::scene::keys::{FINITE, SECTIONS, keys_of};
-use crate::scene::section::{Section, parse, read_standard, read_text};
+use crate::scene::section::{TomlSection, parse, read_standard, read_text};
+use crate::schema::sweep::{FIELDS, FORMAT_VERSION, LIST, SAMPLE};
 use contact::{Choice, Library, NUMBERS_REVISION, Plasticity};
 use impact::numbers::FIELDS_REVISION;
 use ledger::{Identity, Shard};
@@ -29,7 +29,7 @@ pub struct Spec {
     /// Where the files it names are.
     pub(super) directory: PathBuf,
     /// Axes: the product's in alphabetical order, then the list's, then that of the draws.
-    pub axes: Vec<Axis>,
+    pub axes: Vec<SweepAxis>,
     /// Everything spelled out, as TOML.
     pub resolved: String,
     /// The files that were read beside the sweep itself: its base scene and its materials.
@@ -40,7 +40,7 @@ pub struct Spec {
     /// with the same have the same rows.
     pub sha256: String,
     /// What of the results is written.
-    pub fields: Fields,
+    pub fields: WrittenResults,
     /// Where the fields at probes have their kernels from, where they are asked for.
     pub(crate) kernels: Option<Kernels>,
     /// The rows that are asked for as a part, where they are not the whole sweep in its own shape.
@@ -57,7 +57,7 @@ const MOST_ROWS: usize = 1_000_000_000_000;
 const RUN_BYTES: usize = 120_000_000;
 
 /// Distinct Poisson's ratios of targets up to which each has its own response, and its own part of a table.
-const FEW: usize = 256;
+const FEW_RATIOS: usize = 256;
 
 impl Spec {
     /// Reads a sweep file; the scene it names is looked for beside it.
@@ -92,7 +92,7 @@ impl Spec {
     /// # Errors
     /// [`SceneError`].
     pub fn from_table(table: &Table, directory: &Path) -> Result<Self, SceneError> {
-        let root = Section::root(table);
+        let root = TomlSection::root(table);
         if !table.contains_key("scene") && SECTIONS.iter().any(|name| table.contains_key(*name)) {
             let hint = "this is a scene; a sweep names its file, scene = \"FILE\", or has its sections below it, as in [scene.target], and says in [product], [list] or [random] which keys vary";
             return Err(root.missing("scene", hint));
@@ -112,7 +112,7 @@ impl Spec {
     fn new(
         scene: Table,
         directory: &Path,
-        axes: Vec<Axis>,
+        axes: Vec<SweepAxis>,
         resolved: String,
         is_spelled: bool,
     ) -> Result<Self, SceneError> {
@@ -143,13 +143,13 @@ impl Spec {
     /// The sweep that a file holds, with everything spelled out: its axes and rows, not what computes them.
     pub(crate) fn of_stored(resolved: &str, sha256: String) -> Result<Self, SceneError> {
         let table = parse(resolved)?;
-        let axes = axes(&Section::root(&table))?;
+        let axes = axes(&TomlSection::root(&table))?;
         let probed = stored_columns(&table)?;
         Ok(Self {
             axes,
             resolved: resolved.to_owned(),
             sha256,
-            fields: Fields::all(probed),
+            fields: WrittenResults::all(probed),
             ..Self::default()
         })
     }
@@ -164,7 +164,7 @@ impl Spec {
     pub fn of_columns(
         scene: &Table,
         directory: &Path,
-        columns: Vec<Column>,
+        columns: Vec<SweptKey>,
     ) -> Result<Self, SceneError> {
         let axes = vec![together(columns)?];
         check(&axes)?;
@@ -230,7 +230,7 @@ impl Spec {
     }
 
     /// The axes, each with the rows from one of its values to the next: the last runs fastest.
-    pub(super) fn strides(&self) -> impl Iterator<Item = (usize, &Axis)> {
+    pub(super) fn strides(&self) -> impl Iterator<Item = (usize, &SweepAxis)> {
         let mut stride = self.rows().max(1);
         self.axes.iter().map(move |axis| {
             stride /= axis.len.max(1);
@@ -239,7 +239,7 @@ impl Spec {
     }
 
     /// The keys that vary.
-    pub(super) fn columns(&self) -> impl Iterator<Item = &Column> {
+    pub(super) fn columns(&self) -> impl Iterator<Item = &SweptKey> {
         self.axes.iter().flat_map(|axis| &axis.columns)
     }
 
@@ -277,22 +277,22 @@ impl Spec {
 
     /// Whether the targets have more Poisson's ratios than have responses of their own each.
     pub(super) fn has_many_ratios(&self) -> bool {
-        let of_ratio = |column: &Column| {
+        let of_ratio = |column: &SweptKey| {
             column.section == "target"
                 && (column.key == "poisson_ratio" || column.key.ends_with("_speed_m_s"))
         };
         let mut axes = self.axes.iter();
-        axes.any(|axis| axis.len > FEW && axis.columns.iter().any(of_ratio))
+        axes.any(|axis| axis.len > FEW_RATIOS && axis.columns.iter().any(of_ratio))
     }
 }
 
 /// What is written unless columns are chosen: what flow brings only where a law of flow is asked for.
-fn own_fields(scene: &Table, axes: &[Axis], probed: Vec<Described>) -> Fields {
+fn own_fields(scene: &Table, axes: &[SweepAxis], probed: Vec<Described>) -> WrittenResults {
     let law = word(scene, "contact", "plasticity");
     let mut columns = axes.iter().flat_map(|axis| &axis.columns);
     let yields = law.is_some_and(|law| law != Plasticity::None.name())
         || columns.any(|column| column.name() == "contact.plasticity");
-    let mut fields = Fields::all(probed);
+    let mut fields = WrittenResults::all(probed);
     let elastic = |name: &str| !QUANTITIES.iter().any(|q| q.is_of_flow && q.name == name);
     fields.retain(|name| yields || elastic(name));
     fields
@@ -300,7 +300,7 @@ fn own_fields(scene: &Table, axes: &[Axis], probed: Vec<Described>) -> Fields {
 
 /// Of the program's version, the revision of its numbers, the format, everything spelled out, the files that were read, and
 /// axes whose values are not spelled out.
-fn identity(resolved: &str, libraries: &Libraries, axes: &[Axis]) -> String {
+fn identity(resolved: &str, libraries: &Libraries, axes: &[SweepAxis]) -> String {
     let mut identity = Identity::default()
         .with("software", env!("CARGO_PKG_VERSION"))
         .with("numbers", NUMBERS_REVISION.to_le_bytes())
@@ -322,7 +322,7 @@ fn identity(resolved: &str, libraries: &Libraries, axes: &[Axis]) -> String {
 }
 
 /// The materials files of a base scene, and those that vary.
-fn material_files<'a>(scene: &'a Table, axes: &'a [Axis]) -> BTreeSet<&'a str> {
+fn material_files<'a>(scene: &'a Table, axes: &'a [SweepAxis]) -> BTreeSet<&'a str> {
     let columns = axes.iter().flat_map(|axis| &axis.columns);
     let varied = columns.filter(|column| column.name() == "materials.file");
     let varied = varied.filter_map(|column| column.values.texts()).flatten();
@@ -336,11 +336,11 @@ pub(super) fn word<'a>(scene: &'a Table, section: &str, key: &str) -> Option<&'a
 }
 
 /// The axes that the sections of a sweep say.
-fn axes(root: &Section<'_>) -> Result<Vec<Axis>, SceneError> {
+fn axes(root: &TomlSection<'_>) -> Result<Vec<SweepAxis>, SceneError> {
     let mut axes = Vec::new();
     if let Some(product) = root.section("product")? {
         for column in columns(&product, MOST_ROWS as f64)? {
-            axes.push(Axis {
+            axes.push(SweepAxis {
                 name: column.name(),
                 len: column.values.count(),
                 columns: vec![column],
@@ -360,7 +360,7 @@ fn axes(root: &Section<'_>) -> Result<Vec<Axis>, SceneError> {
 
 /// The base scene, from a file or in place, where its own files are, and the file.
 fn base(
-    root: &Section<'_>,
+    root: &TomlSection<'_>,
     table: &Table,
     directory: &Path,
 ) -> Result<(Table, PathBuf, Option<Role>), SceneError> {
@@ -376,7 +376,7 @@ fn base(
 }
 
 /// The scene keys below a section of the sweep, with their values, so many rows at most where each varies by itself.
-fn columns(section: &Section<'_>, most: f64) -> Result<Vec<Column>, SceneError> {
+fn columns(section: &TomlSection<'_>, most: f64) -> Result<Vec<SweptKey>, SceneError> {
     let (mut found, mut rows) = (Vec::new(), 1.0);
     for keys in section.subsections(&[])? {
         for key in keys.names() {
@@ -385,7 +385,7 @@ fn columns(section: &Section<'_>, most: f64) -> Result<Vec<Column>, SceneError> 
             if rows > most {
                 return Err(too_many(rows));
             }
-            found.push(Column {
+            found.push(SweptKey {
                 section: keys.name.to_owned(),
                 key: key.to_owned(),
                 values,
@@ -400,7 +400,7 @@ fn columns(section: &Section<'_>, most: f64) -> Result<Vec<Column>, SceneError> 
 }
 
 /// The axis of keys that vary together.
-fn together(columns: Vec<Column>) -> Result<Axis, SceneError> {
+fn together(columns: Vec<SweptKey>) -> Result<SweepAxis, SceneError> {
     let Some(len) = columns.first().map(|column| column.values.count()) else {
         return Err(SceneError::missing(
             "a key that varies",
@@ -415,31 +415,31 @@ fn together(columns: Vec<Column>) -> Result<Axis, SceneError> {
         ));
     }
     let name = LIST.to_owned();
-    Ok(Axis { name, columns, len })
+    Ok(SweepAxis { name, columns, len })
 }
 
 /// The axis of random draws.
-fn drawn(random: &Section<'_>) -> Result<Axis, SceneError> {
+fn drawn(random: &TomlSection<'_>) -> Result<SweepAxis, SceneError> {
     let len = random
         .count("samples", 1..=MOST_ROWS, "[1, 1e12]")?
         .ok_or_else(|| random.missing("samples", "how many draws"))?;
     let draws = Drawn::read(random, len)?.into_iter();
-    let columns = draws.map(|(section, key, drawn)| Column {
+    let columns = draws.map(|(section, key, drawn)| SweptKey {
         section,
         key,
         values: Values::Drawn(drawn),
     });
-    let columns: Vec<Column> = columns.collect();
+    let columns: Vec<SweptKey> = columns.collect();
     if columns.is_empty() {
         let hint = "give at least one scene key with a distribution";
         return Err(random.missing("striker.velocity_m_s", hint));
     }
     let name = SAMPLE.to_owned();
-    Ok(Axis { name, columns, len })
+    Ok(SweepAxis { name, columns, len })
 }
 
 /// Numbers of a product and of a list are in the ranges of their keys; a draw outside is a row that fails.
-fn in_range(axes: &[Axis]) -> Result<(), SceneError> {
+fn in_range(axes: &[SweepAxis]) -> Result<(), SceneError> {
     for column in axes.iter().flat_map(|axis| &axis.columns) {
         let known = keys_of(&column.section).find(|key| key.name == column.key);
         if let (Some(range), Values::Numbers(numbers)) =
@@ -453,7 +453,7 @@ fn in_range(axes: &[Axis]) -> Result<(), SceneError> {
 }
 
 /// What is written down is numbers; in arrays of a program others stand for what is not known, and their rows fail.
-fn finite(axes: &[Axis]) -> Result<(), SceneError> {
+fn finite(axes: &[SweepAxis]) -> Result<(), SceneError> {
     for column in axes.iter().flat_map(|axis| &axis.columns) {
         let infinite = match &column.values {
             Values::Numbers(numbers) => numbers.iter().copied().find(|x| !x.is_finite()),
@@ -468,7 +468,7 @@ fn finite(axes: &[Axis]) -> Result<(), SceneError> {
 }
 
 /// No key twice, at least one axis, not too many rows.
-fn check(axes: &[Axis]) -> Result<(), SceneError> {
+fn check(axes: &[SweepAxis]) -> Result<(), SceneError> {
     if axes.is_empty() {
         return Err(SceneError::missing(
             "[product], [list] or [random]",

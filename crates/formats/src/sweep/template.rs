@@ -1,6 +1,6 @@
 //! From a row's place to its scene: parsed once for all rows that differ in plain numbers only.
 
-use super::axes::{Axis, Column, Values};
+use super::axes::{SweepAxis, SweptKey, Values};
 use super::spec::{Spec, word};
 use crate::error::SceneError;
 use crate::scene::keys::{Range, Set, keys_of};
@@ -15,7 +15,7 @@ use toml::Value;
 struct Fast<'a> {
     /// Rows from one of its numbers to the next.
     stride: usize,
-    column: &'a Column,
+    column: &'a SweptKey,
     range: Range,
     stand_in: f64,
     set: Set,
@@ -27,7 +27,7 @@ pub(crate) struct Templates<'a> {
     spec: &'a Spec,
     fast: Vec<Fast<'a>>,
     /// Axes with a column that needs parsing, with their strides.
-    slow: Vec<(usize, &'a Axis)>,
+    slow: Vec<(usize, &'a SweepAxis)>,
     /// The templates where there are not too many of them.
     ready: Vec<Result<Scene, SceneError>>,
 }
@@ -179,7 +179,7 @@ fn contacts_only(found: &str) -> SceneError {
 }
 
 /// The column as plain numbers, if that is what it is.
-fn as_numbers<'a>(spec: &'a Spec, stride: usize, column: &'a Column) -> Option<Fast<'a>> {
+fn as_numbers<'a>(spec: &'a Spec, stride: usize, column: &'a SweptKey) -> Option<Fast<'a>> {
     let key = keys_of(&column.section).find(|key| key.name == column.key)?;
     let (set, stand_in, range) = (key.set?, key.stand_in?, key.range?);
     let needs_ball = matches!(set, Set::Ball(_)) && column.section == "striker";

@@ -12,17 +12,17 @@ use crate::potentials::IMPULSE;
 use crate::profile::Profile;
 
 /// Radii below this fraction of the distance from the edge of the disc are continued.
-const NEAR: f64 = 0.03;
+const NEAR_AXIS: f64 = 0.03;
 
 /// Across a front nothing is known: the error over the size of what is combined.
 const ACROSS: f64 = 30.0;
 
 /// Number of radii used.
-const NODES: usize = 6;
+const RADII: usize = 6;
 
 /// Whether the fields at a point are continued from larger radii.
 pub(crate) fn is_near<const N: i32>(profile: Profile, at: Point) -> bool {
-    (profile != Profile::Hertz || N == IMPULSE) && at.r < NEAR * at.z.hypot(profile.radius())
+    (profile != Profile::Hertz || N == IMPULSE) && at.r < NEAR_AXIS * at.z.hypot(profile.radius())
 }
 
 /// The value at `at` from `evaluate` at radii h, 2h, ..., by interpolation in r^2.
@@ -33,10 +33,10 @@ pub(crate) fn continued(
     evaluate: impl Fn(Point) -> Estimate,
 ) -> Estimate {
     let (step, is_clear) = step(medium, profile, at);
-    let radii: [f64; NODES] = std::array::from_fn(|i| step * (i + 1) as f64);
+    let radii: [f64; RADII] = std::array::from_fn(|i| step * (i + 1) as f64);
     let values = radii.map(|r| evaluate(Point { r, ..at }));
     let (value, error) = combine(at.r, &radii, &values);
-    let (coarse, _) = combine(at.r, &radii[..NODES - 1], &values[..NODES - 1]);
+    let (coarse, _) = combine(at.r, &radii[..RADII - 1], &values[..RADII - 1]);
     let sizes = values.map(|estimate| Estimate {
         error: estimate.value.map(f64::abs),
         ..estimate
@@ -57,8 +57,8 @@ pub(crate) fn continued(
 /// Off the axis a front from the edge of a disc arrives earlier or later by at most r, one from a point by r^2/(2 z).
 fn step(medium: &Medium, profile: Profile, at: Point) -> (f64, bool) {
     /// Widest and least spacing over the distance from the edge of the disc.
-    const WIDEST: f64 = 0.05;
-    const LEAST: f64 = 1e-4;
+    const WIDEST_SPACING: f64 = 0.05;
+    const LEAST_SPACING: f64 = 1e-4;
     let radius = profile.radius();
     let distance = at.z.hypot(radius);
     let arrivals = Arrivals::new(medium, profile, 0.0, at.z);
@@ -70,9 +70,9 @@ fn step(medium: &Medium, profile: Profile, at: Point) -> (f64, bool) {
     } else {
         (reach * at.z).sqrt()
     };
-    let step = widest / (NODES + 1) as f64;
-    let least = LEAST * distance;
-    (step.clamp(least, WIDEST * distance), step >= least)
+    let step = widest / (RADII + 1) as f64;
+    let least = LEAST_SPACING * distance;
+    (step.clamp(least, WIDEST_SPACING * distance), step >= least)
 }
 
 /// What the fields at the i-th of some radii weigh in those at r: by Lagrange's polynomials in r^2, of the fields divided by

@@ -6,7 +6,7 @@
 use crate::integral::panels::smallest_ellipse;
 use crate::integral::singularities::Singularities;
 use crate::medium::Medium;
-use crate::numeric::lanes::Map;
+use crate::numeric::lanes::ComplexMap;
 use crate::numeric::scalar::{Complex, Real, Scalar};
 use num_complex::Complex64;
 
@@ -73,7 +73,7 @@ impl Stretch {
     }
 }
 
-impl Map for Stretch {
+impl ComplexMap for Stretch {
     /// s of a real or complex q.
     #[inline(always)]
     fn at<C: Complex>(&self, q: C) -> C {

@@ -4,7 +4,7 @@
 
 use crate::field::{Field, Point, Sense, Six};
 use crate::integral::fronts;
-use crate::integral::panels::ROUNDING;
+use crate::integral::panels::TERM_ROUNDING;
 use crate::integral::setting::Setting;
 use crate::integral::singularities::Singularities;
 use crate::integral::spectrum::{self, Wave, half_angle};
@@ -30,7 +30,7 @@ impl Setting {
             Sense::Outgoing if at.t >= self.last_fast(at, wave, limit) => {
                 if N == STEP_INTEGRAL {
                     let passed = self.passed[wave as usize];
-                    sum.add(1.0, [ROUNDING; 2], [0.0, passed, 0.0, 0.0, 0.0, 0.0]);
+                    sum.add(1.0, [TERM_ROUNDING; 2], [0.0, passed, 0.0, 0.0, 0.0, 0.0]);
                 }
                 return;
             }

@@ -20,7 +20,7 @@
 //! Theory: `docs/theory.md` (T18).
 
 use crate::field::{Point, Sense};
-use crate::integral::panels::Strength;
+use crate::integral::panels::SingularityStrength;
 use crate::integral::setting::Setting;
 use crate::integral::singularities::Singularities;
 use crate::integral::spectrum::Wave;
@@ -44,7 +44,11 @@ pub(crate) fn singular<const N: i32>(
     } else {
         &fixed.slow
     };
-    singularities.take(own, Strength::of::<N>(profile), setting.front_rounding(at));
+    singularities.take(
+        own,
+        SingularityStrength::of::<N>(profile),
+        setting.front_rounding(at),
+    );
     let shallow = shallow::applies::<N>(profile, at);
     for at in [at]
         .into_iter()
@@ -113,9 +117,9 @@ fn add_slow(singularities: &mut Singularities, setting: &Setting, at: Point, wav
 fn with_mirror(point: Complex64, mut add: impl FnMut(Complex64)) {
     const NEAR_ZERO: f64 = 0.3;
     /// Beyond this a half-angle costs no node.
-    const FAR: f64 = 2.5;
+    const COSTLESS_ANGLE: f64 = 2.5;
     let right = if point.re < 0.0 { -point } else { point };
-    if right.norm_sqr() > FAR * FAR {
+    if right.norm_sqr() > COSTLESS_ANGLE * COSTLESS_ANGLE {
         return;
     }
     add(right);

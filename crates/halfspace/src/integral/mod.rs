@@ -30,16 +30,16 @@ use crate::domain::NEAREST;
 use crate::field::{Estimate, Field, Point, Sense, Six};
 use crate::numeric::lanes::dispatch;
 use crate::potentials::closed_form::SMALL_RADIUS;
-use crate::potentials::far_front::{ALL, FAR};
+use crate::potentials::far_front::{FAR_RADIUS, ROUNDING_DIGITS};
 use crate::potentials::{STEP, STEP_INTEGRAL, shallow};
 use crate::profile::Profile;
 use num_complex::Complex64;
-use panels::Nodes;
+use panels::PanelNodes;
 use setting::Setting;
 use singularities::Singularities;
 use spectrum::Wave;
 use std::f64::consts::PI;
-use sum::{Panel, Sum};
+use sum::{QuadraturePanel, Sum};
 
 impl Setting {
     /// The remainder or one of its time integrals, continued to the axis where the fronts of a point force or a punch
@@ -93,13 +93,13 @@ impl Setting {
         at: Point,
         wave: Wave,
         sense: Option<Sense>,
-        nodes: &Nodes,
+        nodes: &PanelNodes,
         shallow: bool,
         sum: &mut Sum,
     ) {
         // many are step responses and velocities, time integrals are not worth so much code
         if N != STEP_INTEGRAL && !shallow {
-            dispatch(Panel::<N> {
+            dispatch(QuadraturePanel::<N> {
                 setting: self,
                 at,
                 wave,
@@ -111,8 +111,10 @@ impl Setting {
         }
         for (place, weight, error) in nodes.iter() {
             let (jacobian, mut term) = match sense {
-                Some(sense) => self.fast_term::<N, f64>((at, ALL), (wave, sense), place),
-                None => self.slow_term::<N, f64>((at, ALL), wave, place),
+                Some(sense) => {
+                    self.fast_term::<N, f64>((at, ROUNDING_DIGITS), (wave, sense), place)
+                }
+                None => self.slow_term::<N, f64>((at, ROUNDING_DIGITS), wave, place),
             };
             match sense {
                 _ if !shallow => {}
@@ -130,7 +132,7 @@ impl Setting {
 /// its inverse root.
 fn rounding_floor<const N: i32>(profile: Profile, r: f64) -> Six {
     const UNIT: f64 = 2.0 * f64::EPSILON;
-    let [displacement, stress] = if N == STEP && profile == Profile::Hertz && r > FAR {
+    let [displacement, stress] = if N == STEP && profile == Profile::Hertz && r > FAR_RADIUS {
         [UNIT / r.sqrt(); 2]
     } else {
         // the primitives are divided by r^2

@@ -21,40 +21,40 @@ const MOST_NODES: usize = 24;
 const NARROWEST: f64 = 1e-9;
 
 /// Axis of the ellipse through what is left out as too far to matter.
-const FARTHEST: f64 = 7.0;
+const FARTHEST_ELLIPSE: f64 = 7.0;
 
 /// Singularities on ellipses so many times larger than the smallest leave nothing beside what that leaves.
-const NEAR: f64 = 2.0;
+const FARTHER_ELLIPSE: f64 = 2.0;
 
 /// The error at a pole of third order over that at a simple one.
 const POLE: f64 = 30.0;
 
 /// Relative rounding error of a term.
-pub(crate) const ROUNDING: f64 = 4.0 * f64::EPSILON;
+pub(crate) const TERM_ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 /// One end of an interval and where it goes: v = start + scale s^power for s in [0, 1].
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Piece {
+pub(crate) struct IntervalEnd {
     pub(crate) start: f64,
     pub(crate) scale: f64,
     pub(crate) power: i32,
-    pub(crate) strength: Strength,
+    pub(crate) strength: SingularityStrength,
     /// Rounding error of `start`, where that counts.
     pub(crate) place_error: f64,
 }
 
-/// Nodes of a rule on a panel of a piece.
+/// Nodes of a rule on a panel.
 #[derive(Debug)]
-pub(crate) struct Nodes {
+pub(crate) struct PanelNodes {
     pub(crate) rule: &'static gauss::Rule,
     middle: f64,
     half: f64,
-    piece: Piece,
+    piece: IntervalEnd,
     /// Of the integrand, relative.
     error: f64,
 }
 
-impl Nodes {
+impl PanelNodes {
     /// Place, weight and relative errors for displacements and stresses of a node of the rule and its weight; squares of
     /// errors add up. What rounds to the start of the piece has no weight, and is elsewhere.
     #[inline(always)]
@@ -91,16 +91,16 @@ impl Nodes {
 pub(crate) fn panels(
     (singularities, pole): (&Points, Complex64),
     (digits, least): (f64, usize),
-    piece: Piece,
-    f: &mut impl FnMut(&Nodes),
+    piece: IntervalEnd,
+    f: &mut impl FnMut(&PanelNodes),
 ) {
-    let finite_part = piece.power > 1 && piece.strength == Strength::FinitePart;
+    let finite_part = piece.power > 1 && piece.strength == SingularityStrength::FinitePart;
     let caution = piece.strength.caution();
     let mut stack: ArrayVec<[f64; 2], 64> = ArrayVec::new();
     stack.push([0.0, 1.0]);
     while let Some(ends) = stack.pop() {
         let [s0, s1] = ends;
-        let smallest = singularities.smallest_axis(ends).min(FARTHEST);
+        let smallest = singularities.smallest_axis(ends).min(FARTHEST_ELLIPSE);
         let pole = half_axes(major_axis(pole.re, pole.im, ends));
         let (rate, pole_rate) = (half_axes(smallest).ln(), pole.ln());
         let at_cut = s0 == 0.0 && finite_part;
@@ -116,7 +116,7 @@ pub(crate) fn panels(
         }
         let n = nodes.saturating_add(2).max(least).min(MOST_NODES);
         let exponent = degree as u32 * n as u32;
-        let all = singularities.sum_of_inverse_powers(ends, NEAR * smallest, exponent);
+        let all = singularities.sum_of_inverse_powers(ends, FARTHER_ELLIPSE * smallest, exponent);
         // of the whole panel, as if one node had it
         let of_rule = caution * (all + POLE * power(pole, exponent).recip()) * (n as f64).sqrt();
         let (rule, middle, half) = if at_cut {
@@ -124,8 +124,8 @@ pub(crate) fn panels(
         } else {
             (gauss::rule(n), middle, half)
         };
-        let error = of_rule + ROUNDING;
-        f(&Nodes {
+        let error = of_rule + TERM_ROUNDING;
+        f(&PanelNodes {
             rule,
             middle,
             half,
@@ -138,12 +138,12 @@ pub(crate) fn panels(
 /// Sum of half axes of the smallest ellipse with foci s0, s1 through a singularity, focal distance 2.
 pub(crate) fn smallest_ellipse(images: &[Complex64], foci: [f64; 2]) -> f64 {
     let axes = images.iter().map(|v| major_axis(v.re, v.im, foci));
-    half_axes(axes.fold(FARTHEST, f64::min))
+    half_axes(axes.fold(FARTHEST_ELLIPSE, f64::min))
 }
 
 /// How strong the singularities at the cuts of an integration interval are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Strength {
+pub(crate) enum SingularityStrength {
     /// The integrand stays finite.
     Bounded,
     /// The inverse square root.
@@ -152,7 +152,7 @@ pub(crate) enum Strength {
     FinitePart,
 }
 
-impl Strength {
+impl SingularityStrength {
     /// Of a profile and an order in time.
     ///
     /// The step response of stress to a point force has fronts of power -3/2, to a punch of power -1/2, and each

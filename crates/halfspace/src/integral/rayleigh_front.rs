@@ -14,7 +14,7 @@ use num_complex::Complex64;
 use std::f64::consts::PI;
 
 /// Radius down to which the closed forms at the fronts hold.
-const NEAREST: f64 = 0.002;
+const LEAST_RADIUS: f64 = 0.002;
 
 /// The Rayleigh wave near its arrival from an edge, c t = |r -+ 1|.
 ///
@@ -28,10 +28,14 @@ impl Front {
     /// None away from the arrivals, where rounding does no harm.
     pub(crate) fn near<const N: i32>(medium: &Medium, profile: Profile, at: Point) -> Option<Self> {
         /// Depth, and distance from the arrival, within which rounding is seen.
-        const NEAR: f64 = 1e-2;
+        const NEAR_ARRIVAL: f64 = 1e-2;
         let Point { r, z, t } = at;
         let xi = Complex64::new(0.0, medium.rayleigh_speed() * t);
-        if N != STEP || profile != Profile::Hertz || z >= NEAR || r <= NEAREST || gap(xi, r) > NEAR
+        if N != STEP
+            || profile != Profile::Hertz
+            || z >= NEAR_ARRIVAL
+            || r <= LEAST_RADIUS
+            || gap(xi, r) > NEAR_ARRIVAL
         {
             return None;
         }
@@ -48,10 +52,10 @@ impl Front {
 
     /// The potentials at xi = d - i c t.
     pub(crate) fn potentials(&self, xi: Complex64) -> Potentials<Complex64> {
-        if self.r > far_front::FAR {
+        if self.r > far_front::FAR_RADIUS {
             // r - 1 - c t and r + 1 - c t; xi is the conjugate of d + i c t
             let delta = self.factors.map(|[_, edge]| Complex64::new(edge, xi.re));
-            far_front::potentials(delta, (self.r, far_front::ALL)).map(Complex::conj)
+            far_front::potentials(delta, (self.r, far_front::ROUNDING_DIGITS)).map(Complex::conj)
         } else {
             at_front(xi, self.r, self.factors)
         }

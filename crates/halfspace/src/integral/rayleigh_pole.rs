@@ -5,13 +5,13 @@
 //! ```
 
 use crate::field::Point;
-use crate::integral::panels::{ROUNDING, Strength};
+use crate::integral::panels::{SingularityStrength, TERM_ROUNDING};
 use crate::integral::rayleigh_front::Front;
 use crate::integral::setting::Setting;
 use crate::integral::sum::Sum;
 use crate::numeric::lanes::{Lanes, Pair, dispatch};
 use crate::potentials::closed_form::{of_one, potentials};
-use crate::potentials::far_front::ALL;
+use crate::potentials::far_front::ROUNDING_DIGITS;
 use crate::potentials::{Order, Potentials, STEP, shallow};
 use crate::profile::Profile;
 use num_complex::Complex64;
@@ -56,7 +56,7 @@ impl Setting {
 
     /// Relative errors of displacements and stresses of the Rayleigh wave from rounding of its distance to the edges of the disc.
     fn error_at_front<const N: i32>(&self, at: Point, xi: Complex64, shallow: bool) -> [f64; 2] {
-        let strength = Strength::of::<N>(self.profile);
+        let strength = SingularityStrength::of::<N>(self.profile);
         let radius = self.profile.radius();
         let height = xi.im.abs();
         let gap = [at.r + radius, (at.r - radius).abs()]
@@ -64,17 +64,20 @@ impl Setting {
             .into_iter()
             .fold(f64::INFINITY, f64::min);
         let size = height + at.r + radius;
-        let front = ROUNDING * size / gap.max(f64::EPSILON * size);
+        let front = TERM_ROUNDING * size / gap.max(f64::EPSILON * size);
         match strength {
             // where the two waves cancel
-            Strength::Bounded if shallow => [ROUNDING + front; 2],
+            SingularityStrength::Bounded if shallow => [TERM_ROUNDING + front; 2],
             // stresses have a root there
-            Strength::Bounded => [
-                ROUNDING * (1.0 + size),
-                ROUNDING * (1.0 + size / gap.max(f64::EPSILON * size).sqrt()),
+            SingularityStrength::Bounded => [
+                TERM_ROUNDING * (1.0 + size),
+                TERM_ROUNDING * (1.0 + size / gap.max(f64::EPSILON * size).sqrt()),
             ],
-            Strength::InverseRoot => [ROUNDING + ROUNDING.sqrt() * front.sqrt(), ROUNDING + front],
-            Strength::FinitePart => [ROUNDING + front, ROUNDING + 3.0 * front],
+            SingularityStrength::InverseRoot => [
+                TERM_ROUNDING + TERM_ROUNDING.sqrt() * front.sqrt(),
+                TERM_ROUNDING + front,
+            ],
+            SingularityStrength::FinitePart => [TERM_ROUNDING + front, TERM_ROUNDING + 3.0 * front],
         }
     }
 }
@@ -94,7 +97,7 @@ impl WithSimd for Two {
         let parts = self.xi.map(|xi| [xi.re, xi.im]);
         let [re, im] = [0, 1].map(|i| Lanes::two(simd, parts.map(|xi| xi[i])));
         let xi = Pair { re, im };
-        let psi = potentials::<STEP, Pair<S>>(self.profile, xi, (self.r, ALL), false);
+        let psi = potentials::<STEP, Pair<S>>(self.profile, xi, (self.r, ROUNDING_DIGITS), false);
         let [first, second] = [0, 1].map(|i| psi.map(|v| Complex64::new(v.re.get(i), v.im.get(i))));
         [first, second]
     }

@@ -77,8 +77,8 @@ impl Setting {
 }
 
 fn digits(tolerance: f64) -> f64 {
-    const MARGIN: f64 = 0.1;
+    const DIGITS_MARGIN: f64 = 0.1;
     // beyond the last digit of a double, and what 24 nodes reach beside a finite part
-    const MOST: f64 = 40.0;
-    (-(MARGIN * tolerance).ln()).min(MOST)
+    const MOST_DIGITS: f64 = 40.0;
+    (-(DIGITS_MARGIN * tolerance).ln()).min(MOST_DIGITS)
 }

@@ -5,8 +5,10 @@
 //!
 //! Theory: `docs/theory.md` (T18).
 
-use crate::integral::panels::{Nodes, Piece, ROUNDING, Strength, panels};
-use crate::numeric::lanes::{Map, Points};
+use crate::integral::panels::{
+    IntervalEnd, PanelNodes, SingularityStrength, TERM_ROUNDING, panels,
+};
+use crate::numeric::lanes::{ComplexMap, Points};
 use crate::numeric::scalar::{Complex, Scalar};
 use arrayvec::ArrayVec;
 use num_complex::Complex64;
@@ -18,14 +20,14 @@ const SQUARE: i32 = 2;
 const HIGH: i32 = 6;
 
 /// Cuts at a relative distance below this are one.
-const SAME: f64 = 1e-13;
+const SAME_CUT: f64 = 1e-13;
 
-/// Smaller places are as good as zero once multiplied by [`SAME`].
-const SMALLEST: f64 = 1e-14;
+/// Smaller places are as good as zero once multiplied by [`SAME_CUT`].
+const LEAST_PLACE: f64 = 1e-14;
 
 /// Whether two places in [0, 1] are one: just after a plane front cuts of 1e-16 are distinct from zero.
 fn same(a: f64, b: f64) -> bool {
-    (a - b).abs() <= SAME * a.max(b).max(SMALLEST)
+    (a - b).abs() <= SAME_CUT * a.max(b).max(LEAST_PLACE)
 }
 
 /// Most cuts that an integrand of this crate has.
@@ -39,7 +41,7 @@ pub(crate) struct Singularities {
     points: Points,
     /// Where the integrand grows as a pole of high order.
     pub(crate) pole: Complex64,
-    strength: Strength,
+    strength: SingularityStrength,
     /// Ends of the interval at which the variable stands for the square root of the distance in slowness.
     root_ends: &'static [f64],
     rounding: f64,
@@ -59,23 +61,23 @@ impl Singularities {
             cuts: ArrayVec::new(),
             points: Points::default(),
             pole,
-            strength: Strength::Bounded,
+            strength: SingularityStrength::Bounded,
             root_ends,
-            rounding: ROUNDING,
+            rounding: TERM_ROUNDING,
             images: Points::default(),
         };
         fixed.into_iter().for_each(|point| singularities.add(point));
         singularities
     }
 
-    /// Becomes another interval with cuts of a strength, where an unbounded integrand has a rounding error of `times` the
-    /// usual one.
+    /// Copies cuts, points and pole of another interval. The integrand has singularities of this strength at its cuts, and a
+    /// rounding error of `times` the usual one where it is not bounded.
     #[inline]
-    pub(crate) fn take(&mut self, fixed: &Self, strength: Strength, times: f64) {
+    pub(crate) fn take(&mut self, fixed: &Self, strength: SingularityStrength, times: f64) {
         self.cuts.clone_from(&fixed.cuts);
         self.points.copy(&fixed.points);
         (self.pole, self.root_ends) = (fixed.pole, fixed.root_ends);
-        (self.strength, self.rounding) = (strength, times * ROUNDING);
+        (self.strength, self.rounding) = (strength, times * TERM_ROUNDING);
     }
 
     /// Adds a singularity: a cut if it lies on the interval, a point to keep away from otherwise.
@@ -83,14 +85,14 @@ impl Singularities {
     /// Of a conjugate pair one is enough.
     pub(crate) fn add(&mut self, point: Complex64) {
         /// A singularity this close to the interval is worth a cut: the squared variable resolves it sooner.
-        const CLOSE: f64 = 0.02;
+        const CUT_DISTANCE: f64 = 0.02;
         /// Beyond this distance a singularity costs no node.
-        const FAR: f64 = 1.5;
+        const COSTLESS_DISTANCE: f64 = 1.5;
         let clear = (point.re - 0.5).abs() - 0.5;
-        if !(clear < FAR && point.im.abs() < FAR) {
+        if !(clear < COSTLESS_DISTANCE && point.im.abs() < COSTLESS_DISTANCE) {
             return;
         }
-        if clear < CLOSE && point.im.abs() < CLOSE {
+        if clear < CUT_DISTANCE && point.im.abs() < CUT_DISTANCE {
             let cut = point.re.clamp(0.0, 1.0);
             self.cuts.push(cut);
             self.points.push(cut.into());
@@ -124,7 +126,7 @@ impl Singularities {
         &mut self,
         (from, to): (f64, f64),
         digits: f64,
-        f: &mut impl FnMut(&Nodes),
+        f: &mut impl FnMut(&PanelNodes),
     ) {
         match (self.power(from), self.power(to)) {
             (power, 1) => self.visit_piece(from, to, power, digits, f),
@@ -154,16 +156,16 @@ impl Singularities {
         end: f64,
         power: i32,
         digits: f64,
-        f: &mut impl FnMut(&Nodes),
+        f: &mut impl FnMut(&PanelNodes),
     ) {
         let scale = end - start;
         let is_cut = power > 1;
         let strength = self.strength;
-        let image = Image {
+        let image = LocalCoordinate {
             start,
             scale,
             // the singularity of the cut itself is what the power is for
-            least: if is_cut { SAME } else { 0.0 },
+            least: if is_cut { SAME_CUT } else { 0.0 },
             square: power == SQUARE,
         };
         self.images.copy(&self.points);
@@ -176,7 +178,7 @@ impl Singularities {
             self.images.replace(|point| point.powf(exponent));
             pole = pole.powf(exponent);
         }
-        let place_error = if is_cut && strength != Strength::Bounded {
+        let place_error = if is_cut && strength != SingularityStrength::Bounded {
             self.place_error(start)
         } else {
             0.0
@@ -187,7 +189,7 @@ impl Singularities {
         } else {
             3
         };
-        let piece = Piece {
+        let piece = IntervalEnd {
             start,
             scale,
             power,
@@ -213,7 +215,7 @@ impl Singularities {
             return MERGED;
         }
         let squares = self.points.iter().map(|point| (point - cut).norm_sqr());
-        let least = SAME * cut.max(SMALLEST);
+        let least = SAME_CUT * cut.max(LEAST_PLACE);
         let others = squares.filter(|square| *square > least * least);
         let nearest = others.fold(1.0, f64::min).sqrt();
         let neighbour = if nearest < OTHER_ROOT * cut {
@@ -224,8 +226,8 @@ impl Singularities {
         let mirror: f64 = self.root_ends.iter().map(|end| by((end - cut).abs())).sum();
         // under a disc the plane front is exact however small its place; a point force has none
         let place = match self.strength {
-            Strength::FinitePart => 1.0,
-            Strength::Bounded | Strength::InverseRoot => cut,
+            SingularityStrength::FinitePart => 1.0,
+            SingularityStrength::Bounded | SingularityStrength::InverseRoot => cut,
         };
         // a mirror image moves a small cut by no more than a fraction of itself
         self.rounding * place + neighbour + mirror.min(cut)
@@ -233,14 +235,14 @@ impl Singularities {
 }
 
 /// (v - `start`)/`scale` or its principal square root, but for what is nearer than `least` to zero.
-struct Image {
+struct LocalCoordinate {
     start: f64,
     scale: f64,
     least: f64,
     square: bool,
 }
 
-impl Map for Image {
+impl ComplexMap for LocalCoordinate {
     #[inline(always)]
     fn at<C: Complex>(&self, v: C) -> C {
         let re = v.re();

@@ -72,7 +72,7 @@ pub(crate) fn half_angle<T: Real>(u: T) -> (T, T, T) {
 }
 
 /// Floor of the Rayleigh function, which vanishes with the numerators at slowness one when nu = 0.
-const SMALLEST: f64 = 1e-280;
+const LEAST_RAYLEIGH: f64 = 1e-280;
 
 /// Amplitudes at slowness x = sin(theta) < 1, p = cos(theta).
 #[inline(always)]
@@ -81,7 +81,7 @@ pub(crate) fn fast<T: Real>(wave: Wave, k: f64, x: T, p: T) -> Amplitudes<T> {
     let y = (-x2 + k).sqrt();
     let g = x2 * 2.0 - k;
     let both = x2 * p * y * 4.0;
-    let inverse = x.constant(1.0) / (g * g + both).at_least(SMALLEST);
+    let inverse = x.constant(1.0) / (g * g + both).at_least(LEAST_RAYLEIGH);
     amplitudes(wave, k, (x, p, y), inverse, 4.0)
 }
 
@@ -92,7 +92,7 @@ pub(crate) fn inverse_rayleigh<T: Real>(k: f64, x: T, p_abs: T, y: T) -> (T, T) 
     let g = x2 * 2.0 - k;
     let square = g * g;
     let both = x2 * p_abs * y * 4.0;
-    let scale = x.constant(1.0) / (square * square + both * both).at_least(SMALLEST);
+    let scale = x.constant(1.0) / (square * square + both * both).at_least(LEAST_RAYLEIGH);
     (square * scale, both * scale)
 }
 

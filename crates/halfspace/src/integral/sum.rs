@@ -1,7 +1,7 @@
 //! A running sum of six fields that carries its own error estimate.
 
 use crate::field::{Point, Sense, Six};
-use crate::integral::panels::Nodes;
+use crate::integral::panels::PanelNodes;
 use crate::integral::setting::Setting;
 use crate::integral::spectrum::Wave;
 use crate::numeric::lanes::{Lanes, WIDTH, total};
@@ -39,16 +39,16 @@ impl Sum {
 }
 
 /// The nodes of one panel, to be added to a sum several at a time; a wave below slowness one has one sense, above it both.
-pub(crate) struct Panel<'a, const N: i32> {
+pub(crate) struct QuadraturePanel<'a, const N: i32> {
     pub(crate) setting: &'a Setting,
     pub(crate) at: Point,
     pub(crate) wave: Wave,
     pub(crate) sense: Option<Sense>,
-    pub(crate) nodes: &'a Nodes,
+    pub(crate) nodes: &'a PanelNodes,
     pub(crate) sum: &'a mut Sum,
 }
 
-impl<const N: i32> WithSimd for Panel<'_, N> {
+impl<const N: i32> WithSimd for QuadraturePanel<'_, N> {
     type Output = ();
 
     #[inline(always)]

@@ -22,12 +22,12 @@ pub fn chebyshev_each<const F: usize, const N: usize>(
     series: &[[f64; F]],
     x: [f64; N],
 ) -> [[f64; N]; F] {
-    dispatch(Series(series, x))
+    dispatch(SeriesAt(series, x))
 }
 
-struct Series<'a, const F: usize, const N: usize>(&'a [[f64; F]], [f64; N]);
+struct SeriesAt<'a, const F: usize, const N: usize>(&'a [[f64; F]], [f64; N]);
 
-impl<const F: usize, const N: usize> WithSimd for Series<'_, F, N> {
+impl<const F: usize, const N: usize> WithSimd for SeriesAt<'_, F, N> {
     type Output = [[f64; N]; F];
 
     #[inline(always)]
@@ -105,12 +105,12 @@ pub(crate) fn leja_rest(series: &[Six]) -> Six {
 }
 
 /// The nodes, and what makes coefficients of values at the first of them, for each number.
-struct Rule {
+struct LejaRule {
     nodes: [f64; LEJA_NODES],
     inverses: Vec<Vec<Vec<f64>>>,
 }
 
-static RULE: LazyLock<Rule> = LazyLock::new(|| {
+static RULE: LazyLock<LejaRule> = LazyLock::new(|| {
     // after the middle and two near the ends, each pair where the product of distances to those before is largest
     let mut nodes = vec![0.0, -0.97, 0.97];
     while nodes.len() < LEJA_NODES {
@@ -151,7 +151,7 @@ static RULE: LazyLock<Rule> = LazyLock::new(|| {
         }
         rows.iter().map(|row| row[terms..].to_vec()).collect()
     };
-    Rule {
+    LejaRule {
         inverses: (0..=LEJA_NODES)
             .map(|n| if n % 2 == 1 { inverse(n) } else { Vec::new() })
             .collect(),

@@ -17,7 +17,7 @@
 use crate::numeric::scalar::{Complex, Real, Scalar, inside};
 use crate::potentials::chord_integral::{chord_primitives, from_primitives, held_primitives};
 use crate::potentials::end::End;
-use crate::potentials::far_front::{self, ALL, FAR};
+use crate::potentials::far_front::{self, FAR_RADIUS, ROUNDING_DIGITS};
 use crate::potentials::multipole::{self, Reach};
 use crate::potentials::{IMPULSE, Potentials, STEP};
 use crate::profile::Profile;
@@ -41,7 +41,9 @@ pub(crate) fn potentials<const N: i32, C: Complex>(
     let reach = Reach::new::<N>(xi, r);
     let near = match profile {
         _ if !reach.some_near => Potentials::all(xi.constant(0.0)),
-        Profile::Hertz if N == STEP && r > FAR => far_front::of_disc(xi, (r, digits), on_axis),
+        Profile::Hertz if N == STEP && r > FAR_RADIUS => {
+            far_front::of_disc(xi, (r, digits), on_axis)
+        }
         Profile::Hertz if N != IMPULSE && r > SMALL_RADIUS => {
             if on_axis {
                 primitives_on_imaginary_axis::<N, _>(xi.im(), r)
@@ -68,7 +70,7 @@ pub(crate) fn of_one<const N: i32>(
     xi: Complex64,
     r: f64,
 ) -> Potentials<Complex64> {
-    potentials::<N, Complex64>(profile, xi, (r, ALL), xi.re == 0.0)
+    potentials::<N, Complex64>(profile, xi, (r, ROUNDING_DIGITS), xi.re == 0.0)
 }
 
 /// The ends of the chord: zeta, rho and zeta + rho.
@@ -317,15 +319,19 @@ mod tests {
                     let pairs = [
                         (
                             by_parts::<STEP, _>(profile, xi, r),
-                            multipole::potentials::<STEP, _>(profile, xi, (r, ALL)),
+                            multipole::potentials::<STEP, _>(profile, xi, (r, ROUNDING_DIGITS)),
                         ),
                         (
                             by_parts::<STEP_INTEGRAL, _>(profile, xi, r),
-                            multipole::potentials::<STEP_INTEGRAL, _>(profile, xi, (r, ALL)),
+                            multipole::potentials::<STEP_INTEGRAL, _>(
+                                profile,
+                                xi,
+                                (r, ROUNDING_DIGITS),
+                            ),
                         ),
                         (
                             by_parts::<IMPULSE, _>(profile, xi, r),
-                            multipole::potentials::<IMPULSE, _>(profile, xi, (r, ALL)),
+                            multipole::potentials::<IMPULSE, _>(profile, xi, (r, ROUNDING_DIGITS)),
                         ),
                     ];
                     for (order, (closed, series)) in pairs.into_iter().enumerate() {
@@ -349,7 +355,8 @@ mod tests {
                 for i in -40..=40 {
                     let eta = r + 0.217 * f64::from(i);
                     for xi in [Complex64::new(d, eta), Complex64::new(d, -eta)] {
-                        let found = far_front::of_disc(xi, (r, ALL), d == 0.0).into_array();
+                        let found =
+                            far_front::of_disc(xi, (r, ROUNDING_DIGITS), d == 0.0).into_array();
                         let expected = by_parts::<STEP, _>(Profile::Hertz, xi, r).into_array();
                         for (a, b) in found.into_iter().zip(expected) {
                             let gap = (a - b).norm();

@@ -21,7 +21,7 @@
 
 use crate::numeric::scalar::{Complex, Real, inside};
 use crate::potentials::chord_integral::{angle_between, held_primitives};
-use crate::potentials::far_front::{self, FAR};
+use crate::potentials::far_front::{self, FAR_RADIUS};
 use crate::potentials::multipole::{self, Reach};
 use crate::potentials::{IMPULSE, Order, Potentials, STEP, STEP_INTEGRAL};
 use crate::profile::Profile;
@@ -46,7 +46,7 @@ pub(crate) fn compact<const N: i32, T: Real>(
             displacement_impulse(compact::<STEP, T>(profile, eta, (r, digits)))
         }
         Profile::Hertz if r < AXIS => hertz_on_axis::<N, T>(eta),
-        Profile::Hertz if N == STEP && r > FAR => hertz_far(eta, (r, digits)),
+        Profile::Hertz if N == STEP && r > FAR_RADIUS => hertz_far(eta, (r, digits)),
         Profile::Hertz => {
             let mut psi = held_primitives::<N, T>(eta, r, inside(eta, r));
             if N == STEP_INTEGRAL {
@@ -233,7 +233,7 @@ const BY_STEP: &str = "impulses of other profiles than Hertz follow from their s
 mod tests {
     use super::*;
     use crate::potentials::closed_form::of_one;
-    use crate::potentials::far_front::ALL;
+    use crate::potentials::far_front::ROUNDING_DIGITS;
     use num_complex::Complex64;
 
     /// The parts named in the module text, taken from the complex potentials.
@@ -250,8 +250,8 @@ mod tests {
                         of_one::<STEP_INTEGRAL>(profile, xi, r),
                     );
                     let (c0, c1) = (
-                        compact::<STEP, _>(profile, eta, (r, ALL)),
-                        compact::<STEP_INTEGRAL, _>(profile, eta, (r, ALL)),
+                        compact::<STEP, _>(profile, eta, (r, ROUNDING_DIGITS)),
+                        compact::<STEP_INTEGRAL, _>(profile, eta, (r, ROUNDING_DIGITS)),
                     );
                     let pairs = [
                         (c0.a_upper, full0.a_upper.re),

@@ -21,29 +21,29 @@ use crate::potentials::Potentials;
 use std::f64::consts::PI;
 
 /// Radius from which on the closed forms are replaced.
-pub(crate) const FAR: f64 = 25.0;
+pub(crate) const FAR_RADIUS: f64 = 25.0;
 
 const C: f64 = 0.375 / PI;
 
-/// Most terms of the series, enough at [`FAR`] for |delta| <= 11.
+/// Most terms of the series, enough at [`FAR_RADIUS`] for |delta| <= 11.
 const MOST_TERMS: usize = 26;
 
 /// The four chord integrals.
-struct Chord<T> {
+struct ChordIntegrals<T> {
     i: [T; 2],
     k: [T; 2],
 }
 
 /// Digits that reach rounding.
-pub(crate) const ALL: f64 = 37.0;
+pub(crate) const ROUNDING_DIGITS: f64 = 37.0;
 
 /// Terms of the series that leave exp(-`digits`).
 #[inline(always)]
 fn terms(r: f64, digits: f64) -> usize {
     /// Largest distance behind a front for which the multipole series is not taken, whatever is beside it in a register.
-    const LARGEST: f64 = 12.0;
-    let ratio = LARGEST / (2.0 * r);
-    ((-digits.min(ALL) / ratio.ln()) as usize + 1).clamp(4, MOST_TERMS)
+    const MULTIPOLE_LIMIT: f64 = 12.0;
+    let ratio = MULTIPOLE_LIMIT / (2.0 * r);
+    ((-digits.min(ROUNDING_DIGITS) / ratio.ln()) as usize + 1).clamp(4, MOST_TERMS)
 }
 
 /// The integrals from delta and its square root at both ends, sigma = -1 and 1.
@@ -51,7 +51,7 @@ fn terms(r: f64, digits: f64) -> usize {
 /// Any branch of the root may be taken, and a root of zero stands for an end that the front has not reached. They are
 /// linear in the roots.
 #[inline(always)]
-fn chord<T: Scalar>(delta: [T; 2], root: [T; 2], (r, digits): (f64, f64)) -> Chord<T> {
+fn chord<T: Scalar>(delta: [T; 2], root: [T; 2], (r, digits): (f64, f64)) -> ChordIntegrals<T> {
     let zero = root[0].constant(0.0);
     // sigma = e + delta
     let e = delta[1].constant(1.0) - delta[1];
@@ -83,7 +83,7 @@ fn chord<T: Scalar>(delta: [T; 2], root: [T; 2], (r, digits): (f64, f64)) -> Cho
         (i[j], k[j]) = (bent * lift, (sums[j] * e + sums[j + 1] * up) * lift);
     }
     let front = scale.sqrt();
-    Chord {
+    ChordIntegrals {
         i: [i[0] * front, i[1] * front],
         k: [k[0] * front, k[1] * front],
     }
@@ -101,7 +101,7 @@ fn delta<T: Real>(eta: T, r: f64) -> [T; 2] {
 pub(crate) fn compact<T: Real>(eta: T, (r, digits): (f64, f64)) -> Potentials<T> {
     let delta = delta(eta, r);
     let root = [delta[0].held_root(), delta[1].held_root()];
-    let Chord { i, k } = chord(delta, root, (r, digits));
+    let ChordIntegrals { i, k } = chord(delta, root, (r, digits));
     let ring = C / (r * r);
     Potentials {
         a_upper: i[0] * C,
@@ -129,7 +129,7 @@ pub(crate) fn of_disc<T: Complex>(xi: T, (r, digits): (f64, f64), on_axis: bool)
         );
         let i = [T::new(re.i[0], im.i[0]), T::new(re.i[1], im.i[1])];
         let k = [T::new(re.k[0], im.k[0]), T::new(re.k[1], im.k[1])];
-        of_chord(Chord { i, k }, r)
+        of_chord(ChordIntegrals { i, k }, r)
     } else {
         let delta = [T::new(delta[0], xi.re()), T::new(delta[1], xi.re())];
         potentials(delta, (r, digits))
@@ -148,7 +148,7 @@ pub(crate) fn potentials<T: Complex>(delta: [T; 2], (r, digits): (f64, f64)) -> 
 
 /// The same from the chord integrals.
 #[inline(always)]
-fn of_chord<T: Complex>(Chord { i, k }: Chord<T>, r: f64) -> Potentials<T> {
+fn of_chord<T: Complex>(ChordIntegrals { i, k }: ChordIntegrals<T>, r: f64) -> Potentials<T> {
     let ring = C / (r * r);
     Potentials {
         a_upper: i[0] * C,

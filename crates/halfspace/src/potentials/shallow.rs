@@ -13,7 +13,7 @@
 use crate::field::Point;
 use crate::potentials::closed_form::of_one;
 use crate::potentials::compact::compact;
-use crate::potentials::far_front::ALL;
+use crate::potentials::far_front::ROUNDING_DIGITS;
 use crate::potentials::{IMPULSE, STEP};
 use crate::profile::Profile;
 use num_complex::Complex64;
@@ -22,17 +22,17 @@ use num_complex::Complex64;
 const DEEPEST: f64 = 1e-4;
 
 /// Radius down to which the compact parts of every order hold: nearer the axis sigma_rz vanishes as r.
-const NEAREST: f64 = 1e-6;
+const LEAST_RADIUS: f64 = 1e-6;
 
 /// Longest step over the distance to a singularity: the rule errs by its fourth power over 4320.
-const SHORT: f64 = 1e-3;
+const LONGEST_STEP: f64 = 1e-3;
 
 /// Places of the two points of Gauss's rule on [0, 1].
-const PLACES: [f64; 2] = [0.211_324_865_405_187_1, 0.788_675_134_594_812_9];
+const GAUSS_PLACES: [f64; 2] = [0.211_324_865_405_187_1, 0.788_675_134_594_812_9];
 
 /// Whether sigma_zz and sigma_rz are taken from differences.
 pub(crate) fn applies<const N: i32>(profile: Profile, at: Point) -> bool {
-    N == STEP && profile == Profile::Hertz && at.z > 0.0 && at.z < DEEPEST && at.r > NEAREST
+    N == STEP && profile == Profile::Hertz && at.z > 0.0 && at.z < DEEPEST && at.r > LEAST_RADIUS
 }
 
 /// Distance of an imaginary number from the singularities, which lie at +-i (1 +- r).
@@ -45,14 +45,14 @@ pub(crate) fn gap(xi: Complex64, r: f64) -> f64 {
 
 /// Whether a step from imaginary xi is short enough for the mean of derivatives.
 pub(crate) fn is_short(xi: Complex64, step: f64, r: f64) -> bool {
-    step < SHORT * gap(xi, r)
+    step < LONGEST_STEP * gap(xi, r)
 }
 
 /// A_2 and B_2/r at xi + step less those at xi.
 pub(crate) fn difference(xi: Complex64, step: Complex64, r: f64) -> (Complex64, Complex64) {
     if is_short(xi, step.norm(), r) {
         let [first, second] =
-            PLACES.map(|place| of_one::<IMPULSE>(Profile::Hertz, xi + place * step, r));
+            GAUSS_PLACES.map(|place| of_one::<IMPULSE>(Profile::Hertz, xi + place * step, r));
         (
             -0.5 * step * (first.a_lower + second.a_lower),
             -0.5 * step * (first.g_lower + second.g_lower),
@@ -69,15 +69,16 @@ pub(crate) fn difference(xi: Complex64, step: Complex64, r: f64) -> (Complex64, 
 /// Just after the plane front both are large and eta is not, so it is not taken from their sum.
 pub(crate) fn compact_difference(surface: f64, step: f64, eta: f64, r: f64) -> (f64, f64) {
     if is_short(Complex64::new(0.0, surface), step.abs(), r) {
-        let [first, second] = PLACES
-            .map(|place| compact::<IMPULSE, f64>(Profile::Hertz, surface + place * step, (r, ALL)));
+        let [first, second] = GAUSS_PLACES.map(|place| {
+            compact::<IMPULSE, f64>(Profile::Hertz, surface + place * step, (r, ROUNDING_DIGITS))
+        });
         (
             0.5 * step * (first.a_lower + second.a_lower),
             0.5 * step * (first.g_lower + second.g_lower),
         )
     } else {
-        let from = compact::<STEP, f64>(Profile::Hertz, surface, (r, ALL));
-        let to = compact::<STEP, f64>(Profile::Hertz, eta, (r, ALL));
+        let from = compact::<STEP, f64>(Profile::Hertz, surface, (r, ROUNDING_DIGITS));
+        let to = compact::<STEP, f64>(Profile::Hertz, eta, (r, ROUNDING_DIGITS));
         (to.a_lower - from.a_lower, to.g_lower - from.g_lower)
     }
 }

@@ -5,7 +5,7 @@ use crate::numeric::polynomial::chebyshev;
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::OnceLock;
 
-pub(super) const TERMS: usize = 24;
+pub(super) const CURVE_TERMS: usize = 24;
 
 /// Functions of the angle of a zone: Chebyshev series of each panel, fitted where the panel is first met.
 #[derive(Debug, Clone)]
@@ -29,7 +29,7 @@ impl Curve {
         &self,
         which: usize,
         angle: f64,
-        f: impl Fn(usize, &[f64; TERMS]) -> [[f64; 3]; TERMS],
+        f: impl Fn(usize, &[f64; CURVE_TERMS]) -> [[f64; 3]; CURVE_TERMS],
     ) -> f64 {
         let panel = panel_of(&self.ends, angle / FRAC_PI_2);
         let [from, to] = [self.ends[panel], self.ends[panel + 1]];
@@ -41,9 +41,12 @@ impl Curve {
 }
 
 /// The series of functions between two angles.
-fn fit([from, to]: [f64; 2], f: impl Fn(&[f64; TERMS]) -> [[f64; 3]; TERMS]) -> [Vec<f64>; 3] {
-    static COSINES: OnceLock<[[f64; TERMS]; TERMS]> = OnceLock::new();
-    let n = TERMS as f64;
+fn fit(
+    [from, to]: [f64; 2],
+    f: impl Fn(&[f64; CURVE_TERMS]) -> [[f64; 3]; CURVE_TERMS],
+) -> [Vec<f64>; 3] {
+    static COSINES: OnceLock<[[f64; CURVE_TERMS]; CURVE_TERMS]> = OnceLock::new();
+    let n = CURVE_TERMS as f64;
     let cosine = |k: usize, i: usize| (PI * k as f64 * (i as f64 + 0.5) / n).cos();
     let cosines =
         COSINES.get_or_init(|| std::array::from_fn(|k| std::array::from_fn(|i| cosine(k, i))));

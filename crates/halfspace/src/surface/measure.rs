@@ -9,11 +9,11 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Nodes of Gauss on a panel, and between two of the angles at which a panel is fitted.
 const WHOLE: usize = 16;
-const PART: usize = 8;
+const FITTED_NODES: usize = 8;
 
 /// The measure mu with its moments summed panel by panel from the slow end.
 #[derive(Debug, Clone)]
-pub(super) struct Measure {
+pub(super) struct SurfaceMeasure {
     pub(super) medium: Medium,
     pub(super) rayleigh_slowness: f64,
     pub(super) rayleigh_mass: f64,
@@ -79,7 +79,7 @@ fn points(
     })
 }
 
-impl Measure {
+impl SurfaceMeasure {
     pub(super) fn new(medium: &Medium) -> Self {
         let (rayleigh_slowness, rayleigh_mass) = rayleigh(medium);
         let mut measure = Self {
@@ -126,7 +126,7 @@ impl Measure {
                 self.add(zone, 0.5 * end, end, &mut sum, WHOLE);
                 end *= 0.5;
             }
-            self.add(zone, angle, end, &mut sum, PART);
+            self.add(zone, angle, end, &mut sum, FITTED_NODES);
             end = angle;
             sum
         })
@@ -235,7 +235,7 @@ mod tests {
             0.499,
             0.4999,
         ] {
-            let mass = Measure::new(&Medium::new(nu).unwrap()).total()[1];
+            let mass = SurfaceMeasure::new(&Medium::new(nu).unwrap()).total()[1];
             assert!((mass - 1.0).abs() < 1e-13, "nu = {nu}: {mass}");
         }
     }

@@ -24,7 +24,7 @@ use crate::medium::Medium;
 use chord::{Chord, Moments};
 use curve::Curve;
 pub use measure::surface_measure;
-use measure::{Measure, ZONES, Zone};
+use measure::{SurfaceMeasure, ZONES, Zone};
 
 /// Which deflection of the loaded disc is meant.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -77,7 +77,7 @@ pub struct SurfaceResponse {
     pub disc: LoadedDisc,
     chord: Chord,
     shear_slowness: f64,
-    measure: Measure,
+    measure: SurfaceMeasure,
     total: Moments,
     /// For each zone.
     curves: [Curve; 2],
@@ -86,7 +86,7 @@ pub struct SurfaceResponse {
 impl SurfaceResponse {
     /// Prepares the response of `medium`; make it once for many values.
     pub fn new(medium: &Medium, deflection: Deflection) -> Self {
-        let measure = Measure::new(medium);
+        let measure = SurfaceMeasure::new(medium);
         let chord = Chord::new(deflection);
         let total = measure.total();
         Self {

@@ -6,10 +6,10 @@
 
 use crate::domain::DomainError;
 use crate::field::{Estimate, Six};
-use crate::trace::segment::{Course, Piece, Segment};
+use crate::trace::segment::{Course, MappedInterval, Segment};
 
 /// Segments are halved no more once there are so many, which no place needs; what is left out is in the estimate.
-const MOST: usize = 200;
+const MOST_SEGMENTS: usize = 200;
 
 /// Segments from the `first` arrival to `end` that follow `remainder`, so that responses to a force that changes by no more
 /// than `rise` of its peak within a time hold `tolerance` of their peaks.
@@ -35,17 +35,17 @@ pub(crate) fn segments(
         stack.push(segment);
     }
     /// Fields that are smaller beside their kind are not resolved on their own: just below the surface tractions vanish.
-    const SMALL: f64 = 1e-6;
+    const SMALLEST_FIELD: f64 = 1e-6;
     let largest = |kind: &[f64]| kind.iter().copied().fold(0.0, f64::max);
     let kinds = [largest(&peak[..2]), largest(&peak[2..])];
     for (f, peak) in peak.iter_mut().enumerate() {
-        *peak = peak.max(SMALL * kinds[usize::from(f >= 2)]);
+        *peak = peak.max(SMALLEST_FIELD * kinds[usize::from(f >= 2)]);
     }
     let mut done = vec![];
     while let Some(mut segment) = stack.pop() {
         let part = counts(&segment);
         let allowed = std::array::from_fn(|f| tolerance[f] * peak[f] / part[f]);
-        let full = done.len() + stack.len() >= MOST;
+        let full = done.len() + stack.len() >= MOST_SEGMENTS;
         loop {
             if full || is_converged(&segment, &allowed) {
                 done.push(segment);
@@ -75,24 +75,28 @@ fn is_converged(segment: &Segment, allowed: &Six) -> bool {
 /// a time and for some while.
 ///
 /// Beside fronts that are very far apart few nodes do not see how R varies as the disc is passed: such an interval is two.
-fn pieces(arrivals: &[f64], passing: Option<[f64; 2]>, [first, end]: [f64; 2]) -> Vec<Piece> {
+fn pieces(
+    arrivals: &[f64],
+    passing: Option<[f64; 2]>,
+    [first, end]: [f64; 2],
+) -> Vec<MappedInterval> {
     /// Radii from one front to the next that are not very far.
-    const SHORT: f64 = 500.0;
+    const MOST_RADII_APART: f64 = 500.0;
     /// Factors e of time that one polynomial serves.
     const LONG: f64 = 3.5;
     /// Fronts this close to each other are one.
-    const SAME: f64 = 1e-13;
+    const SAME_FRONT: f64 = 1e-13;
     let mut fronts = vec![first];
     for &arrival in arrivals {
         let last = fronts[fronts.len() - 1];
-        if arrival - last > SAME * arrival {
+        if arrival - last > SAME_FRONT * arrival {
             fronts.push(arrival);
         }
     }
     let mut courses = vec![];
     for pair in fronts.windows(2) {
         let [from, to] = [pair[0], pair[1]];
-        if to - from < SHORT {
+        if to - from < MOST_RADII_APART {
             courses.push((from, Course::Between([from, to])));
         } else {
             let middle = 0.5 * (from + to);
@@ -112,7 +116,7 @@ fn pieces(arrivals: &[f64], passing: Option<[f64; 2]>, [first, end]: [f64; 2]) -
     let begun = courses.into_iter().filter(|(from, _)| *from < end);
     let parts = |(_, course): (f64, Course)| {
         let count = (course.length() / LONG).ceil().max(1.0);
-        Piece::new(course, end).parts(count as u32)
+        MappedInterval::new(course, end).parts(count as u32)
     };
     begun.flat_map(parts).collect()
 }

@@ -19,11 +19,11 @@ use crate::numeric::polynomial::{LEJA_NODES, chebyshev_each, leja_nodes, leja_re
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Nodes of a segment at first.
-const FEWEST: usize = 3;
+const FIRST_NODES: usize = 3;
 
 /// Error of an integral over a cell over the mean estimate of the values at the nodes: errors of values are well below
 /// their estimates and of any sign.
-const NOISE: f64 = 0.12;
+const CELL_NOISE: f64 = 0.12;
 
 /// How time follows from s, ascending from 0 to 1 at most.
 #[derive(Debug, Clone, Copy)]
@@ -71,12 +71,12 @@ fn turn(distance: f64) -> f64 {
 
 /// An interval of time as one of s.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Piece {
+pub(crate) struct MappedInterval {
     course: Course,
     s: [f64; 2],
 }
 
-impl Piece {
+impl MappedInterval {
     /// From the start of a course to a time.
     pub(crate) fn new(course: Course, end: f64) -> Self {
         let mut piece = Self {
@@ -160,7 +160,7 @@ impl Piece {
 pub(crate) struct Segment {
     /// Start and end in time.
     pub(crate) times: [f64; 2],
-    pub(crate) piece: Piece,
+    pub(crate) piece: MappedInterval,
     /// Coefficients of Chebyshev's polynomials.
     series: Vec<Six>,
     /// Likely error of the mean of R over a part of the segment, but for the truncation of the series.
@@ -175,7 +175,7 @@ pub(crate) struct Segment {
 impl Segment {
     /// Of the fewest nodes.
     pub(crate) fn fit(
-        piece: Piece,
+        piece: MappedInterval,
         remainder: impl FnMut(f64) -> Result<Estimate, DomainError>,
     ) -> Result<Self, DomainError> {
         let mut segment = Self {
@@ -197,7 +197,7 @@ impl Segment {
         mut remainder: impl FnMut(f64) -> Result<Estimate, DomainError>,
     ) -> Result<bool, DomainError> {
         let terms = match self.values.len() {
-            0 => FEWEST,
+            0 => FIRST_NODES,
             LEJA_NODES => return Ok(false),
             some => some + 2,
         };
@@ -207,7 +207,7 @@ impl Segment {
             let found = remainder(t)?;
             self.values.push(found.value);
             for (sum, e) in self.noise.iter_mut().zip(found.error) {
-                *sum += NOISE * e;
+                *sum += CELL_NOISE * e;
             }
         }
         self.series = leja_series(&self.values);
@@ -223,8 +223,8 @@ impl Segment {
 
     /// Its start, and times in it between which few terms would do.
     pub(crate) fn breaks(&self) -> impl Iterator<Item = f64> {
-        const FEW: usize = 12;
-        let parts = self.series.len().div_ceil(FEW) as u32;
+        const FEW_TERMS: usize = 12;
+        let parts = self.series.len().div_ceil(FEW_TERMS) as u32;
         self.piece.parts(parts).map(|part| part.times()[0])
     }
 
@@ -247,30 +247,33 @@ impl Segment {
     /// Adds int R dt, int (t - centre) R dt and int (t - centre)^2 R dt over a part of the segment.
     pub(crate) fn add(&self, from: f64, to: f64, centre: f64, sums: &mut [Six; 3]) {
         /// A part this short, as a fraction of the segment over the terms of the series, is nearly a cubic.
-        const SHORT: f64 = 0.75;
+        const SHORT_PART: f64 = 0.75;
         /// Nodes for dt/ds times t^2: exact where time is a square, else as parts of a wave, whose rule has some at least.
         const SQUARE: usize = 3;
         const WAVE: f64 = 11.0;
-        const LEAST: f64 = 5.0;
+        const LEAST_NODES: f64 = 5.0;
         /// Nodes side by side.
-        const FEW: usize = 4;
+        const GROUP_NODES: usize = 4;
         let [low, high] = [from, to].map(|t| self.piece.place(t));
         let (_, half) = self.piece.middle();
         let part = (high - low) / (2.0 * half);
         let terms = self.series.len();
         let nodes = match self.piece.course {
-            _ if part * (terms as f64) < SHORT => FEW,
+            _ if part * (terms as f64) < SHORT_PART => GROUP_NODES,
             Course::Between(_) => {
                 // toward an end of the segment the terms vary over its root
                 let whole = 0.5 * terms as f64 + WAVE;
-                (LEAST + part.sqrt() * (whole - LEAST)).ceil() as usize
+                (LEAST_NODES + part.sqrt() * (whole - LEAST_NODES)).ceil() as usize
             }
-            course => terms / 2 + SQUARE + (course.length() * (high - low)).ceil() as usize,
+            course @ (Course::Beside(_) | Course::Around(..)) => {
+                terms / 2 + SQUARE + (course.length() * (high - low)).ceil() as usize
+            }
         };
         let mut rule = gauss::rule(nodes).on(low, high);
-        for _ in 0..nodes.div_ceil(FEW) {
+        for _ in 0..nodes.div_ceil(GROUP_NODES) {
             // a group that is not full is filled with nodes that weigh nothing
-            let group: [_; FEW] = std::array::from_fn(|_| rule.next().unwrap_or((high, 0.0)));
+            let group: [_; GROUP_NODES] =
+                std::array::from_fn(|_| rule.next().unwrap_or((high, 0.0)));
             let values = self.values(group.map(|(s, _)| s));
             for (i, (s, weight)) in group.into_iter().enumerate() {
                 let (arm, slope) = self.piece.time(s, centre);

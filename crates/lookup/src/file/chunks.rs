@@ -11,7 +11,7 @@ use rayon::prelude::*;
 use std::ops::Range;
 
 /// Chunks in memory at a time.
-const TOGETHER: usize = 64;
+const CHUNKS_AT_A_TIME: usize = 64;
 
 /// Writes all values of a dataset whose chunks hold all of a patch of rows and columns.
 ///
@@ -31,7 +31,7 @@ pub(super) fn write_chunks(
             .assign(&values.slice(s![across.clone(), down.clone(), .., ..]));
         packed(&numbers, level)
     };
-    for some in patches([rows, columns], [high, wide]).chunks(TOGETHER) {
+    for some in patches([rows, columns], [high, wide]).chunks(CHUNKS_AT_A_TIME) {
         let packed = some.par_iter().map(pack).collect::<Vec<_>>();
         for ([across, down], bytes) in some.iter().zip(packed) {
             let offset = [across.start as u64, down.start as u64, 0, 0];

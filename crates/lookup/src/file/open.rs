@@ -1,7 +1,7 @@
 //! Opening: what is compared before anything else is read.
 
 use super::error::{BadTable, TableError};
-use super::source::Source;
+use super::source::TableSource;
 use crate::schema;
 use ledger::{HdfError, HdfFile};
 use std::path::Path;
@@ -13,7 +13,7 @@ use std::path::Path;
 ///
 /// # Errors
 /// [`TableError`].
-pub(super) fn open(path: &Path) -> Result<Source, TableError> {
+pub(super) fn open(path: &Path) -> Result<TableSource, TableError> {
     let file = HdfFile::open(path).map_err(|error| {
         let what = match error {
             HdfError::Io(source) => BadTable::Unreadable(source),
@@ -22,7 +22,7 @@ pub(super) fn open(path: &Path) -> Result<Source, TableError> {
         };
         what.of(path)
     })?;
-    let source = Source::new(path, file);
+    let source = TableSource::new(path, file);
     let root = &source.file.root;
     let found = source.text(root, schema::FILE_TYPE).unwrap_or_default();
     if found != schema::FILE_TYPE_VALUE {

@@ -2,7 +2,7 @@
 
 use super::error::TableError;
 use super::open::open;
-use super::source::Source;
+use super::source::TableSource;
 use crate::content::{Between, Content, FIELDS, Origin, Role, Slice, Verification};
 use crate::hash::content_hash;
 use crate::table::Table;
@@ -110,7 +110,7 @@ pub(super) struct Listed {
     pub(super) place: Group,
 }
 
-impl Source {
+impl TableSource {
     /// All of the table, and every byte of the file compared with its seal.
     pub(super) fn everything(&self) -> Result<Content, TableError> {
         self.check_seal()?;

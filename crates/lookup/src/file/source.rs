@@ -12,7 +12,7 @@ const GROWTH: u64 = 32;
 
 /// A file that is being read.
 #[derive(Debug)]
-pub(super) struct Source {
+pub(super) struct TableSource {
     pub(super) path: PathBuf,
     pub(super) file: HdfFile,
     /// Bytes of numbers loaded so far.
@@ -21,7 +21,7 @@ pub(super) struct Source {
     pub(super) decoded: Cell<u64>,
 }
 
-impl Source {
+impl TableSource {
     pub(super) fn new(path: &Path, file: HdfFile) -> Self {
         Self {
             path: path.to_owned(),

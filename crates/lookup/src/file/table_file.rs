@@ -3,7 +3,7 @@
 use super::error::{BadTable, TableError};
 use super::open::open;
 use super::read::{Listed, Window};
-use super::source::Source;
+use super::source::TableSource;
 use crate::certificate::{Measured, SAFETY};
 use crate::content::{Content, FIELDS, Role, Slice, Verification};
 use crate::error::LookupError;
@@ -131,7 +131,7 @@ impl TableFile {
 }
 
 /// The slices of a file as far as Poisson's ratio goes.
-fn served(source: &Source, listed: &[Listed]) -> Result<Vec<Served>, TableError> {
+fn served(source: &TableSource, listed: &[Listed]) -> Result<Vec<Served>, TableError> {
     let slices = listed.iter();
     let slices = slices.map(|slice| Served::new(slice.ratio, slice.role));
     let served: Result<_, DomainError> = slices.collect();

@@ -6,32 +6,32 @@ use halfspace::{Field, Six};
 use pulp::{Arch, Simd, WithSimd};
 
 /// Rows of numbers that are added at a time.
-const ROWS: usize = 8;
+const ROWS_AT_A_TIME: usize = 8;
 
 /// The nodes of a patch.
-pub(crate) struct Nodes {
+pub(crate) struct PatchNodes {
     /// Whole groups of them, each node with its weights for fields even and odd across r = 0.
-    groups: Vec<([usize; ROWS], [[f64; ROWS]; 2])>,
+    groups: Vec<([usize; ROWS_AT_A_TIME], [[f64; ROWS_AT_A_TIME]; 2])>,
     /// Factor with which a constant stays what it is.
     scale: f64,
 }
 
-impl Nodes {
+impl PatchNodes {
     /// Those of a patch `across` by `down` of a grid with `depths` depths; nodes that weigh nothing are left out.
     pub(crate) fn new(across: &Stencil, down: &Stencil, depths: usize) -> Self {
         let most = across.nodes().len() * down.nodes().len();
-        let mut groups: Vec<([usize; ROWS], [[f64; ROWS]; 2])> =
-            Vec::with_capacity(most.div_ceil(ROWS));
-        let (mut slot, mut rounded) = (ROWS, 0.0);
+        let mut groups: Vec<([usize; ROWS_AT_A_TIME], [[f64; ROWS_AT_A_TIME]; 2])> =
+            Vec::with_capacity(most.div_ceil(ROWS_AT_A_TIME));
+        let (mut slot, mut rounded) = (ROWS_AT_A_TIME, 0.0);
         for ((&i, &even), &odd) in across.nodes().iter().zip(across.even()).zip(across.odd()) {
             for (&k, &own) in down.nodes().iter().zip(down.even()) {
                 let (node, weights) = (i * depths + k, [even * own, odd * own].map(exact_weight));
                 if weights == [0.0; 2] {
                     continue;
                 }
-                if slot == ROWS {
+                if slot == ROWS_AT_A_TIME {
                     // places that stay empty are the first node at no weight
-                    groups.push(([node; ROWS], [[0.0; ROWS]; 2]));
+                    groups.push(([node; ROWS_AT_A_TIME], [[0.0; ROWS_AT_A_TIME]; 2]));
                     slot = 0;
                 }
                 if let Some((places, [even, odd])) = groups.last_mut() {
@@ -54,7 +54,7 @@ impl Nodes {
         if used == 0 {
             return Vec::new();
         }
-        let work = Work(self, slices, [length, used]);
+        let work = GatherSum(self, slices, [length, used]);
         // longer registers convert no faster
         #[cfg(target_arch = "x86_64")]
         if let Some(simd) = pulp::x86::V3::try_new() {
@@ -70,9 +70,9 @@ fn exact_weight(weight: f64) -> f64 {
     f64::from_bits((weight.to_bits() + HALF) & !(2 * HALF - 1))
 }
 
-struct Work<'a>(&'a Nodes, &'a [(&'a [f32], f64)], [usize; 2]);
+struct GatherSum<'a>(&'a PatchNodes, &'a [(&'a [f32], f64)], [usize; 2]);
 
-impl WithSimd for Work<'_> {
+impl WithSimd for GatherSum<'_> {
     type Output = Vec<Six>;
 
     #[inline(always)]
@@ -90,8 +90,8 @@ impl WithSimd for Work<'_> {
         let mut found = vec![Six::default(); used];
         for &(values, weight) in slices {
             // a register that lies across two lines of the cache takes twice as long
-            let mut room = vec![0.0; FIELDS * used + ROWS];
-            let start = room.as_ptr().align_offset(64).min(ROWS);
+            let mut room = vec![0.0; FIELDS * used + ROWS_AT_A_TIME];
+            let start = room.as_ptr().align_offset(64).min(ROWS_AT_A_TIME);
             let sums = &mut room[start..][..FIELDS * used];
             let mut field = 0;
             while field < FIELDS {
@@ -106,7 +106,7 @@ impl WithSimd for Work<'_> {
                     let (rows, own) = (places.map(row), weights[usize::from(ODD[field])]);
                     for (t, sum) in sums.iter_mut().enumerate() {
                         let mut total = *sum;
-                        for k in 0..ROWS {
+                        for k in 0..ROWS_AT_A_TIME {
                             total = add(own[k], rows[k][t], total);
                         }
                         *sum = total;
@@ -161,10 +161,10 @@ mod tests {
         for (mesh, x) in [(0, 0.03), (4, 2.1)] {
             let across = Stencil::mirrored(&axis, mesh, x, 8);
             let down = Stencil::one_sided(&axis, 3, 1.7, 8);
-            let nodes = Nodes::new(&across, &down, SIDE);
+            let nodes = PatchNodes::new(&across, &down, SIDE);
             for used in [3, LENGTH] {
                 let found = nodes.sums(&slices, LENGTH, used);
-                let work = Work(&nodes, &slices, [LENGTH, used]);
+                let work = GatherSum(&nodes, &slices, [LENGTH, used]);
                 assert_eq!(found, Simd::vectorize(pulp::Scalar::new(), work));
                 for (t, six) in found.iter().enumerate() {
                     for (field, &sum) in six.iter().enumerate() {
@@ -195,7 +195,7 @@ mod tests {
         let (axis, ones) = (axis(), vec![1.0; SIDE * SIDE * FIELDS * LENGTH]);
         let across = Stencil::mirrored(&axis, 4, 2.3, 8);
         let down = Stencil::one_sided(&axis, 0, 0.1, 8);
-        let found = Nodes::new(&across, &down, SIDE).sums(&[(&ones, 1.0)], LENGTH, LENGTH);
+        let found = PatchNodes::new(&across, &down, SIDE).sums(&[(&ones, 1.0)], LENGTH, LENGTH);
         let is_one = |x: &f64| (x - 1.0).abs() < 1e-14;
         assert!(found.iter().flatten().all(is_one), "{found:?}");
     }

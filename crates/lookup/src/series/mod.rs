@@ -183,8 +183,8 @@ impl Series {
         cells: Range<usize>,
         keep: impl FnMut(usize, [Six; N]),
     ) {
-        struct Work<'a, F, const N: usize>(&'a Series, f64, Range<usize>, F);
-        impl<F: FnMut(usize, [Six; N]), const N: usize> WithSimd for Work<'_, F, N> {
+        struct EachCell<'a, F, const N: usize>(&'a Series, f64, Range<usize>, F);
+        impl<F: FnMut(usize, [Six; N]), const N: usize> WithSimd for EachCell<'_, F, N> {
             type Output = ();
 
             #[inline(always)]
@@ -192,7 +192,7 @@ impl Series {
                 self.0.for_each_cell(self.1, self.2, self.3);
             }
         }
-        Arch::new().dispatch(Work(self, part, cells, keep));
+        Arch::new().dispatch(EachCell(self, part, cells, keep));
     }
 
     /// Tells `keep` the first `N` numbers of each of some cells that are `part` table cells wide.

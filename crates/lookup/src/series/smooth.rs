@@ -10,14 +10,14 @@
 use halfspace::Six;
 
 /// Cells that a slope and a curvature are taken from.
-const REACH: usize = 5;
+const SLOPE_CELLS: usize = 5;
 
 /// Moments beyond the last cell wanted that [`absorb`] needs.
 pub const BEYOND: usize = 2;
 
 /// Weights of five cell means for the slope and the curvature in cell 0, 1 and 2 of the five: exact for
 /// polynomials of fourth degree, of which they take the Legendre components of first and second degree.
-const SLOPE: [[f64; REACH]; 3] = parts_of(
+const SLOPE: [[f64; SLOPE_CELLS]; 3] = parts_of(
     [
         [-245, 462, -336, 146, -27],
         [-27, -110, 192, -66, 11],
@@ -26,7 +26,7 @@ const SLOPE: [[f64; REACH]; 3] = parts_of(
     120.0,
 );
 /// See [`SLOPE`].
-const CURVATURE: [[f64; REACH]; 3] = parts_of(
+const CURVATURE: [[f64; SLOPE_CELLS]; 3] = parts_of(
     [
         [81, -240, 262, -128, 25],
         [25, -44, 10, 12, -3],
@@ -35,10 +35,11 @@ const CURVATURE: [[f64; REACH]; 3] = parts_of(
     28.0,
 );
 
-const fn parts_of(rows: [[i32; REACH]; 3], whole: f64) -> [[f64; REACH]; 3] {
-    let (mut parts, mut i) = ([[0.0; REACH]; 3], 0);
-    while i < 3 * REACH {
-        parts[i / REACH][i % REACH] = rows[i / REACH][i % REACH] as f64 / whole;
+const fn parts_of(rows: [[i32; SLOPE_CELLS]; 3], whole: f64) -> [[f64; SLOPE_CELLS]; 3] {
+    let (mut parts, mut i) = ([[0.0; SLOPE_CELLS]; 3], 0);
+    while i < 3 * SLOPE_CELLS {
+        parts[i / SLOPE_CELLS][i % SLOPE_CELLS] =
+            rows[i / SLOPE_CELLS][i % SLOPE_CELLS] as f64 / whole;
         i += 1;
     }
     parts
@@ -51,7 +52,7 @@ pub fn absorb(cells: &mut [Six], moments: &[Six], curvatures: &[Six]) {
         // after the instant of the response is not known.
         let first = j.saturating_sub(2);
         let own = j - first;
-        for i in 0..REACH {
+        for i in 0..SLOPE_CELLS {
             let Some(cell) = cells.get_mut(first + i) else {
                 break;
             };
@@ -70,7 +71,7 @@ pub fn absorb(cells: &mut [Six], moments: &[Six], curvatures: &[Six]) {
 /// In rises a cell, with s growing into the past: the rate over the cell is rise + slope s + half curvature (s^2 - 1/12).
 pub fn absorbed(rises: &[f64], cell: isize, own: usize) -> [f64; 2] {
     let (mut slope, mut bend) = (0.0, 0.0);
-    for i in 0..REACH {
+    for i in 0..SLOPE_CELLS {
         let place = usize::try_from(cell + own as isize - i as isize).ok();
         let rise = place.and_then(|m| rises.get(m)).copied().unwrap_or(0.0);
         slope += SLOPE[own][i] * rise;
@@ -118,7 +119,7 @@ mod tests {
     fn slopes_and_curvatures_are_the_legendre_components_of_polynomials() {
         for own in 0..3 {
             for power in 0..5 {
-                let sum = |weights: &[f64; REACH]| -> f64 {
+                let sum = |weights: &[f64; SLOPE_CELLS]| -> f64 {
                     weights
                         .iter()
                         .enumerate()

@@ -1,6 +1,6 @@
 //! Figures 4 and 6: the contact over time.
 
-use super::{CONVERGED, Claim, GROWING, HERTZ, Redrawn, SCHEME, WIDTH, single};
+use super::{CONVERGED, Claim, GROWING, HERTZ_CURVE, Redrawn, SCHEME, WIDTH, single};
 use crate::case::{RADIUS_M, Runs, VELOCITY_M_S, kmax};
 use figure::{Axis, Figure, Layer, Legend, Panel, Sharing, Style};
 use impact::{Motion, Run};
@@ -12,10 +12,10 @@ const UNTIL_S: f64 = 31e-6;
 const STARS: &str = "stars: values printed in the paper";
 
 /// Points of a curve.
-const POINTS: u32 = 620;
+const CURVE_POINTS: u32 = 620;
 
 fn over_time(of: impl Fn(f64) -> Option<f64>) -> Vec<(f64, f64)> {
-    let times = (0..=POINTS).map(|i| UNTIL_S * f64::from(i) / f64::from(POINTS));
+    let times = (0..=CURVE_POINTS).map(|i| UNTIL_S * f64::from(i) / f64::from(CURVE_POINTS));
     times.filter_map(|t| Some((t, of(t)?))).collect()
 }
 
@@ -42,7 +42,7 @@ pub(super) fn history(runs: &Runs) -> Redrawn {
         speeds = speeds.line(name, Style::Plain, motion(run, |m| m.velocity_m_s));
     }
     forces = forces
-        .line(HERTZ, Style::Plain, force(&runs.hertz_printed, 1.0))
+        .line(HERTZ_CURVE, Style::Plain, force(&runs.hertz_printed, 1.0))
         .line(GROWING, Style::Plain, force(&runs.growing, 1.0))
         .layer(Layer::star((13.5e-6, 160e3), "160 kN"))
         .layer(Layer::star((27.0e-6, 0.0), "27.0 µs"));
@@ -120,7 +120,7 @@ pub(super) fn stress(runs: &Runs) -> Redrawn {
     for (name, run) in [
         (CONVERGED, &runs.table_1),
         (SCHEME, &runs.scheme),
-        (HERTZ, &runs.hertz_printed),
+        (HERTZ_CURVE, &runs.hertz_printed),
     ] {
         panel = panel.line(name, Style::Plain, force(run, one_n));
     }

@@ -1,6 +1,6 @@
 //! Figure 5, the contact stress against the radius; and the paper's scheme against its step.
 
-use super::{Claim, HERTZ, Redrawn, WIDTH, single};
+use super::{Claim, HERTZ_CURVE, Redrawn, WIDTH, single};
 use crate::case::{PRINTED_PA, RADIUS_M, STEP_S, TABLE_1_PA};
 use crate::case::{coupled, explicit, hertz, kmax};
 use contact::{Exact, Solver};
@@ -14,15 +14,15 @@ use std::ops::RangeInclusive;
 const RADII_M: [f64; 2] = [2e-3, 12e-3];
 
 /// Points of a curve over them.
-const POINTS: u32 = 24;
+const DEPENDENCE_POINTS: u32 = 24;
 
 /// Kmax over the radius in mm.
 fn over_radius(
     impact: impl Fn(f64) -> Result<Impact, AnyError> + Sync,
 ) -> Result<Vec<(f64, f64)>, AnyError> {
     let [low, high] = RADII_M;
-    let points = (0..=POINTS).into_par_iter().map(|i| {
-        let radius_m = low * (high / low).powf(f64::from(i) / f64::from(POINTS));
+    let points = (0..=DEPENDENCE_POINTS).into_par_iter().map(|i| {
+        let radius_m = low * (high / low).powf(f64::from(i) / f64::from(DEPENDENCE_POINTS));
         let run = impact(radius_m)?.solve()?;
         Ok((1e3 * radius_m, kmax(run.peak_force_n, radius_m)))
     });
@@ -45,7 +45,7 @@ pub(super) fn on_radius() -> Result<Redrawn, AnyError> {
         .range(1e3 * RADII_M[0], 1e3 * RADII_M[1]);
     let panel = Panel::new(radius, Axis::logarithmic("K_{max}"))
         .height(420.0)
-        .line(HERTZ, Style::Plain, alone)
+        .line(HERTZ_CURVE, Style::Plain, alone)
         .line(
             "coupled with the half-space, 129 GPa",
             Style::Plain,
@@ -76,7 +76,7 @@ pub(super) fn on_radius() -> Result<Redrawn, AnyError> {
 const SPACING_S: f64 = STEP_S / 41.0;
 
 /// The steps, in their spacing.
-const STEPS: RangeInclusive<u32> = 10..=125;
+const TRIED_STEPS: RangeInclusive<u32> = 10..=125;
 
 /// A step in s, and what the scheme gives with it: Kmax, contact time in s, restitution.
 type Found = (f64, [f64; 3]);
@@ -85,7 +85,7 @@ type Found = (f64, [f64; 3]);
 const PRINTED: [(f64, f64); 3] = [(14.11, 0.005), (27.0e-6, 0.05e-6), (0.991, 0.0005)];
 
 fn over_step(copper_pa: f64) -> Result<Vec<Found>, AnyError> {
-    let steps: Vec<u32> = STEPS.collect();
+    let steps: Vec<u32> = TRIED_STEPS.collect();
     let found = steps.par_iter().map_init(
         || Solver::new(&Exact),
         |solver, &i| {
@@ -119,7 +119,7 @@ pub(super) fn on_step() -> Result<Redrawn, AnyError> {
         Axis::linear("contact time").si("s"),
         Axis::linear("restitution"),
     ];
-    let ends = [*STEPS.start(), *STEPS.end()].map(|i| 1e6 * f64::from(i) * SPACING_S);
+    let ends = [*TRIED_STEPS.start(), *TRIED_STEPS.end()].map(|i| 1e6 * f64::from(i) * SPACING_S);
     let mut figure = Figure::new("The paper's scheme (40)-(44) against its step")
         .sharing(Sharing::X)
         .width(WIDTH);

@@ -19,7 +19,7 @@ const ON_AXIS: (&str, [f64; 2]) = ("z", [0.0, 1.0]);
 type Curve = Vec<(f64, f64)>;
 
 /// What a figure shows.
-struct Shown {
+struct FieldFigure {
     name: &'static str,
     title: &'static str,
     field: Field,
@@ -32,8 +32,8 @@ struct Shown {
     claims: fn(&[Curve], &WaveSpeeds) -> Vec<Claim>,
 }
 
-const SHOWN: [Shown; 5] = [
-    Shown {
+const SHOWN: [FieldFigure; 5] = [
+    FieldFigure {
         name: "fig-07",
         title: "Fig. 7: deflection w(r, 0, t) of the surface",
         field: Field::DisplacementZ,
@@ -42,7 +42,7 @@ const SHOWN: [Shown; 5] = [
         caption: "",
         claims: of_surface,
     },
-    Shown {
+    FieldFigure {
         name: "fig-08",
         title: "Fig. 8: displacement w(0, z, t) on the axis",
         field: Field::DisplacementZ,
@@ -51,7 +51,7 @@ const SHOWN: [Shown; 5] = [
         caption: "Caption and text of the paper's figure disagree: z = 0 in one, \"r = 0.1 r0\" in the other; here it is z = 0.",
         claims: of_depths,
     },
-    Shown {
+    FieldFigure {
         name: "fig-09",
         title: "Fig. 9: stress on the axis over the tensile strength of copper",
         field: Field::StressZz,
@@ -60,7 +60,7 @@ const SHOWN: [Shown; 5] = [
         caption: "Compression is negative.",
         claims: |curves, _| vec![amplitude(curves, 1.0 / STRENGTH_PA, "")],
     },
-    Shown {
+    FieldFigure {
         name: "fig-10",
         title: "Fig. 10: stress at 45 degrees over the tensile strength of copper",
         field: Field::StressZz,
@@ -69,7 +69,7 @@ const SHOWN: [Shown; 5] = [
         caption: "Caption and text of the paper disagree on the first point, 2 r0/√2 from both axes; here it is that.",
         claims: of_reversal,
     },
-    Shown {
+    FieldFigure {
         name: "fig-11",
         title: "Fig. 11: radial stress on the surface over the tensile strength of copper",
         field: Field::StressRr,
@@ -80,7 +80,7 @@ const SHOWN: [Shown; 5] = [
     },
 ];
 
-impl Shown {
+impl FieldFigure {
     /// Its points, r and z in r0.
     fn places(&self) -> impl Iterator<Item = [f64; 2]> {
         let (_, direction) = self.along;
@@ -101,8 +101,11 @@ impl Shown {
     fn draw(&self, ours: &[Curve], theirs: &[Curve], speeds: &WaveSpeeds) -> Figure {
         let (axis, scale) = match self.field {
             Field::DisplacementZ => (Axis::linear("axial displacement w").si("m"), 1.0),
+            Field::DisplacementR => (Axis::linear("radial displacement u").si("m"), 1.0),
             Field::StressRr => (Axis::linear("σ_{rr}/R_{m}"), STRENGTH_PA),
-            _ => (Axis::linear("σ_{zz}/R_{m}"), STRENGTH_PA),
+            Field::StressTt => (Axis::linear("σ_{tt}/R_{m}"), STRENGTH_PA),
+            Field::StressZz => (Axis::linear("σ_{zz}/R_{m}"), STRENGTH_PA),
+            Field::StressRz => (Axis::linear("σ_{rz}/R_{m}"), STRENGTH_PA),
         };
         let scaled = |curve: &Curve| curve.iter().map(|&(t, x)| (t, x / scale)).collect();
         let mut panel = Panel::new(Axis::linear("time").si("s"), axis)
@@ -136,7 +139,7 @@ impl Shown {
 pub(super) fn figures(runs: &Runs) -> Result<Vec<Redrawn>, AnyError> {
     let (ours, theirs) = (fields(&runs.table_1)?, fields(&runs.scheme)?);
     let speeds = runs.table_1.excitation().speeds();
-    let redrawn = |shown: &Shown| {
+    let redrawn = |shown: &FieldFigure| {
         let curves = shown.curves(&ours);
         Redrawn {
             name: shown.name,
@@ -151,13 +154,13 @@ pub(super) fn figures(runs: &Runs) -> Result<Vec<Redrawn>, AnyError> {
 
 /// The fields of a run at the points of all figures, each once.
 fn fields(run: &Run) -> Result<Vec<([f64; 2], FieldHistory)>, AnyError> {
-    let mut places: Vec<[f64; 2]> = SHOWN.iter().flat_map(Shown::places).collect();
+    let mut places: Vec<[f64; 2]> = SHOWN.iter().flat_map(FieldFigure::places).collect();
     places.sort_by_key(|place| place.map(f64::to_bits));
     places.dedup();
     let fields = run
         .excitation()
-        .fields(1e-2 * TOLERANCE)?
-        .to_tolerance(TOLERANCE);
+        .fields(1e-2 * FIELD_TOLERANCE)?
+        .to_tolerance(FIELD_TOLERANCE);
     let fields = fields.until(UNTIL * run.contact_time_s);
     let at = places.into_par_iter().map(|[r, z]| {
         let history = fields.at(r * RADIUS_M, z * RADIUS_M)?;
@@ -272,7 +275,7 @@ fn of_quiet(curves: &[Curve], speeds: &WaveSpeeds) -> Vec<Claim> {
 const UNTIL: f64 = 1.6;
 
 /// Relative tolerance of the fields.
-const TOLERANCE: f64 = 1e-4;
+const FIELD_TOLERANCE: f64 = 1e-4;
 
 /// The value of a curve that is farthest from zero.
 fn peak(curve: &Curve) -> f64 {

@@ -56,7 +56,7 @@ const CONVERGED: &str = "converged, 123 GPa";
 const SCHEME: &str = "paper's scheme, 129 GPa";
 
 /// Name of the curves without the half-space's deflection.
-const HERTZ: &str = "Hertz, 129 GPa";
+const HERTZ_CURVE: &str = "Hertz, 129 GPa";
 
 /// Name of the curves of a contact that counts the static deflection once.
 const GROWING: &str = "radius follows the load, 123 GPa";

@@ -11,7 +11,7 @@ use formats::stored::{StoredImpact, StoredProbes};
 use impact::{Impact, Series};
 
 /// Probes that are shown beside a contact.
-pub(super) const FEW: usize = 3;
+pub(super) const FEW_PROBES: usize = 3;
 
 /// A quantity of a contact over time: its name in a file, its name in a panel of its own, its unit and its samples.
 type OfContact = (
@@ -169,7 +169,7 @@ fn deflection_part(impacts: &[StoredImpact]) -> &'static str {
 
 /// Hertz's force for the same bodies: no waves and no disc. None where the file is it, or has no striker.
 fn hertz(impact: &StoredImpact, [from_s, to_s]: [f64; 2]) -> Option<Vec<(f64, f64)>> {
-    const POINTS: u32 = 400;
+    const HERTZ_POINTS: u32 = 400;
     let strike = impact.strike.as_ref()?;
     if impact.model == "hertz" {
         return None;
@@ -178,8 +178,8 @@ fn hertz(impact: &StoredImpact, [from_s, to_s]: [f64; 2]) -> Option<Vec<(f64, f6
     let mut alone = Impact::new(target, strike.striker.clone(), strike.velocity_m_s);
     alone.settings.model = Model::Hertz;
     let run = alone.solve().ok()?;
-    let time = |i: u32| from_s + (to_s - from_s) * f64::from(i) / f64::from(POINTS);
-    let points = (0..=POINTS).map(|i| (time(i), run.excitation().force_n(time(i))));
+    let time = |i: u32| from_s + (to_s - from_s) * f64::from(i) / f64::from(HERTZ_POINTS);
+    let points = (0..=HERTZ_POINTS).map(|i| (time(i), run.excitation().force_n(time(i))));
     Some(points.collect())
 }
 
@@ -224,8 +224,8 @@ pub(super) fn probe_panels(
         for probe in 0..count {
             let place = [probes.r_m[probe], probes.z_m[probe]];
             // the axis says what a single curve is; beside a contact its legend says which impact is which
-            let is_told =
-                of_unit.len() == 1 && (files.len() == 1 || most == FEW || !panels.is_empty());
+            let is_told = of_unit.len() == 1
+                && (files.len() == 1 || most == FEW_PROBES || !panels.is_empty());
             let legend = if is_told { Legend::Off } else { Legend::Auto };
             let mut panel = probe_panel(first, place, (of_unit, span_s), legend)?;
             for (impact, label, other) in &files {

@@ -5,7 +5,7 @@ use formats::stored::{StoredImpact, Value};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Most keys that a label names.
-const MOST_KEYS: usize = 3;
+const MOST_LABEL_KEYS: usize = 3;
 
 /// One label an impact.
 pub(super) fn labels(impacts: &[StoredImpact]) -> Vec<String> {
@@ -32,7 +32,7 @@ fn by_difference(scenes: &[BTreeMap<String, Value>]) -> Option<Vec<String>> {
     let named = keys.iter().filter_map(|key| key.strip_suffix(".material"));
     let named: Vec<&str> = named.collect();
     keys.retain(|key| !named.iter().any(|section| is_of_material(key, section)));
-    if keys.is_empty() || keys.len() > MOST_KEYS {
+    if keys.is_empty() || keys.len() > MOST_LABEL_KEYS {
         return None;
     }
     let label = |scene: &BTreeMap<String, Value>| {

@@ -8,60 +8,71 @@ mod labels;
 mod spectrum;
 
 use crate::error::{Drawn, PlotError};
-use crate::request::{Kind, Request, only};
+use crate::request::{PictureKind, Request, only};
 use crate::section::{axis_profile, frames, peak, space_time};
 use crate::words::{digits, with_unit};
 use contact::Shape;
 use figure::{Figure, Sharing};
 use formats::stored::{StoredImpact, Value};
-use histories::{FEW, contact_names, contact_panels, loop_panel, probe_panels};
+use histories::{FEW_PROBES, contact_names, contact_panels, loop_panel, probe_panels};
 use labels::labels;
 use spectrum::spectrum;
 use std::collections::BTreeMap;
 use std::{mem, slice};
 
 /// Frames of an animation, at most.
-const MOST_FRAMES: usize = 120;
+const MOST_ANIMATED_FRAMES: usize = 120;
 
 /// The figure of some impacts, and what its user should know.
 pub(crate) fn of_impacts(impacts: &[StoredImpact], request: &Request) -> Drawn<Figure> {
     let suits = match impacts {
-        [only] if only.section()?.is_some() => Kind::Waves,
-        _ => Kind::Impact,
+        [only] if only.section()?.is_some() => PictureKind::Waves,
+        _ => PictureKind::Impact,
     };
     let kind = request.kind_or(suits)?;
     let one = || only(impacts, kind);
     let panel = match kind {
-        Kind::Loop => loop_panel(impacts, &labels(impacts))?,
-        Kind::Spectrum => spectrum(impacts, &labels(impacts))?,
-        Kind::Peak => {
+        PictureKind::Loop => loop_panel(impacts, &labels(impacts))?,
+        PictureKind::Spectrum => spectrum(impacts, &labels(impacts))?,
+        PictureKind::Peak => {
             let (mut panel, notes) = peak(one()?, request)?;
             // beside the other numbers: a star at the surface would cover a title of the panel
             let mut figure = headed(impacts, request, 1);
             figure.subtitle = format!("{}; {}", figure.subtitle, mem::take(&mut panel.title));
             return Ok((figure.panel(panel), notes));
         }
-        Kind::Axis => axis_profile(one()?, request)?,
-        Kind::Surface | Kind::Depth => {
+        PictureKind::Axis => axis_profile(one()?, request)?,
+        PictureKind::Surface | PictureKind::Depth => {
             let (panel, notes) = space_time(one()?, request, kind)?;
             return Ok((headed(impacts, request, 1).panel(panel), notes));
         }
-        Kind::Waves => {
+        PictureKind::Waves => {
             let (panels, notes) = frames(one()?, request, request.frames.unwrap_or(4))?;
             let columns = if panels.len() > 4 { 3 } else { 2 };
             let mut figure = headed(impacts, request, columns.min(panels.len())).width(960.0);
             figure.has_common_bar = true;
             return Ok((figure.sharing(Sharing::Both).panels(panels), notes));
         }
-        // kinds of other files do not come here
-        _ => return histories(impacts, kind, request),
+        PictureKind::Impact | PictureKind::Probes => return histories(impacts, kind, request),
+        // pictures of other files do not come here
+        PictureKind::Sweep
+        | PictureKind::Loss
+        | PictureKind::Restitution
+        | PictureKind::Histogram
+        | PictureKind::Errors => {
+            return histories(impacts, kind, request);
+        }
     };
     Ok((headed(impacts, request, 1).panel(panel), Vec::new()))
 }
 
 /// The frames of an animation, a figure each, and what its user should know.
 pub(crate) fn frames_of(impact: &StoredImpact, request: &Request) -> Drawn<Vec<Figure>> {
-    let (panels, notes) = frames(impact, request, request.frames.unwrap_or(MOST_FRAMES))?;
+    let (panels, notes) = frames(
+        impact,
+        request,
+        request.frames.unwrap_or(MOST_ANIMATED_FRAMES),
+    )?;
     let base = headed(slice::from_ref(impact), request, 1).width(720.0);
     let figures = panels.into_iter().map(|panel| base.clone().panel(panel));
     Ok((figures.collect(), notes))
@@ -73,10 +84,10 @@ fn headed(impacts: &[StoredImpact], request: &Request, columns: usize) -> Figure
 }
 
 /// Contacts and probes over time.
-fn histories(impacts: &[StoredImpact], kind: Kind, request: &Request) -> Drawn<Figure> {
+fn histories(impacts: &[StoredImpact], kind: PictureKind, request: &Request) -> Drawn<Figure> {
     let labels = labels(impacts);
-    let is_all = kind == Kind::Probes;
-    let most = if is_all { usize::MAX } else { FEW };
+    let is_all = kind == PictureKind::Probes;
+    let most = if is_all { usize::MAX } else { FEW_PROBES };
     let is_of_contact = |name: &String| contact_names().contains(&name.as_str());
     let (of_contact, at_probes): (Vec<String>, Vec<String>) =
         request.quantities.iter().cloned().partition(is_of_contact);

@@ -12,7 +12,7 @@ use std::f64::consts::PI;
 const FREQUENCIES: usize = 1200;
 
 /// Samples that a spectrum is taken from, at most.
-const MOST_SAMPLES: usize = 20_000;
+const MOST_SPECTRUM_SAMPLES: usize = 20_000;
 
 /// Spectra of forces, one curve an impact; a single one with its corner frequency and its zeros.
 pub(super) fn spectrum(impacts: &[StoredImpact], labels: &[String]) -> Result<Panel, PlotError> {
@@ -23,7 +23,7 @@ pub(super) fn spectrum(impacts: &[StoredImpact], labels: &[String]) -> Result<Pa
     .height(380.0);
     let mut plateau = 0.0_f64;
     let pulses = impacts.iter().map(|impact| {
-        let pulse = Pulse::new(&impact.series.time_s, &impact.series.force_n);
+        let pulse = ForcePulse::new(&impact.series.time_s, &impact.series.force_n);
         let found = pulse.frequencies();
         found.map(|frequencies| (pulse, frequencies))
     });
@@ -57,7 +57,7 @@ pub(super) fn spectrum(impacts: &[StoredImpact], labels: &[String]) -> Result<Pa
 }
 
 /// A force that is linear between samples, from its first sample that is not zero to its last.
-struct Pulse {
+struct ForcePulse {
     time_s: Vec<f64>,
     force_n: Vec<f64>,
     /// Integral of the squared force over the square of the largest, in s.
@@ -66,8 +66,8 @@ struct Pulse {
     step_s: f64,
 }
 
-impl Pulse {
-    /// The samples; of more than [`MOST_SAMPLES`] those that straight lines between the others miss by most.
+impl ForcePulse {
+    /// The samples; of more than [`MOST_SPECTRUM_SAMPLES`] those that straight lines between the others miss by most.
     fn new(time_s: &[f64], force_n: &[f64]) -> Self {
         let range = loaded(force_n);
         let (time_s, force_n) = (&time_s[range.clone()], &force_n[range]);
@@ -80,7 +80,7 @@ impl Pulse {
         }
         let mut kept: Vec<usize> = (0..force_n.len()).collect();
         let mut missed_n = 1e-6 * largest;
-        while kept.len() > MOST_SAMPLES && largest > 0.0 {
+        while kept.len() > MOST_SPECTRUM_SAMPLES && largest > 0.0 {
             kept = needed(time_s, force_n, missed_n);
             missed_n *= 2.0;
         }
@@ -123,12 +123,12 @@ impl Pulse {
     /// largest force and the same integral of the squared force.
     fn frequencies(&self) -> Option<[f64; 2]> {
         /// Length of Hertz's pulse over the integral of its squared force in units of the largest: 3 pi/4.
-        const HERTZ: f64 = 0.75 * PI;
+        const HERTZ_LENGTH: f64 = 0.75 * PI;
         let whole_s = self.time_s[self.time_s.len() - 1] - self.time_s[0];
         if !(whole_s > 0.0 && self.squares_s > 0.0) {
             return None;
         }
-        let length_s = (HERTZ * self.squares_s).min(whole_s);
+        let length_s = (HERTZ_LENGTH * self.squares_s).min(whole_s);
         let samples = length_s / self.step_s;
         Some([0.02 / whole_s, (0.1 * samples).clamp(4.0, 20.0) / length_s])
     }
@@ -222,12 +222,12 @@ mod tests {
     #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
     use super::*;
 
-    fn pulse(force: impl Fn(f64) -> f64, samples: usize) -> Pulse {
+    fn pulse(force: impl Fn(f64) -> f64, samples: usize) -> ForcePulse {
         let time_s: Vec<f64> = (0..=samples)
             .map(|i| 5e-6 * i as f64 / samples as f64)
             .collect();
         let force_n: Vec<f64> = time_s.iter().map(|t| force(t / 5e-6)).collect();
-        Pulse::new(&time_s, &force_n)
+        ForcePulse::new(&time_s, &force_n)
     }
 
     #[test]
@@ -275,11 +275,11 @@ mod tests {
                 + force((t - 4.9e-3) / 5e-6) * f64::from(u8::from((4.9e-3..4.905e-3).contains(t)))
         };
         let force_n: Vec<f64> = time_s.iter().enumerate().map(of).collect();
-        let long = Pulse::new(&time_s, &force_n);
-        assert!(long.time_s.len() <= MOST_SAMPLES);
+        let long = ForcePulse::new(&time_s, &force_n);
+        assert!(long.time_s.len() <= MOST_SPECTRUM_SAMPLES);
         let [high, same] = [&long, &alone].map(|pulse| pulse.frequencies().unwrap()[1]);
         assert!((high / same - 1.0).abs() < 0.02, "{high} {same}");
-        let corner = |pulse: &Pulse| {
+        let corner = |pulse: &ForcePulse| {
             let points = pulse.spectrum(pulse.frequencies().unwrap());
             pulse.corner(&points).unwrap().0
         };

@@ -1,11 +1,11 @@
 //! The line along which a field on a grid has a value.
 
-use super::frames::Grid;
+use super::frames::SectionGrid;
 
 /// The contour of a value, piece by piece, each followed by a point that is no number, at which a curve breaks.
 ///
 /// Within a triangle, half of a cell, the field is taken as linear: a piece is the straight line between two of its sides.
-pub(super) fn contour(grid: &Grid, level: f64) -> Vec<(f64, f64)> {
+pub(super) fn contour(grid: &SectionGrid, level: f64) -> Vec<(f64, f64)> {
     let width = grid.r_m.len();
     let node = |i: usize, k: usize| {
         let above = grid.values[k * width + i] - level;
@@ -49,7 +49,7 @@ mod tests {
         let places = side
             .iter()
             .flat_map(|z| side.iter().map(move |r| r.hypot(*z)));
-        let grid = Grid {
+        let grid = SectionGrid {
             values: places.collect(),
             r_m: side.clone(),
             z_m: side.clone(),

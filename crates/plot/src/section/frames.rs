@@ -13,7 +13,7 @@ use std::f64::consts::FRAC_PI_2;
 use std::path::Path;
 
 /// A section with what its pictures need.
-pub(super) struct Section<'a> {
+pub(super) struct SectionView<'a> {
     pub(super) impact: &'a StoredImpact,
     pub(super) stored: StoredSection,
     pub(super) speeds: WaveSpeeds,
@@ -25,9 +25,9 @@ pub(super) struct Section<'a> {
 }
 
 /// Distance of the S front, over the width of the section, from which on fronts are named.
-const APART: f64 = 0.12;
+const NAMED_FRONTS_APART: f64 = 0.12;
 
-impl<'a> Section<'a> {
+impl<'a> SectionView<'a> {
     /// The section of a results file.
     pub(super) fn of(impact: &'a StoredImpact) -> Result<Self, PlotError> {
         let hint = "give the scene a [map] with r_max_m, z_max_m, points and frames";
@@ -45,9 +45,13 @@ impl<'a> Section<'a> {
     }
 
     /// The quantity that is asked for, or the usual one.
-    pub(super) fn quantity(&self, request: &Request, usual: &str) -> Result<Quantity, PlotError> {
+    pub(super) fn quantity(
+        &self,
+        request: &Request,
+        usual: &str,
+    ) -> Result<SectionQuantity, PlotError> {
         let name = request.quantities.first().map_or(usual, String::as_str);
-        Quantity::named(name, &self.stored.quantities(), self.impact.path())
+        SectionQuantity::named(name, &self.stored.quantities(), self.impact.path())
     }
 
     /// What shows waves best among what the file holds: velocities, which only some scenes ask for.
@@ -108,7 +112,7 @@ impl<'a> Section<'a> {
     /// values at the same places; up to the largest ones, as decades where they have no sign, if all is near field.
     pub(super) fn colours(
         &self,
-        quantity: &Quantity,
+        quantity: &SectionQuantity,
         rows: &[Vec<f64>],
         is_far: &[bool],
     ) -> (Axis, ColourMap) {
@@ -145,7 +149,11 @@ impl<'a> Section<'a> {
     }
 
     /// A quantity in a frame, [turned](Self::turned).
-    pub(super) fn values(&self, quantity: &Quantity, frame: usize) -> Result<Vec<f64>, PlotError> {
+    pub(super) fn values(
+        &self,
+        quantity: &SectionQuantity,
+        frame: usize,
+    ) -> Result<Vec<f64>, PlotError> {
         Ok(self.turned(&quantity.at(&self.stored, frame)?))
     }
 
@@ -170,7 +178,7 @@ impl<'a> Section<'a> {
     /// Near a contact stresses fall with the square of the distance and displacements with the distance: between nodes it is
     /// the value times that power of the distance that changes evenly, so that a contact much smaller than a cell does not
     /// fill the cell.
-    pub(super) fn finer(&self, quantity: &Quantity, values: &[f64]) -> Grid {
+    pub(super) fn finer(&self, quantity: &SectionQuantity, values: &[f64]) -> SectionGrid {
         let (r_m, z_m) = (&self.stored.r_m, self.depths_m());
         let (fine_r, fine_z) = (between(r_m), between(&z_m));
         let weight = |r: f64, z: f64| {
@@ -189,7 +197,7 @@ impl<'a> Section<'a> {
             let next = nodes[(i + 1).min(nodes.len() - 1)];
             nodes[i] + a * (next - nodes[i])
         };
-        let mut grid = Grid {
+        let mut grid = SectionGrid {
             r_m: fine_r.iter().map(|at| place(r_m, at)).collect(),
             z_m: fine_z.iter().map(|at| place(&z_m, at)).collect(),
             values: Vec::with_capacity(fine_r.len() * fine_z.len()),
@@ -205,7 +213,7 @@ impl<'a> Section<'a> {
     }
 
     /// Values over the section, mirrored at the axis.
-    pub(super) fn map(&self, grid: Grid, colours: Axis, map: ColourMap) -> Panel {
+    pub(super) fn map(&self, grid: SectionGrid, colours: Axis, map: ColourMap) -> Panel {
         let [r_max_m, z_max_m] = self.extent_m();
         let image = Image::new(grid.r_m, grid.z_m, grid.values, colours, map);
         let distance = Axis::linear("distance from the axis").si("m");
@@ -239,7 +247,7 @@ impl<'a> Section<'a> {
             (across, radius * angle.cos())
         };
         // names of fronts that are not apart yet would lie over one another
-        if s < APART * self.extent_m()[0] {
+        if s < NAMED_FRONTS_APART * self.extent_m()[0] {
             return layers;
         }
         let named = [
@@ -254,28 +262,28 @@ impl<'a> Section<'a> {
 
 /// Values of a section on a grid: distances from the axis and depths, both rising, and values, of which distances run
 /// fastest.
-pub(super) struct Grid {
+pub(super) struct SectionGrid {
     pub(super) r_m: Vec<f64>,
     pub(super) z_m: Vec<f64>,
     pub(super) values: Vec<f64>,
 }
 
 /// Places along a side of a picture: more than its pixels on a page.
-const PLACES: usize = 400;
+const PICTURE_PLACES: usize = 400;
 
-/// Places at nodes and evenly between them, [`PLACES`] or more: the node below each, and the fraction of the way to the next.
+/// Places at nodes and evenly between them, [`PICTURE_PLACES`] or more: the node below each, and the fraction of the way to the next.
 pub(super) fn between(nodes: &[f64]) -> Vec<(usize, f64)> {
     let cells = nodes.len() - 1;
-    let parts = PLACES.div_ceil(cells);
+    let parts = PICTURE_PLACES.div_ceil(cells);
     let inner = (0..cells * parts).map(|i| (i / parts, (i % parts) as f64 / parts as f64));
     inner.chain([(cells, 0.0)]).collect()
 }
 
 /// Points at a distance from a disc: a quarter circle around its edge and the plane part below it.
 fn capsule(disc_radius_m: f64, distance_m: f64) -> Vec<(f64, f64)> {
-    const POINTS: u32 = 90;
-    let arc = (0..=POINTS).map(|i| {
-        let angle = FRAC_PI_2 * f64::from(i) / f64::from(POINTS);
+    const QUARTER_POINTS: u32 = 90;
+    let arc = (0..=QUARTER_POINTS).map(|i| {
+        let angle = FRAC_PI_2 * f64::from(i) / f64::from(QUARTER_POINTS);
         let across = disc_radius_m + distance_m * angle.cos();
         (across, distance_m * angle.sin())
     });
@@ -291,7 +299,7 @@ pub(super) fn quantile_of_sizes(values: impl Iterator<Item = f64>, fraction: f64
 
 /// A quantity with the way to it.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Quantity {
+pub(super) struct SectionQuantity {
     /// Name, as users give it.
     pub(super) name: String,
     /// Unit without a prefix.
@@ -311,7 +319,7 @@ fn of_stresses() -> impl Iterator<Item = impact::Quantity> {
     stresses.map(|row| row.0)
 }
 
-impl Quantity {
+impl SectionQuantity {
     /// The quantity of a name, stored or not.
     pub(super) fn named(name: &str, stored: &[Described], path: &Path) -> Result<Self, PlotError> {
         let find = |name: &str| stored.iter().find(|quantity| quantity.name == name);

@@ -1,14 +1,14 @@
 //! What is seen along the surface and down the axis of a section: distance against time, and the axis beside the static
 //! field.
 
-use super::frames::{Quantity, Section, between};
+use super::frames::{SectionQuantity, SectionView, between};
 use crate::error::{Drawn, PlotError};
-use crate::request::{Kind, Request};
+use crate::request::{PictureKind, Request};
 use crate::series::curve;
 use crate::words::{axis, of_quantity, with_unit};
 use contact::KernelUnits;
 use figure::{Axis, Image, Layer, Legend, Panel, Scale, Style};
-use formats::results::schema::FIELDS;
+use formats::quantities::FIELDS;
 use formats::stored::StoredImpact;
 use halfspace::{Kernel, Medium, Profile};
 
@@ -16,12 +16,16 @@ use halfspace::{Kernel, Medium, Profile};
 const MOST_INSTANTS: usize = 600;
 
 /// Frames within a pulse below which a picture of distance against time is not smooth.
-const SMOOTH: f64 = 8.0;
+const SMOOTH_FRAMES: f64 = 8.0;
 
 /// Distances along the surface against time, or depths on the axis, with the fronts that pass there.
-pub(crate) fn space_time(impact: &StoredImpact, request: &Request, kind: Kind) -> Drawn<Panel> {
-    let is_surface = kind == Kind::Surface;
-    let section = Section::of(impact)?;
+pub(crate) fn space_time(
+    impact: &StoredImpact,
+    request: &Request,
+    kind: PictureKind,
+) -> Drawn<Panel> {
+    let is_surface = kind == PictureKind::Surface;
+    let section = SectionView::of(impact)?;
     let width = section.stored.r_m.len();
     let speeds = section.speeds;
     let distance = Axis::linear("distance from the axis").si("m");
@@ -98,7 +102,7 @@ fn chosen(known: &[f64], [from_s, to_s]: [f64; 2], around_s: f64) -> impl Iterat
 }
 
 /// What the user should know of frames that are too far apart.
-fn coarse(section: &Section<'_>, times: &[f64]) -> Vec<String> {
+fn coarse(section: &SectionView<'_>, times: &[f64]) -> Vec<String> {
     let Some(step_s) = times
         .windows(2)
         .map(|pair| pair[1] - pair[0])
@@ -106,7 +110,7 @@ fn coarse(section: &Section<'_>, times: &[f64]) -> Vec<String> {
     else {
         return Vec::new();
     };
-    let (needed_s, known) = (section.pulse_s / SMOOTH, &section.stored.time_s);
+    let (needed_s, known) = (section.pulse_s / SMOOTH_FRAMES, &section.stored.time_s);
     let needed = ((known[known.len() - 1] - known[0]) / needed_s).ceil() + 1.0;
     let [step, pulse] = [step_s, section.pulse_s].map(|time_s| with_unit(time_s, "s"));
     let note = format!(
@@ -188,7 +192,7 @@ const DECADES: f64 = 1e-6;
 ///
 /// Sizes on logarithmic axes: the static field falls with the square of the depth, and waves run ahead of it.
 pub(crate) fn axis_profile(impact: &StoredImpact, request: &Request) -> Result<Panel, PlotError> {
-    let section = Section::of(impact)?;
+    let section = SectionView::of(impact)?;
     let quantity = section.quantity(request, "stress_zz")?;
     let frames = match request.times_s.as_slice() {
         [] => SHARES
@@ -237,8 +241,8 @@ pub(crate) fn axis_profile(impact: &StoredImpact, request: &Request) -> Result<P
 
 /// Sizes of the static field on the axis under the largest force, over depths in mm; none for rates.
 fn static_points(
-    section: &Section<'_>,
-    quantity: &Quantity,
+    section: &SectionView<'_>,
+    quantity: &SectionQuantity,
 ) -> Result<Option<Vec<(f64, f64)>>, PlotError> {
     let force_n = section.impact.number("peak_force_n");
     let Some(force_n) = force_n.filter(|_| section.disc_radius_m > 0.0) else {
@@ -257,11 +261,11 @@ fn static_points(
         "m" => units.displacement_m_per_n(),
         _ => units.stress_pa_per_n(),
     };
-    const POINTS: u32 = 400;
+    const STATIC_POINTS: u32 = 400;
     let most = section.extent_m()[1];
     let mut points = Vec::new();
-    for i in 0..=POINTS {
-        let z_m = most * 1e-4_f64.powf(1.0 - f64::from(i) / f64::from(POINTS));
+    for i in 0..=STATIC_POINTS {
+        let z_m = most * 1e-4_f64.powf(1.0 - f64::from(i) / f64::from(STATIC_POINTS));
         let six = kernel.static_field(0.0, z_m / section.disc_radius_m)?;
         let size = match (field, quantity.stress) {
             (Some(field), _) => six[field],

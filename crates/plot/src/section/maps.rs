@@ -1,7 +1,7 @@
 //! Maps of a section: frames, chosen so that waves are seen, and the largest value over time at every place.
 
 use super::contour::contour;
-use super::frames::{Grid, Quantity, Section, quantile_of_sizes};
+use super::frames::{SectionGrid, SectionQuantity, SectionView, quantile_of_sizes};
 use crate::error::{Drawn, PlotError};
 use crate::request::Request;
 use crate::words::{axis, of_quantity, with_unit};
@@ -9,12 +9,12 @@ use figure::{ColourMap, Layer, Legend, Panel, Scale, Style};
 use formats::stored::StoredImpact;
 
 /// Frames from which on a picture is a whole history.
-const FEW: usize = 9;
+const FEW_FRAMES: usize = 9;
 
 /// Frames of a section at the times that are asked for, or `count` until the longitudinal wave leaves it; and
 /// what their user should know.
 pub(crate) fn frames(impact: &StoredImpact, request: &Request, count: usize) -> Drawn<Vec<Panel>> {
-    let section = Section::of(impact)?;
+    let section = SectionView::of(impact)?;
     let mut notes = Vec::new();
     let mut chosen = match (request.times_s.as_slice(), request.span_s) {
         ([], None) => instants(&section, count),
@@ -54,12 +54,12 @@ pub(crate) fn frames(impact: &StoredImpact, request: &Request, count: usize) -> 
 }
 
 /// Frames evenly: until the longitudinal wave leaves the section, or within a pulse that is longer.
-fn instants(section: &Section<'_>, count: usize) -> Vec<usize> {
+fn instants(section: &SectionView<'_>, count: usize) -> Vec<usize> {
     let half = 0.5 / count as f64;
     let (length_s, first, last) = match section.is_near() {
         true => (section.pulse_s, half, 1.0 - half),
         // a few frames begin where waves have parted, many where the force does
-        false if count > FEW => (section.crossing_s(), 0.0, 1.0),
+        false if count > FEW_FRAMES => (section.crossing_s(), 0.0, 1.0),
         false => (section.crossing_s(), 0.4, 1.0),
     };
     let steps = (count - 1).max(1) as f64;
@@ -70,7 +70,11 @@ fn instants(section: &Section<'_>, count: usize) -> Vec<usize> {
 }
 
 /// Frames evenly within the span that is asked for.
-fn within(section: &Section<'_>, request: &Request, count: usize) -> Result<Vec<usize>, PlotError> {
+fn within(
+    section: &SectionView<'_>,
+    request: &Request,
+    count: usize,
+) -> Result<Vec<usize>, PlotError> {
     let known = &section.stored.time_s;
     let [from_s, to_s] = request.span_within([known[0], known[known.len() - 1]])?;
     let steps = (count - 1).max(1) as f64;
@@ -83,7 +87,7 @@ fn within(section: &Section<'_>, request: &Request, count: usize) -> Result<Vec<
 pub(crate) fn peak(impact: &StoredImpact, request: &Request) -> Drawn<Panel> {
     /// Lower end of the colours, over the upper one.
     const DECADES: f64 = 1e-4;
-    let section = Section::of(impact)?;
+    let section = SectionView::of(impact)?;
     let quantity = section.quantity(request, "von_mises")?;
     let (values, over, notes) = match section.stored.peak(&quantity.name) {
         Some(stored) => (section.turned(&stored), "time".to_owned(), Vec::new()),
@@ -109,9 +113,9 @@ pub(crate) fn peak(impact: &StoredImpact, request: &Request) -> Drawn<Panel> {
 
 /// The line along which von Mises' stress is the yield strength of the target; none for others, or without a strength.
 fn contour_of_yield(
-    section: &Section<'_>,
-    quantity: &Quantity,
-    grid: &Grid,
+    section: &SectionView<'_>,
+    quantity: &SectionQuantity,
+    grid: &SectionGrid,
 ) -> Option<(f64, Vec<(f64, f64)>)> {
     let strength_pa = section.impact.target.material().yield_strength_pa?;
     let is_shown = quantity.name == "von_mises";
@@ -120,7 +124,7 @@ fn contour_of_yield(
 
 /// A panel with the largest value at its place, the size of the contact, and the contour of yield.
 fn with_landmarks(
-    section: &Section<'_>,
+    section: &SectionView<'_>,
     mut panel: Panel,
     (largest, at): (f64, (f64, f64)),
     of_yield: Option<(f64, Vec<(f64, f64)>)>,
@@ -142,7 +146,7 @@ fn with_landmarks(
 }
 
 /// The largest of some sizes over the section with its place.
-fn largest_of(section: &Section<'_>, sizes: &[f64]) -> (f64, (f64, f64)) {
+fn largest_of(section: &SectionView<'_>, sizes: &[f64]) -> (f64, (f64, f64)) {
     let width = section.stored.r_m.len();
     let by_size = |a: &usize, b: &usize| sizes[*a].total_cmp(&sizes[*b]);
     let largest = (0..sizes.len()).max_by(by_size).unwrap_or(0);
@@ -152,13 +156,13 @@ fn largest_of(section: &Section<'_>, sizes: &[f64]) -> (f64, (f64, f64)) {
 
 /// The largest sizes over the frames, for a file that has none over all samples, with words for them and for the user.
 fn over_frames(
-    section: &Section<'_>,
-    quantity: &Quantity,
+    section: &SectionView<'_>,
+    quantity: &SectionQuantity,
 ) -> Result<(Vec<f64>, String, Vec<String>), PlotError> {
     /// Frames that are looked at, at most.
-    const MOST_FRAMES: usize = 2000;
+    const MOST_SEARCHED_FRAMES: usize = 2000;
     let frames = section.stored.time_s.len();
-    let looked_at = (0..frames).step_by(frames.div_ceil(MOST_FRAMES));
+    let looked_at = (0..frames).step_by(frames.div_ceil(MOST_SEARCHED_FRAMES));
     let count = looked_at.len();
     let mut peaks: Vec<f64> = Vec::new();
     for frame in looked_at {

@@ -3,14 +3,14 @@
 mod view;
 
 use crate::error::{Drawn, PlotError, chosen};
-use crate::request::{Kind, Request};
+use crate::request::{PictureKind, Request};
 use crate::words::{axis, of_key, stem};
 use contact::fall_velocity_m_s;
 use figure::{Axis, ColourMap, Figure, Image, Layer, Legend, Line, Panel, Scale, Style};
 use formats::quantities::Described;
 use formats::stored::StoredSweep;
 use std::path::Path;
-use view::{Slice, View, quantiles};
+use view::{SweepSlice, View, quantiles};
 
 /// Results that are shown when none is asked for.
 const USUAL: [&str; 4] = [
@@ -46,18 +46,49 @@ const YIELD_ONSET: &str = "yield_onset";
 const AT_YIELD: &str = "yield_velocity_m_s";
 
 /// A result of all rows of a sweep, with its axis.
-struct Shown<'a> {
+struct SweptQuantity<'a> {
     view: &'a View<'a>,
     axis: Axis,
     values: Vec<f64>,
 }
 
-impl Shown<'_> {
+impl SweptQuantity<'_> {
     /// Quantiles of the draws of a slice at a place along the axes that are shown; those of a single value without
     /// draws.
-    fn quantiles(&self, slice: &Slice, at: &[(usize, usize)]) -> Option<[f64; 3]> {
+    fn quantiles(&self, slice: &SweepSlice, at: &[(usize, usize)]) -> Option<[f64; 3]> {
         let rows = self.view.rows(slice, at).into_iter();
         quantiles(rows.map(|row| self.values[row]))
+    }
+}
+
+/// Pictures of a sweep.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum SweepPicture {
+    OverKeys,
+    Loss,
+    Restitution,
+    Histogram,
+}
+
+impl SweepPicture {
+    /// That of a kind; the kinds of other files do not come here.
+    fn of(kind: PictureKind) -> Self {
+        match kind {
+            PictureKind::Loss => Self::Loss,
+            PictureKind::Restitution => Self::Restitution,
+            PictureKind::Histogram => Self::Histogram,
+            PictureKind::Sweep
+            | PictureKind::Impact
+            | PictureKind::Loop
+            | PictureKind::Probes
+            | PictureKind::Spectrum
+            | PictureKind::Waves
+            | PictureKind::Peak
+            | PictureKind::Surface
+            | PictureKind::Depth
+            | PictureKind::Axis
+            | PictureKind::Errors => Self::OverKeys,
+        }
     }
 }
 
@@ -67,21 +98,18 @@ pub(crate) fn of_sweep(path: &Path, request: &Request) -> Drawn<Figure> {
     let view = View::new(sweep, request)?;
     let along = view.along(request.along.as_deref())?;
     let suits = match (along, view.drawn) {
-        (None, Some(_)) => Kind::Histogram,
-        (Some(_), _) | (None, None) => Kind::Sweep,
+        (None, Some(_)) => PictureKind::Histogram,
+        (Some(_), _) | (None, None) => PictureKind::Sweep,
     };
-    let kind = request.kind_or(suits)?;
-    // where only draws vary, over the first of their keys
-    let along = match kind {
-        Kind::Sweep => along.or(view.drawn),
-        _ => along,
+    let picture = SweepPicture::of(request.kind_or(suits)?);
+    let (along, usual): (_, &[&str]) = match picture {
+        // where only draws vary, over the first of their keys
+        SweepPicture::OverKeys => (along.or(view.drawn), &USUAL),
+        SweepPicture::Loss => (along, &["loss"]),
+        SweepPicture::Restitution => (along, &["restitution"]),
+        SweepPicture::Histogram => (along, &USUAL),
     };
     let known = sweep.quantities();
-    let usual: &[&str] = match kind {
-        Kind::Loss => &["loss"],
-        Kind::Restitution => &["restitution"],
-        _ => &USUAL,
-    };
     let rows = view.shown();
     let mut panels = Vec::new();
     for number in chosen(path, &known, &request.quantities, usual)? {
@@ -92,15 +120,13 @@ pub(crate) fn of_sweep(path: &Path, request: &Request) -> Drawn<Figure> {
         let scale = request.scale.unwrap_or(usual);
         let axis = axis(&result_words(quantity), &quantity.unit, scale);
         let view = &view;
-        let shown = Shown { view, axis, values };
-        let mut panel = match kind {
-            Kind::Histogram => histogram(&shown)?,
-            Kind::Loss => loss(&shown)?,
-            Kind::Restitution => restitution(&shown)?,
-            _ => {
-                let hint = "a sweep over words alone has no axis to draw along; sweep --csv writes its rows";
-                let what = "key of numbers that varies";
-                let along = along.ok_or_else(|| PlotError::absent(path, what, hint))?;
+        let shown = SweptQuantity { view, axis, values };
+        let mut panel = match picture {
+            SweepPicture::Histogram => histogram(&shown)?,
+            SweepPicture::Loss => loss(&shown)?,
+            SweepPicture::Restitution => restitution(&shown)?,
+            SweepPicture::OverKeys => {
+                let along = along.ok_or_else(|| PlotError::NoAxis(path.to_owned()))?;
                 over_keys(&shown, along, request)?
             }
         };
@@ -110,7 +136,7 @@ pub(crate) fn of_sweep(path: &Path, request: &Request) -> Drawn<Figure> {
         }
         panels.push(panel);
     }
-    let subtitle = subtitle(&view, (kind, along), &rows)?;
+    let subtitle = subtitle(&view, (picture, along), &rows)?;
     let columns = if panels.len() == 1 { 1 } else { 2 };
     let title = title(path, sweep);
     let figure = request.figure(&title, &subtitle, columns);
@@ -120,18 +146,22 @@ pub(crate) fn of_sweep(path: &Path, request: &Request) -> Drawn<Figure> {
 /// The name of a sweep and the keys that vary.
 fn title(path: &Path, sweep: &StoredSweep) -> String {
     /// Keys that are named, at most.
-    const MOST_KEYS: usize = 4;
+    const MOST_TITLE_KEYS: usize = 4;
     let columns = sweep.axes.iter().flat_map(|axis| &axis.columns);
     let keys: Vec<String> = columns.map(|column| of_key(&column.name()).0).collect();
-    let more = if keys.len() > MOST_KEYS { ", ..." } else { "" };
-    let named = keys[..keys.len().min(MOST_KEYS)].join(", ");
+    let more = if keys.len() > MOST_TITLE_KEYS {
+        ", ..."
+    } else {
+        ""
+    };
+    let named = keys[..keys.len().min(MOST_TITLE_KEYS)].join(", ");
     format!("Sweep {} over {named}{more}", stem(path))
 }
 
 /// How many scenes, how many of them fail or yield, and what bands are.
 fn subtitle(
     view: &View<'_>,
-    (kind, along): (Kind, Option<usize>),
+    (picture, along): (SweepPicture, Option<usize>),
     shown: &[usize],
 ) -> Result<String, PlotError> {
     let rows: usize = view.sweep.axes.iter().map(|axis| axis.len).product();
@@ -156,7 +186,7 @@ fn subtitle(
         text.push_str(&format!(", held: {held}"));
     }
     if let Some(axis) = view.drawn
-        && kind != Kind::Histogram
+        && picture != SweepPicture::Histogram
     {
         let draws = view.sweep.axes[axis].len;
         text.push_str(&match along == Some(axis) {
@@ -215,7 +245,11 @@ fn rising(nodes: &[f64]) -> Vec<(usize, f64)> {
 }
 
 /// Lines over a key, or a heat map where a second key has many values.
-fn over_keys(shown: &Shown<'_>, along: usize, request: &Request) -> Result<Panel, PlotError> {
+fn over_keys(
+    shown: &SweptQuantity<'_>,
+    along: usize,
+    request: &Request,
+) -> Result<Panel, PlotError> {
     let view = shown.view;
     let others = view.free().into_iter().filter(|&i| i != along);
     let second = others
@@ -230,7 +264,7 @@ fn over_keys(shown: &Shown<'_>, along: usize, request: &Request) -> Result<Panel
 }
 
 fn lines(
-    shown: &Shown<'_>,
+    shown: &SweptQuantity<'_>,
     along: usize,
     asked: (Option<&str>, Option<Scale>),
 ) -> Result<Panel, PlotError> {
@@ -263,7 +297,7 @@ fn lines(
 }
 
 /// Draws over one of their own keys: a point each, or of many the median and 90 % in bins of as many draws.
-fn over_draws(panel: Panel, shown: &Shown<'_>, slice: &Slice, nodes: &[f64]) -> Panel {
+fn over_draws(panel: Panel, shown: &SweptQuantity<'_>, slice: &SweepSlice, nodes: &[f64]) -> Panel {
     let rows = shown.view.rows(slice, &[]);
     let pairs = nodes
         .iter()
@@ -283,9 +317,9 @@ fn over_draws(panel: Panel, shown: &Shown<'_>, slice: &Slice, nodes: &[f64]) -> 
 }
 
 fn heat_map(
-    shown: &Shown<'_>,
+    shown: &SweptQuantity<'_>,
     axes: [usize; 2],
-    slice: &Slice,
+    slice: &SweepSlice,
     scale: Option<Scale>,
 ) -> Result<Panel, PlotError> {
     let [along, second] = axes;
@@ -321,7 +355,7 @@ fn heat_map(
 }
 
 /// Results over the velocity of approach, on logarithmic axes.
-fn over_velocity(shown: &Shown<'_>) -> Result<Panel, PlotError> {
+fn over_velocity(shown: &SweptQuantity<'_>) -> Result<Panel, PlotError> {
     let axes = &shown.view.sweep.axes;
     let mut columns = axes.iter().flat_map(|axis| &axis.columns);
     let is_height = columns.any(|column| column.name() == DROP_HEIGHT);
@@ -348,13 +382,13 @@ fn over_velocity(shown: &Shown<'_>) -> Result<Panel, PlotError> {
 fn points_of(panel: &mut Panel) -> impl Iterator<Item = &mut (f64, f64)> {
     let curves = panel.layers.iter_mut().filter_map(|layer| match layer {
         Layer::Line(line) => Some(&mut line.points),
-        _ => None,
+        Layer::Image(_) | Layer::Classes(_) | Layer::Mark { .. } | Layer::Point { .. } => None,
     });
     curves.flatten()
 }
 
 /// Losses over the velocity of approach, with the slope of Hunter's law beside them.
-fn loss(shown: &Shown<'_>) -> Result<Panel, PlotError> {
+fn loss(shown: &SweptQuantity<'_>) -> Result<Panel, PlotError> {
     let mut panel = over_velocity(shown)?;
     let (mut first, mut last) = (f64::INFINITY, 0.0_f64);
     let (mut lowest, mut highest) = (f64::INFINITY, 0.0_f64);
@@ -375,7 +409,7 @@ fn loss(shown: &Shown<'_>) -> Result<Panel, PlotError> {
 
 /// Restitution over the velocity of approach; where a law of flow yields, over the velocity at which the first row does,
 /// with Johnson's slope.
-fn restitution(shown: &Shown<'_>) -> Result<Panel, PlotError> {
+fn restitution(shown: &SweptQuantity<'_>) -> Result<Panel, PlotError> {
     let mut panel = over_velocity(shown)?;
     let sweep = shown.view.sweep;
     let mut known = sweep.quantities().into_iter();
@@ -400,7 +434,7 @@ fn restitution(shown: &Shown<'_>) -> Result<Panel, PlotError> {
 }
 
 /// How often values occur, with their quantiles where they are draws: those of a design say nothing.
-fn histogram(shown: &Shown<'_>) -> Result<Panel, PlotError> {
+fn histogram(shown: &SweptQuantity<'_>) -> Result<Panel, PlotError> {
     let view = shown.view;
     let scale = shown.axis.scale;
     let mut panel = Panel::new(shown.axis.clone(), Axis::linear("scenes")).height(240.0);
@@ -408,7 +442,7 @@ fn histogram(shown: &Shown<'_>) -> Result<Panel, PlotError> {
     let groups: Vec<(String, Vec<f64>)> = match view.drawn {
         Some(_) => {
             let slices = few(view, &[], MOST_HISTOGRAMS)?.into_iter();
-            let of = |slice: Slice| {
+            let of = |slice: SweepSlice| {
                 let found = values(view.rows(&slice, &[]));
                 (slice.label, found)
             };
@@ -432,17 +466,15 @@ fn histogram(shown: &Shown<'_>) -> Result<Panel, PlotError> {
 }
 
 /// The slices beside the axes that are shown, if they are few enough for one panel.
-fn few(view: &View<'_>, shown: &[usize], most: usize) -> Result<Vec<Slice>, PlotError> {
+fn few(view: &View<'_>, shown: &[usize], most: usize) -> Result<Vec<SweepSlice>, PlotError> {
     let slices = view.slices(shown);
     if slices.len() <= most {
         return Ok(slices);
     }
-    let path = view.sweep.path();
-    let sentence = format!(
-        "{} would give {} curves, and {most} can be told apart: choose among them, such as by --at {}",
-        path.display(),
-        slices.len(),
-        view.example(shown).unwrap_or_default()
-    );
-    Err(PlotError::refused(Some(path), sentence))
+    Err(PlotError::TooManyCurves {
+        file: view.sweep.path().to_owned(),
+        curves: slices.len(),
+        most,
+        example: view.example(shown),
+    })
 }

@@ -4,14 +4,14 @@ use crate::error::PlotError;
 use crate::request::Request;
 use crate::words::{of_key, with_unit};
 use formats::stored::StoredSweep;
-use formats::sweep::{Column, Values};
+use formats::sweep::{SweptKey, Values};
 
 /// Shares of draws below the band, at its middle and below its upper end.
 const SHARES: [f64; 3] = [0.05, 0.5, 0.95];
 
 /// A choice along every axis but those that are shown.
 #[derive(Debug, Clone)]
-pub(super) struct Slice {
+pub(super) struct SweepSlice {
     /// What is chosen, in words; empty where there is nothing to choose.
     pub(super) label: String,
     /// Index along each axis; none along those that are shown.
@@ -52,7 +52,7 @@ impl<'a> View<'a> {
     }
 
     /// The numbers along an axis: those of the key that is asked for, or of the first that has numbers.
-    pub(super) fn numbers(&self, axis: usize, asked: Option<&str>) -> Option<(&Column, &[f64])> {
+    pub(super) fn numbers(&self, axis: usize, asked: Option<&str>) -> Option<(&SweptKey, &[f64])> {
         let columns = self.sweep.axes[axis].columns.iter();
         let mut asked = columns.filter(|column| asked.is_none_or(|name| name == column.name()));
         asked.find_map(|column| match &column.values {
@@ -98,20 +98,20 @@ impl<'a> View<'a> {
         let column = self.sweep.axes[free.next()?].columns.first()?;
         let value = match &column.values {
             Values::Texts(words) => words.first()?.clone(),
-            values => values.number(0)?.to_string(),
+            values @ (Values::Numbers(_) | Values::Drawn(_)) => values.number(0)?.to_string(),
         };
         Some(format!("{}={value}", column.name()))
     }
 
     /// All choices along the free axes that are not shown.
-    pub(super) fn slices(&self, shown: &[usize]) -> Vec<Slice> {
-        let mut found = vec![Slice {
+    pub(super) fn slices(&self, shown: &[usize]) -> Vec<SweepSlice> {
+        let mut found = vec![SweepSlice {
             label: String::new(),
             fixed: self.fixed.clone(),
         }];
         for axis in self.free().into_iter().filter(|axis| !shown.contains(axis)) {
             let count = self.sweep.axes[axis].len;
-            let at = |(slice, index): (&Slice, usize)| {
+            let at = |(slice, index): (&SweepSlice, usize)| {
                 let mut slice = slice.clone();
                 slice.fixed[axis] = Some(index);
                 let comma = if slice.label.is_empty() { "" } else { ", " };
@@ -140,7 +140,7 @@ impl<'a> View<'a> {
             let (name, unit) = of_key(&column.name());
             match &column.values {
                 Values::Texts(values) => values[index].clone(),
-                values => {
+                values @ (Values::Numbers(_) | Values::Drawn(_)) => {
                     let number = values.number(index).unwrap_or(f64::NAN);
                     format!("{name} {}", with_unit(number, unit))
                 }
@@ -150,7 +150,7 @@ impl<'a> View<'a> {
     }
 
     /// The rows of a slice at a place along the axes that are shown, over all draws.
-    pub(super) fn rows(&self, slice: &Slice, at: &[(usize, usize)]) -> Vec<usize> {
+    pub(super) fn rows(&self, slice: &SweepSlice, at: &[(usize, usize)]) -> Vec<usize> {
         let axes = &self.sweep.axes;
         let index = |i: usize, draw: usize| {
             let shown = at.iter().find(|(axis, _)| *axis == i);
@@ -165,7 +165,7 @@ impl<'a> View<'a> {
 }
 
 /// The axis and the column of a key.
-fn find<'a>(sweep: &'a StoredSweep, key: &str) -> Result<(usize, &'a Column), PlotError> {
+fn find<'a>(sweep: &'a StoredSweep, key: &str) -> Result<(usize, &'a SweptKey), PlotError> {
     let axes = sweep.axes.iter().enumerate();
     let mut all = axes.flat_map(|(i, axis)| axis.columns.iter().map(move |c| (i, c)));
     let names: Vec<String> = all.clone().map(|(_, column)| column.name()).collect();
@@ -175,9 +175,9 @@ fn find<'a>(sweep: &'a StoredSweep, key: &str) -> Result<(usize, &'a Column), Pl
 }
 
 /// The index of a value of a key, a number to nine digits.
-fn index_of(sweep: &StoredSweep, column: &Column, value: &str) -> Result<usize, PlotError> {
+fn index_of(sweep: &StoredSweep, column: &SweptKey, value: &str) -> Result<usize, PlotError> {
     /// Numbers that are told, at most.
-    const MOST: usize = 12;
+    const MOST_NUMBERS_SHOWN: usize = 12;
     let key = column.name();
     if let Values::Texts(words) = &column.values {
         let found = words.iter().position(|word| word == value);
@@ -191,7 +191,7 @@ fn index_of(sweep: &StoredSweep, column: &Column, value: &str) -> Result<usize, 
     if let Some(found) = numbers.clone().position(is_wanted) {
         return Ok(found);
     }
-    let allowed = if column.values.count() <= MOST {
+    let allowed = if column.values.count() <= MOST_NUMBERS_SHOWN {
         let numbers: Vec<String> = numbers.map(|number| number.to_string()).collect();
         numbers.join(", ")
     } else {

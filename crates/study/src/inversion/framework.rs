@@ -27,7 +27,7 @@ pub(crate) fn invert<const N: usize>(
 /// Needs the transform continued into Re s < 0.
 /// Nodes whose weight is below 1e-20 are left out: there a transform of waves grows as e^{-s t_last}.
 pub(crate) fn talbot(terms: usize) -> Vec<[Complex64; 2]> {
-    const SMALLEST: f64 = 1e-20;
+    const LEAST_WEIGHT: f64 = 1e-20;
     let scale = 0.4 * terms as f64;
     let mut rule = vec![[scale.into(), (0.2 * scale.exp()).into()]];
     for k in 1..terms {
@@ -36,7 +36,7 @@ pub(crate) fn talbot(terms: usize) -> Vec<[Complex64; 2]> {
         let node = scale * theta * Complex64::new(cot, 1.0);
         let slope = Complex64::new(1.0, theta * (1.0 + cot * cot) - cot);
         let weight = 0.4 * slope * node.exp();
-        if weight.norm() > SMALLEST {
+        if weight.norm() > LEAST_WEIGHT {
             rule.push([node, weight]);
         }
     }

@@ -13,7 +13,8 @@ mod framework;
 mod hankel;
 mod series;
 
-use crate::measure::{Effort, Run};
+use crate::measure::{Effort, Found};
+use crate::method::ComparedMethod;
 use framework::{euler, invert, stehfest, talbot};
 use halfspace::{Medium, Six};
 use hankel::Hankel;
@@ -22,7 +23,7 @@ use series::{Series, de_hoog, durbin, in_window};
 
 /// A numerical inversion of the Laplace transform at one setting, ready for any scene and time.
 pub(crate) struct Inversion {
-    pub(crate) name: &'static str,
+    pub(crate) method: ComparedMethod,
     pub(crate) setting: String,
     /// Digits that the transform needs: those of the result and those that the weights cancel.
     digits: f64,
@@ -38,35 +39,53 @@ type Invert = dyn Fn(&Hankel, &[f64]) -> Vec<Six>;
 /// Durbin's plain sum gains nothing by it.
 const SPAN: f64 = 4.0;
 
+/// Setting, digits and inversion of a method with a number of terms or samples.
+type Make = fn(usize) -> (String, f64, Box<Invert>);
+
 /// Methods, with their settings in a quick and a full chart, and in the pictures of errors over time of both: in a full
 /// one its best.
-const METHODS: [(&str, [&[usize]; 3]); 5] = [
-    ("fixed Talbot", [&[12, 24], &[8, 12, 16, 24, 32], &[16, 24]]),
-    ("Gaver-Stehfest", [&[6, 14], &[6, 10, 14, 18], &[14, 14]]),
-    ("Euler", [&[6, 14], &[6, 10, 14, 18, 24], &[10, 18]]),
+const METHODS: [(ComparedMethod, Make, [&[usize]; 3]); 5] = [
     (
-        "Durbin",
+        ComparedMethod::FixedTalbot,
+        |n| (format!("{n} terms"), 0.7 * n as f64, anew(talbot(n))),
+        [&[12, 24], &[8, 12, 16, 24, 32], &[16, 24]],
+    ),
+    (
+        ComparedMethod::GaverStehfest,
+        |n| (format!("{n} terms"), 15.0, anew(stehfest(n))),
+        [&[6, 14], &[6, 10, 14, 18], &[14, 14]],
+    ),
+    (
+        ComparedMethod::Euler,
+        |n| (format!("order {n}"), n as f64, anew(euler(n))),
+        [&[6, 14], &[6, 10, 14, 18, 24], &[10, 18]],
+    ),
+    (
+        ComparedMethod::Durbin,
+        |n| in_windows(durbin, n, 1e-6, f64::INFINITY),
         [&[50, 200], &[50, 100, 200, 400, 800], &[200, 400]],
     ),
-    ("de Hoog", [&[21, 81], &[21, 41, 81, 161], &[81, 161]]),
+    (
+        ComparedMethod::DeHoog,
+        // the aliasing error that the accelerated series reaches
+        |n| {
+            in_windows(
+                de_hoog,
+                n,
+                10.0_f64.powf(-3.0 - n as f64 / 20.0).max(1e-11),
+                SPAN,
+            )
+        },
+        [&[21, 81], &[21, 41, 81, 161], &[81, 161]],
+    ),
 ];
 
 impl Inversion {
     /// A method at a setting.
-    fn new(name: &'static str, n: usize) -> Self {
-        let (setting, digits, invert) = match name {
-            "fixed Talbot" => (format!("{n} terms"), 0.7 * n as f64, anew(talbot(n))),
-            "Gaver-Stehfest" => (format!("{n} terms"), 15.0, anew(stehfest(n))),
-            "Euler" => (format!("order {n}"), n as f64, anew(euler(n))),
-            "Durbin" => in_windows(durbin, n, 1e-6, f64::INFINITY),
-            _ => {
-                // the aliasing error that the accelerated series reaches
-                let aliasing = 10.0_f64.powf(-3.0 - n as f64 / 20.0).max(1e-11);
-                in_windows(de_hoog, n, aliasing, SPAN)
-            }
-        };
+    fn new(method: ComparedMethod, make: Make, n: usize) -> Self {
+        let (setting, digits, invert) = make(n);
         Self {
-            name,
+            method,
             setting,
             digits: digits.clamp(4.0, 15.0),
             invert,
@@ -75,23 +94,28 @@ impl Inversion {
 
     /// All methods at increasing settings.
     pub(crate) fn all(effort: Effort) -> Vec<Self> {
-        let settings = METHODS.into_iter().flat_map(|(name, [quick, full, _])| {
-            effort.pick(quick, full).iter().map(move |&n| (name, n))
-        });
-        settings.map(|(name, n)| Self::new(name, n)).collect()
+        let settings = METHODS
+            .into_iter()
+            .flat_map(|(method, make, [quick, full, _])| {
+                let settings = effort.pick(quick, full).iter();
+                settings.map(move |&n| Self::new(method, make, n))
+            });
+        settings.collect()
     }
 
     /// The setting of each method in the pictures of errors over time.
     pub(crate) fn pictured(effort: Effort) -> Vec<Self> {
         let best = effort.pick(0, 1);
         let methods = METHODS.into_iter();
-        let pictured = methods.map(|(name, [.., settings])| Self::new(name, settings[best]));
-        pictured.collect()
+        let pictured = |(method, make, [.., settings]): (_, _, [&[usize]; 3])| {
+            Self::new(method, make, settings[best])
+        };
+        methods.map(pictured).collect()
     }
 
     /// Step responses at ascending times, and the integrand evaluations they took; at the centre of the surface only
     /// w over its static value.
-    pub(crate) fn run(&self, medium: &Medium, place: [f64; 2], times: &[f64]) -> Run<Vec<Six>> {
+    pub(crate) fn run(&self, medium: &Medium, place: [f64; 2], times: &[f64]) -> Found<Vec<Six>> {
         let hankel = Hankel::new(medium, place, self.digits);
         let values = (self.invert)(&hankel, times);
         Ok((values, Some(hankel.evaluations.get())))

@@ -4,6 +4,7 @@ use crate::inversion::Inversion;
 use crate::measure::Effort;
 use crate::picture::Picture;
 use crate::question::kernels::{KernelScene, POISSON_RATIO};
+use contact::Choice;
 use fault::AnyError;
 use figure::{Axis, Layer, Style};
 use halfspace::{Kernel, Medium, Profile, Six};
@@ -40,7 +41,7 @@ pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Picture>
         );
         for method in Inversion::pictured(effort) {
             let (values, _) = method.run(&medium, scene.place, &scene.times)?;
-            let label = format!("{}, {}", method.name, method.setting);
+            let label = format!("{}, {}", method.method.name(), method.setting);
             figure.line(&label, Style::Plain, over_time(&scene, &values));
             advance();
         }

@@ -2,7 +2,7 @@
 
 use crate::measure::Effort;
 use crate::picture::Picture;
-use crate::question::kernels::ALL;
+use crate::question::kernels::ALL_FIELDS;
 use crate::record::{off, peaks, sizes};
 use fault::AnyError;
 use figure::{Axis, Interval, Layer, Style};
@@ -107,7 +107,7 @@ pub(super) fn incompressible_error(distance: f64) -> Result<f64, AnyError> {
         exact.push(value);
         whole.push(std::array::from_fn(|f| value[f] + rest[f]));
     }
-    Ok(sizes(&off(&found, &exact, &peaks(&whole), &ALL))[0])
+    Ok(sizes(&off(&found, &exact, &peaks(&whole), &ALL_FIELDS))[0])
 }
 
 /// W at T = 0.7 for a ratio, from the program and from the closed form.

@@ -15,7 +15,7 @@
 //! by half a step, which feeds h (25/16) int p^2 into the striker, and w by a step, which takes
 //! h (5/2) int p' w' out again.
 
-use super::Map;
+use super::StabilityMap;
 use crate::measure::Effort;
 use crate::picture::Picture;
 use crate::scenes::{paper_disc, paper_response};
@@ -32,7 +32,7 @@ use paper::PRINTED_PA;
 contact::choice! {
     /// What a march made of an impact.
     #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-    pub(super) enum Outcome {
+    pub(super) enum MarchOutcome {
         /// Restitution within 1e-3 of the converged one.
         Accurate = "restitution within 1e-3",
         /// It loses energy, though not the right amount.
@@ -98,32 +98,32 @@ impl<'a> Converged<'a> {
     }
 
     /// What the explicit scheme makes of the impact at a step.
-    pub(super) fn explicit(&self, step: f64) -> Outcome {
+    pub(super) fn explicit(&self, step: f64) -> MarchOutcome {
         let march = march_explicit(&self.disc, step);
         self.outcome(march.map(|(history, summary)| (summary, history)))
     }
 
     /// What the implicit scheme makes of it.
-    pub(super) fn implicit(&self, step: f64) -> Outcome {
+    pub(super) fn implicit(&self, step: f64) -> MarchOutcome {
         let march = march_implicit(&self.disc, step);
         self.outcome(march.and_then(|march| Ok((Summary::new(&march)?, march))))
     }
 
-    fn outcome(&self, march: Result<(Summary, History), MarchError>) -> Outcome {
+    fn outcome(&self, march: Result<(Summary, History), MarchError>) -> MarchOutcome {
         let Ok((summary, history)) = march else {
-            return Outcome::BlownUp;
+            return MarchOutcome::BlownUp;
         };
         let early = summary.contact_time < 0.8 * self.summary.contact_time;
         if early || !summary.restitution.is_finite() {
-            Outcome::BlownUp
+            MarchOutcome::BlownUp
         } else if maxima(&history.force) > self.maxima {
-            Outcome::Oscillates
+            MarchOutcome::Oscillates
         } else if (summary.restitution - self.summary.restitution).abs() <= 1e-3 {
-            Outcome::Accurate
+            MarchOutcome::Accurate
         } else if summary.restitution > 1.0 {
-            Outcome::GainsEnergy
+            MarchOutcome::GainsEnergy
         } else {
-            Outcome::Lossy
+            MarchOutcome::Lossy
         }
     }
 }
@@ -158,8 +158,13 @@ fn paper_steps(paper: &Converged<'_>) -> [(String, (f64, f64), f64); 2] {
 }
 
 /// A map of discs, from side to side, against the step over Hertz's contact time.
-fn map<'a>(x: [f64; 2], quantity: &'a str, classes: &'a [&'a str], effort: Effort) -> Map<'a> {
-    Map {
+fn map<'a>(
+    x: [f64; 2],
+    quantity: &'a str,
+    classes: &'a [&'a str],
+    effort: Effort,
+) -> StabilityMap<'a> {
+    StabilityMap {
         plane: [x, [1e-3, 0.2]].map(|[low, high]| Interval::logarithmic(low, high)),
         quantities: [quantity, "step over Hertz's contact time"],
         shape: effort.pick([16, 14], [48, 40]),
@@ -181,7 +186,10 @@ pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Picture>
     let response = paper_response()?;
     let disc = paper_disc(PRINTED_PA, &response)?;
     let stiffness = "contact stiffness over impedance, k/Z, per collision time";
-    let outcomes: Vec<_> = Outcome::ALL.iter().map(|outcome| outcome.name()).collect();
+    let outcomes: Vec<_> = MarchOutcome::ALL
+        .iter()
+        .map(|outcome| outcome.name())
+        .collect();
     let map = map([0.1, 100.0], stiffness, &outcomes, effort);
     let mut columns = Vec::new();
     for stiffness in map.columns() {
@@ -201,7 +209,7 @@ pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Picture>
 }
 
 fn explicit(
-    map: &Map<'_>,
+    map: &StabilityMap<'_>,
     columns: &[(f64, Converged<'_>)],
     paper: &Converged<'_>,
 ) -> Result<Picture, AnyError> {
@@ -232,7 +240,11 @@ fn explicit(
     Ok(figure)
 }
 
-fn implicit(map: &Map<'_>, columns: &[(f64, Converged<'_>)], paper: &Converged<'_>) -> Picture {
+fn implicit(
+    map: &StabilityMap<'_>,
+    columns: &[(f64, Converged<'_>)],
+    paper: &Converged<'_>,
+) -> Picture {
     let title = "Implicit march (the default)";
     let mut figure = map.picture("march-implicit", title, |cell, y| {
         columns[cell % columns.len()].1.implicit(y * CONTACT_TIME) as usize
@@ -250,7 +262,7 @@ fn implicit(map: &Map<'_>, columns: &[(f64, Converged<'_>)], paper: &Converged<'
     let step = line(columns, |exact| exact.summary.contact_time / 8.0);
     figure.line(fewest, Style::Dotted, step);
     let cells = figure.points().into_iter();
-    let gaining = cells.filter(|(class, ..)| *class == Outcome::GainsEnergy.name());
+    let gaining = cells.filter(|(class, ..)| *class == MarchOutcome::GainsEnergy.name());
     let gains = gaining.count();
     for (label, place, _) in paper_steps(paper) {
         figure.add(Layer::star(place, &label));
@@ -270,14 +282,14 @@ fn implicit(map: &Map<'_>, columns: &[(f64, Converged<'_>)], paper: &Converged<'
 /// The largest root, in modulus, of p_n/k + coupling [p_n - sum_j g_j (p_{n-j} - p_{n-j-1})] = 0, for the dynamic
 /// share without the first p_n in brackets, from a long run of the recurrence; below one the samples settle.
 pub(super) fn linear_growth(disc: &FixedDisc<'_>, stiffness: f64, step: f64) -> f64 {
-    const STEPS: usize = 400;
+    const RECURRENCE_STEPS: usize = 400;
     let lag = Weights::of(disc, disc.response, step).values;
     let own = 1.0 / stiffness + disc.coupling * (disc.share.factor() - lag[0]);
     let mut p = vec![0.0; lag.len() + 1];
     p.push(1.0);
     // rescaled so that nothing overflows; the logarithm of the scale is kept
     let mut growth = 0.0;
-    for n in 0..STEPS {
+    for n in 0..RECURRENCE_STEPS {
         let m = p.len();
         let terms = lag[1..].iter().enumerate();
         let past = terms.map(|(j, g)| g * (p[m - 1 - j] - p[m - 2 - j]));
@@ -291,11 +303,11 @@ pub(super) fn linear_growth(disc: &FixedDisc<'_>, stiffness: f64, step: f64) -> 
         for v in &mut p {
             *v /= size;
         }
-        if n >= STEPS / 2 {
+        if n >= RECURRENCE_STEPS / 2 {
             growth += size.ln();
         }
     }
-    (growth / (STEPS / 2) as f64).exp()
+    (growth / (RECURRENCE_STEPS / 2) as f64).exp()
 }
 
 /// A disc of another coupling under the `dynamic` share.
@@ -351,7 +363,7 @@ fn dynamic_share(paper: &FixedDisc<'_>, effort: Effort) -> Picture {
         match (exact, dynamic_is_solved(disc, step)) {
             (_, false) => 3,
             (None, true) => 2,
-            (Some(exact), true) => usize::from(exact.implicit(step) != Outcome::Accurate),
+            (Some(exact), true) => usize::from(exact.implicit(step) != MarchOutcome::Accurate),
         }
     });
     let [x, y] = map.plane;

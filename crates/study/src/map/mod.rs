@@ -14,7 +14,7 @@ use crate::picture::Picture;
 use figure::{Axis, Classes, Interval, Layer};
 
 /// A plane that is divided into cells, each of a class.
-struct Map<'a> {
+struct StabilityMap<'a> {
     plane: [Interval; 2],
     /// What its axes are.
     quantities: [&'a str; 2],
@@ -23,7 +23,7 @@ struct Map<'a> {
     classes: &'a [&'a str],
 }
 
-impl Map<'_> {
+impl StabilityMap<'_> {
     /// A picture of the class of every cell, from its number, by rows, and its ordinate.
     fn picture(
         &self,

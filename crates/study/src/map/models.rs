@@ -4,7 +4,7 @@
 //! that follows the load, and the coupling of a fixed disc, the paper's, whose whole deflection is added to Hertz's
 //! indentation; memory is the time that the waves need across the contact, over Hertz's contact time.
 
-use super::Map;
+use super::StabilityMap;
 use crate::measure::Effort;
 use crate::picture::Picture;
 use crate::question::marching::errors;
@@ -194,7 +194,7 @@ impl Plane {
     /// what is added at a tolerance.
     fn pictures(
         &self,
-        map: &Map<'_>,
+        map: &StabilityMap<'_>,
         names: [&'static str; 3],
         steps: usize,
         advance: &dyn Fn(),
@@ -266,7 +266,7 @@ fn growing_figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Picture>, A
     let [x, y] = [(0.01, 1.15), (1e-4, 3.0)].map(|(low, high)| Interval::logarithmic(low, high));
     let share = "static deflection of the half-space over indentation";
     let unsettled = "growing, not yet converged to 1e-2";
-    let map = Map {
+    let map = StabilityMap {
         plane: [x, y],
         quantities: [share, MEMORY],
         shape,
@@ -302,7 +302,7 @@ fn disc_figures(effort: Effort) -> Result<Vec<Picture>, AnyError> {
     let plane = Plane::new(Family::Full, 0.3)?;
     let response = &plane.centre;
     let paper = paper_disc(TABLE_1_PA, response)?;
-    let map = Map {
+    let map = StabilityMap {
         plane: [[1e-3, 10.0], [1e-4, 1.0]].map(|[low, high]| Interval::logarithmic(low, high)),
         quantities: ["static deflection over indentation (coupling)", MEMORY],
         shape: effort.pick([14, 12], [40, 40]),

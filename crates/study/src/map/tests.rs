@@ -5,7 +5,7 @@ use super::kernels::{
     incompressible_error, incompressible_surface,
 };
 use super::marches::{
-    Converged, Outcome, admittance, dynamic_growth_limit, dynamic_is_solved, dynamic_limit,
+    Converged, MarchOutcome, admittance, dynamic_growth_limit, dynamic_is_solved, dynamic_limit,
     linear_growth,
 };
 use super::models::{Plane, SPEEDS_M_S, TOLERANCES, place_of, targets};
@@ -77,14 +77,14 @@ fn the_explicit_march_blows_up_beyond_its_boundary_and_not_well_below() {
         let exact = Converged::new(disc.clone()).unwrap();
         let beyond = exact.explicit(2.0 * exact.stable_step());
         assert!(
-            matches!(beyond, Outcome::BlownUp | Outcome::Oscillates),
+            matches!(beyond, MarchOutcome::BlownUp | MarchOutcome::Oscillates),
             "{scale}: {beyond:?}"
         );
         let below = exact.explicit(0.5 * exact.smooth_step());
         assert!(
             matches!(
                 below,
-                Outcome::Accurate | Outcome::Lossy | Outcome::GainsEnergy
+                MarchOutcome::Accurate | MarchOutcome::Lossy | MarchOutcome::GainsEnergy
             ),
             "{scale}: {below:?}"
         );
@@ -104,7 +104,7 @@ fn the_implicit_march_is_stable_on_the_papers_plane_and_gains_no_energy() {
         for step in [2e-3, 8e-3, 0.03, 0.08] {
             let outcome = exact.implicit(step * CONTACT_TIME);
             assert!(
-                matches!(outcome, Outcome::Accurate | Outcome::Lossy),
+                matches!(outcome, MarchOutcome::Accurate | MarchOutcome::Lossy),
                 "{scale} {step}: {outcome:?}"
             );
             assert!(linear_growth(&disc, 1.5, step * CONTACT_TIME) < 1.0);
@@ -127,7 +127,7 @@ fn on_a_very_soft_half_space_steps_near_the_memory_settle() {
         assert!(linear_growth(&disc, 1.5 * exact.summary.peak_force.cbrt(), step) < 1.0);
         let outcome = exact.implicit(step);
         assert!(
-            matches!(outcome, Outcome::Accurate | Outcome::Lossy),
+            matches!(outcome, MarchOutcome::Accurate | MarchOutcome::Lossy),
             "{step}: {outcome:?}"
         );
     }

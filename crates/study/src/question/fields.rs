@@ -10,8 +10,9 @@
 //! u(t) = P(t) static + int_0^t P'(t - x) R(x) dx,     P = sin^4(pi t/T)
 //! ```
 
-use super::kernels::{ALL, POISSON_RATIO};
-use crate::measure::{Effort, Rows, Run, Scene};
+use super::kernels::{ALL_FIELDS, POISSON_RATIO};
+use crate::measure::{Effort, Found, MeasuredScene, Rows};
+use crate::method::ComparedMethod;
 use crate::record::{Question, off, peaks};
 use crate::scenes::Density;
 use fault::AnyError;
@@ -58,7 +59,7 @@ pub(crate) fn measure(effort: Effort, densities: &[Density], advance: &dyn Fn())
     let mut records = Vec::new();
     for (name, interpolation, place, length) in &SCENES[..effort.pick(1, 3)] {
         let pulse = &PulseReference::new(&medium, *place, *length, EVERY, count)?;
-        let mut rows = Scene {
+        let mut rows = MeasuredScene {
             effort,
             question: Question::Fields,
             name,
@@ -78,7 +79,7 @@ pub(crate) fn measure(effort: Effort, densities: &[Density], advance: &dyn Fn())
 }
 
 /// Samples with their number, the work.
-fn counted(samples: Vec<Six>) -> Run<Vec<Six>> {
+fn counted(samples: Vec<Six>) -> Found<Vec<Six>> {
     let count = samples.len() as u64;
     Ok((samples, Some(count)))
 }
@@ -110,15 +111,18 @@ pub(crate) fn computed(
 }
 
 /// Cells computed for the point itself, for a force that is linear or smooth between samples.
-fn exact_cells(pulse: &PulseReference, rows: &mut Scene<'_, Vec<Six>>) -> Result<(), AnyError> {
+fn exact_cells(
+    pulse: &PulseReference,
+    rows: &mut MeasuredScene<'_, Vec<Six>>,
+) -> Result<(), AnyError> {
+    use ComparedMethod::{Direct, DirectLinear};
     let medium = Medium::new(POISSON_RATIO)?;
-    let linear = "direct, linear cells";
     // method, smoothness, kernel tolerance and halvings of the step; the program's own tolerance goes with the scene's
     let settings: [(_, _, f64, [&[i32]; 2]); 4] = [
-        ("direct", Smooth, 1e-8, [&[1, 3], &[0, 1, 2, 3, 4, 5]]),
-        ("direct", Smooth, 1e-12, [&[], &[2, 3, 4, 5]]),
-        ("direct", Smooth, 1e-4, [&[], &[1, 2, 3]]),
-        (linear, Linear, 1e-8, [&[3], &[0, 1, 2, 3, 4, 5]]),
+        (Direct, Smooth, 1e-8, [&[1, 3], &[0, 1, 2, 3, 4, 5]]),
+        (Direct, Smooth, 1e-12, [&[], &[2, 3, 4, 5]]),
+        (Direct, Smooth, 1e-4, [&[], &[1, 2, 3]]),
+        (DirectLinear, Linear, 1e-8, [&[3], &[0, 1, 2, 3, 4, 5]]),
     ];
     for (method, smoothness, tolerance, [quick, full]) in settings {
         let source = KernelSource::direct(&medium, tolerance)?;
@@ -147,17 +151,22 @@ fn exact_cells(pulse: &PulseReference, rows: &mut Scene<'_, Vec<Six>>) -> Result
 fn looked_up(
     densities: &[Density],
     pulse: &PulseReference,
-    rows: &mut Scene<'_, Vec<Six>>,
+    rows: &mut MeasuredScene<'_, Vec<Six>>,
 ) -> Result<(), AnyError> {
     use Method::{Direct, Transform};
     // for which forces, and how they are summed: none is by running sums of the two exponentials of the pulse
     let own = [
-        ("table, direct sums", Smooth, Some(Direct), true),
-        ("table, FFT", Smooth, Some(Transform), true),
-        ("table, linear cells", Linear, Some(Transform), false),
-        ("table, sums for this pulse only", Smooth, None, false),
+        (ComparedMethod::TableDirectSums, Smooth, Some(Direct), true),
+        (
+            ComparedMethod::TableTransform,
+            Smooth,
+            Some(Transform),
+            true,
+        ),
+        (ComparedMethod::TableLinear, Linear, Some(Transform), false),
+        (ComparedMethod::TableOfPulse, Smooth, None, false),
     ];
-    let method = "table, other nodes or points";
+    let method = ComparedMethod::TableOther;
     let other = [(method, Smooth, Some(Transform), false)];
     let (effort, [r, z]) = (rows.effort, pulse.place);
     for density in densities {
@@ -275,7 +284,7 @@ impl PulseReference {
             samples[place as usize]
         };
         let found: Vec<Six> = self.times.iter().map(at).collect();
-        off(&found, &self.exact, &self.peak, &ALL)
+        off(&found, &self.exact, &self.peak, &ALL_FIELDS)
     }
 }
 
@@ -298,7 +307,10 @@ pub(crate) fn series(point: &lookup::Numbers, width: f64, count: usize) -> Vec<S
 
 /// Interpolating the whole response against interpolating the remainder beside the exact static part: by the same stencils
 /// over the same exact kernels in double precision.
-fn interpolations(pulse: &PulseReference, rows: &mut Scene<'_, Vec<Six>>) -> Result<(), AnyError> {
+fn interpolations(
+    pulse: &PulseReference,
+    rows: &mut MeasuredScene<'_, Vec<Six>>,
+) -> Result<(), AnyError> {
     let [r, z] = pulse.place;
     let width = 0.1;
     let count = pulse.force(width).len();
@@ -326,8 +338,8 @@ fn interpolations(pulse: &PulseReference, rows: &mut Scene<'_, Vec<Six>>) -> Res
             }
             // what of the static part is interpolated
             for (method, inside) in [
-                ("interpolated whole response", 1.0),
-                ("interpolated remainder", 0.0),
+                (ComparedMethod::WholeResponse, 1.0),
+                (ComparedMethod::RemainderAlone, 0.0),
             ] {
                 let run = || {
                     let mut sum = vec![[0.0; 6]; count];

@@ -3,8 +3,9 @@
 //! One value is one impact; its error is the largest over peak force, contact time, restitution and
 //! peak displacement against the converged march of the fullest model of its family.
 
-use super::marching::{Order, errors, march};
-use crate::measure::{Effort, Rows, Run, Scene, at};
+use super::marching::{MarchOrder, errors, march};
+use crate::measure::{Effort, Found, MeasuredScene, Rows, at};
+use crate::method::ComparedMethod;
 use crate::record::{Question, Record};
 use crate::scenes::{ball, paper_disc, paper_response};
 use contact::law::area_dashpot::AreaDashpot;
@@ -45,7 +46,7 @@ pub(crate) fn measure(effort: Effort, advance: &dyn Fn()) -> Rows {
     let growing_exact = solve_growing(&growing, &Accuracy::of_contact(1e-10, None))?.summary;
 
     let mut records = Vec::new();
-    let mut scene = Scene {
+    let mut scene = MeasuredScene {
         effort,
         question: Question::Force,
         name: DISC,
@@ -76,7 +77,7 @@ fn work(history: &History, memory: f64) -> u64 {
 }
 
 /// The results of a march with so much memory, and its work.
-fn measured(history: &History, memory: f64) -> Run<Summary> {
+fn measured(history: &History, memory: f64) -> Found<Summary> {
     Ok((Summary::new(history)?, Some(work(history, memory))))
 }
 
@@ -84,11 +85,11 @@ fn measured(history: &History, memory: f64) -> Run<Summary> {
 ///
 /// The program halves its step instead: nobody tells it how many are enough.
 fn stepped(
-    scene: &mut Scene<'_, Summary>,
-    method: &'static str,
+    scene: &mut MeasuredScene<'_, Summary>,
+    method: ComparedMethod,
     duration: f64,
     [quick, full]: [&[usize]; 2],
-    march: impl Fn(f64) -> Run<Summary>,
+    march: impl Fn(f64) -> Found<Summary>,
 ) -> Result<(), AnyError> {
     for &n in scene.effort.pick(quick, full) {
         scene.add(method, format!("{n} steps"), || march(duration / n as f64))?;
@@ -97,17 +98,23 @@ fn stepped(
 }
 
 /// The marches of a fixed disc by their numbers of steps, and the closed forms.
-fn on_disc(scene: &mut Scene<'_, Summary>, disc: &FixedDisc<'_>) -> Result<(), AnyError> {
+fn on_disc(scene: &mut MeasuredScene<'_, Summary>, disc: &FixedDisc<'_>) -> Result<(), AnyError> {
     let (duration, memory) = (quasi_static(disc.coupling).0.contact_time, disc.memory());
     let steps: [&[usize]; 2] = [
         &[16, 64, 256],
         &[12, 16, 24, 32, 64, 128, 256, 512, 1024, 2048],
     ];
     let implicit = |step| measured(&march_implicit(disc, step)?, memory);
-    stepped(scene, "wave implicit", duration, steps, implicit)?;
+    stepped(
+        scene,
+        ComparedMethod::WaveImplicit,
+        duration,
+        steps,
+        implicit,
+    )?;
     for (method, order) in [
-        ("implicit of order 1", Order::First),
-        ("implicit of order 2", Order::Second),
+        (ComparedMethod::ImplicitFirst, MarchOrder::First),
+        (ComparedMethod::ImplicitSecond, MarchOrder::Second),
     ] {
         let steps: [&[usize]; 2] = [&[32, 256], &[16, 64, 256, 1024, 4096]];
         let march = |step| Ok(march(disc, step, order));
@@ -121,13 +128,15 @@ fn on_disc(scene: &mut Scene<'_, Summary>, disc: &FixedDisc<'_>) -> Result<(), A
         let (history, summary) = march_explicit(disc, step)?;
         Ok((summary, Some(work(&history, memory))))
     };
-    let method = "wave explicit (the paper's)";
+    let method = ComparedMethod::WaveExplicit;
     stepped(scene, method, duration, steps, explicit)?;
-    closed(scene, "hertz", "closed form", || radiation(black_box(0.0)))?;
+    closed(scene, ComparedMethod::Hertz, "closed form", || {
+        radiation(black_box(0.0))
+    })?;
     let lag = disc.coupling * disc.wave_time * disc.response.disc.relaxation_time;
     for (method, lag) in [
-        ("two springs, no waves", 0.0),
-        ("two springs, first-order loss", lag),
+        (ComparedMethod::TwoSprings, 0.0),
+        (ComparedMethod::TwoSpringsWithLoss, lag),
     ] {
         let found = || quasi_static_radiation(black_box(disc.coupling), lag);
         closed(scene, method, "closed form", found)?.default_path = true;
@@ -137,8 +146,8 @@ fn on_disc(scene: &mut Scene<'_, Summary>, disc: &FixedDisc<'_>) -> Result<(), A
 
 /// A closed form.
 fn closed<'a>(
-    scene: &'a mut Scene<'_, Summary>,
-    method: &'static str,
+    scene: &'a mut MeasuredScene<'_, Summary>,
+    method: ComparedMethod,
     setting: &str,
     found: impl Fn() -> Summary,
 ) -> Result<&'a mut Record, AnyError> {
@@ -147,8 +156,8 @@ fn closed<'a>(
 
 /// A march whose step is halved until a tolerance is met, over a contact of some duration with some memory.
 fn halved<'a>(
-    scene: &'a mut Scene<'_, Summary>,
-    method: &'static str,
+    scene: &'a mut MeasuredScene<'_, Summary>,
+    method: ComparedMethod,
     tolerance: f64,
     [duration, memory]: [f64; 2],
     march: impl Fn(f64) -> Result<History, MarchError>,
@@ -172,11 +181,14 @@ fn tolerances(digits: impl IntoIterator<Item = i32>) -> impl Iterator<Item = f64
 }
 
 /// The marches whose step is halved until a tolerance is met: for one scene, and for the scenes of a sweep.
-fn to_tolerance(scene: &mut Scene<'_, Summary>, disc: &FixedDisc<'_>) -> Result<(), AnyError> {
+fn to_tolerance(
+    scene: &mut MeasuredScene<'_, Summary>,
+    disc: &FixedDisc<'_>,
+) -> Result<(), AnyError> {
     let (duration, memory) = (quasi_static(disc.coupling).0.contact_time, disc.memory());
     let table = ResponseTable::new(disc.response);
     for tolerance in tolerances(3..=scene.effort.pick(5, 9)) {
-        let method = "wave implicit, step halved to tolerance";
+        let method = ComparedMethod::WaveHalved;
         let march = |step| march_implicit(disc, step);
         halved(scene, method, tolerance, [duration, memory], march)?.default_path = true;
         let history = RefCell::new(History::default());
@@ -196,7 +208,7 @@ fn to_tolerance(scene: &mut Scene<'_, Summary>, disc: &FixedDisc<'_>) -> Result<
             let work = (4.0 / 3.0 * steps * cells) as u64;
             Ok((found.summary, Some(work)))
         };
-        let method = "wave implicit, as in sweeps";
+        let method = ComparedMethod::WaveInSweeps;
         let row = scene.add(method, at(tolerance), in_sweep)?;
         row.default_path = true;
     }
@@ -204,7 +216,7 @@ fn to_tolerance(scene: &mut Scene<'_, Summary>, disc: &FixedDisc<'_>) -> Result<
 }
 
 /// What sweeps do with many contacts of two materials: series for a million alike, made before they are timed.
-fn from_series(scene: &mut Scene<'_, Summary>, impact: &Impact) -> Result<(), AnyError> {
+fn from_series(scene: &mut MeasuredScene<'_, Summary>, impact: &Impact) -> Result<(), AnyError> {
     const CONTACTS: usize = 1_000_000;
     let (collision, responses) = (impact.collision(), Tabulated::default());
     for tolerance in tolerances(3..=scene.effort.pick(4, 8)) {
@@ -217,7 +229,7 @@ fn from_series(scene: &mut Scene<'_, Summary>, impact: &Impact) -> Result<(), An
             Ok((solved.summary, None))
         };
         solve()?;
-        let method = "series, as in large sweeps";
+        let method = ComparedMethod::Series;
         scene.add(method, at(tolerance), solve)?.default_path = true;
     }
     Ok(())
@@ -225,25 +237,31 @@ fn from_series(scene: &mut Scene<'_, Summary>, impact: &Impact) -> Result<(), An
 
 /// A contact that follows the load: closed forms, the march with a uniform step, polynomial pieces.
 fn following(
-    scene: &mut Scene<'_, Summary>,
+    scene: &mut MeasuredScene<'_, Summary>,
     growing: &GrowingContact<'_>,
     lag: f64,
 ) -> Result<(), AnyError> {
     let terms = AreaDashpot::new(growing);
     let hertz = || radiation(black_box(0.0));
-    closed(scene, "hertz", "closed form", hertz)?.default_path = true;
+    closed(scene, ComparedMethod::Hertz, "closed form", hertz)?.default_path = true;
     let first = || radiation(black_box(lag));
-    closed(scene, "radiation", "first order", first)?.default_path = true;
+    closed(scene, ComparedMethod::Radiation, "first order", first)?.default_path = true;
     let third = "third order in the memory";
     let dashpot = || black_box(terms).summary();
-    closed(scene, "area dashpot", third, dashpot)?.default_path = true;
+    closed(scene, ComparedMethod::AreaDashpot, third, dashpot)?.default_path = true;
     let memory = growing.waves.memory * growing.wave_time;
     let steps: [&[usize]; 2] = [&[16, 64], &[12, 16, 24, 32, 64, 128, 256, 512]];
     let march = |step| measured(&march_growing(growing, step)?, memory);
-    stepped(scene, "growing", CONTACT_TIME, steps, march)?;
+    stepped(
+        scene,
+        ComparedMethod::GrowingUniform,
+        CONTACT_TIME,
+        steps,
+        march,
+    )?;
     for tolerance in tolerances(3..=scene.effort.pick(4, 5)) {
         // what is left where the pieces do not serve
-        let method = "growing, step halved to tolerance";
+        let method = ComparedMethod::GrowingHalved;
         let march = |step| march_growing(growing, step);
         halved(scene, method, tolerance, [CONTACT_TIME, memory], march)?;
     }
@@ -254,7 +272,7 @@ fn following(
             let solved = solve_growing(growing, &accuracy)?;
             Ok((solved.summary, Some(solved.pieces() as u64)))
         };
-        let method = "growing, polynomial pieces";
+        let method = ComparedMethod::GrowingPieces;
         scene.add(method, at(tolerance), solve)?.default_path = true;
     }
     Ok(())

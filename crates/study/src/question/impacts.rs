@@ -5,7 +5,8 @@
 
 use super::fields;
 use super::kernels::POISSON_RATIO;
-use crate::measure::{Effort, Rows, Scene, at};
+use crate::measure::{Effort, MeasuredScene, Rows, at};
+use crate::method::ComparedMethod;
 use crate::record::{Question, peaks};
 use crate::scenes::Density;
 use contact::Model;
@@ -37,7 +38,7 @@ pub(crate) fn measure(effort: Effort, densities: &[Density], advance: &dyn Fn())
     let own = densities.iter().find(|d| d.is_default(Density::points()));
     let mut records = Vec::new();
     for probed in scenes()? {
-        let mut scene = Scene {
+        let mut scene = MeasuredScene {
             effort,
             question: Question::Impacts,
             name: probed.name,
@@ -48,13 +49,19 @@ pub(crate) fn measure(effort: Effort, densities: &[Density], advance: &dyn Fn())
         let tolerances: &[f64] = effort.pick(&[1e-3, 1e-5], &[1e-2, 1e-3, 1e-4, 1e-5, 1e-6]);
         for &tolerance in tolerances {
             let run = || Ok((probed.computed(tolerance)?, None));
-            scene.add("computed", at(tolerance), run)?.default_path = true;
+            scene
+                .add(ComparedMethod::Computed, at(tolerance), run)?
+                .default_path = true;
         }
         if probed.impact.settings.model == Model::Wave {
             for halvings in effort.pick(vec![3], vec![1, 3, 5, 7]) {
                 let width = 0.5_f64.powi(halvings);
                 let run = || Ok((probed.cells_alone(width)?, None));
-                scene.add("cells alone", format!("step {width} r0/c1"), run)?;
+                scene.add(
+                    ComparedMethod::CellsAlone,
+                    format!("step {width} r0/c1"),
+                    run,
+                )?;
             }
         }
         if let Some(density) = own {
@@ -63,7 +70,7 @@ pub(crate) fn measure(effort: Effort, densities: &[Density], advance: &dyn Fn())
             for &tolerance in tolerances.iter().filter(|_| probed.is_within(&table)) {
                 let source = KernelSource::Table(table.clone());
                 let run = || Ok((probed.fields(tolerance, source.clone())?, None));
-                let row = scene.add("looked up", at(tolerance), run)?;
+                let row = scene.add(ComparedMethod::LookedUp, at(tolerance), run)?;
                 row.default_path = true;
             }
         }

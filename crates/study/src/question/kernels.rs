@@ -4,7 +4,8 @@
 //! integral at a tolerance of 1e-14, or the closed form of Kausel (2012) at the centre of the surface.
 
 use crate::inversion::Inversion;
-use crate::measure::{Effort, Rows, Scene, at};
+use crate::measure::{Effort, MeasuredScene, Rows, at};
+use crate::method::ComparedMethod;
 use crate::record::{Question, off, peaks, sizes};
 use crate::scenes::Density;
 use fault::AnyError;
@@ -36,10 +37,10 @@ pub(crate) const POISSON_RATIO: f64 = 0.3;
 const INTERIOR: [f64; 2] = [0.55, 0.65];
 
 /// How near the fronts are looked at, after and before them: over their times.
-const NEAR: [f64; 2] = [0.01, -0.01];
+const NEAR_FRONTS: [f64; 2] = [0.01, -0.01];
 
 /// All six fields.
-pub(crate) const ALL: [usize; 6] = [0, 1, 2, 3, 4, 5];
+pub(crate) const ALL_FIELDS: [usize; 6] = [0, 1, 2, 3, 4, 5];
 
 impl KernelScene {
     /// Six fields at a point inside, from before the first arrival to long after the last.
@@ -47,13 +48,13 @@ impl KernelScene {
     /// `near` are distances from every arrival, over its time, that are looked at too.
     pub(crate) fn interior(medium: &Medium, count: usize, near: &[f64]) -> Result<Self, AnyError> {
         let name = "interior point, across the fronts";
-        Self::new(name, medium, INTERIOR, count, &ALL, near)
+        Self::new(name, medium, INTERIOR, count, &ALL_FIELDS, near)
     }
 
     /// The same point where all fields are smooth: inversions at their best.
     fn late(medium: &Medium, count: usize) -> Result<Self, AnyError> {
         let name = "interior point, after the last front";
-        let mut scene = Self::new(name, medium, INTERIOR, 3 * count, &ALL, &[])?;
+        let mut scene = Self::new(name, medium, INTERIOR, 3 * count, &ALL_FIELDS, &[])?;
         let last = scene.arrivals[scene.arrivals.len() - 1];
         let first = scene.times.partition_point(|&t| t < 1.05 * last);
         scene.times.drain(..first);
@@ -148,7 +149,7 @@ impl KernelScene {
 pub(crate) fn measure(effort: Effort, densities: &[Density], progress: &dyn Progress) -> Rows {
     let medium = Medium::new(POISSON_RATIO)?;
     let count = effort.pick(8, 40);
-    let near = effort.pick(&NEAR[..1], &NEAR[..]);
+    let near = effort.pick(&NEAR_FRONTS[..1], &NEAR_FRONTS[..]);
     let mut records = Vec::new();
     let scenes = [
         KernelScene::interior(&medium, count, near)?,
@@ -159,7 +160,7 @@ pub(crate) fn measure(effort: Effort, densities: &[Density], progress: &dyn Prog
     let inversions = Inversion::all(effort);
     progress.total("kernels", (scenes.len() * (inversions.len() + 1)) as u64);
     for scene in &scenes {
-        let mut rows = Scene {
+        let mut rows = MeasuredScene {
             effort,
             question: Question::Kernels,
             name: scene.name,
@@ -171,24 +172,24 @@ pub(crate) fn measure(effort: Effort, densities: &[Density], progress: &dyn Prog
             let tolerance = 10.0_f64.powi(-digits);
             let kernel = Kernel::new(&medium, Profile::Hertz, tolerance)?;
             let run = || Ok((scene.by_kernel(&kernel)?, None));
-            let row = rows.add("single integral", at(tolerance), run)?;
+            let row = rows.add(ComparedMethod::SingleIntegral, at(tolerance), run)?;
             row.default_path = scene.place[1] > 0.0;
         }
         progress.advance(1);
         for inversion in &inversions {
             let run = || inversion.run(&medium, scene.place, &scene.times);
-            rows.add(inversion.name, &inversion.setting, run)?;
+            rows.add(inversion.method, &inversion.setting, run)?;
             progress.advance(1);
         }
         if scene.place == [0.0, 0.0] {
             // what the impact equation uses, and what it is compared with
             let response = SurfaceResponse::new(&medium, Deflection::Centre);
             let fitted = || Ok((scene.at_centre(|t| response.step(t)), None));
-            let row = rows.add("surface response", "fitted once", fitted)?;
+            let row = rows.add(ComparedMethod::SurfaceResponse, "fitted once", fitted)?;
             row.default_path = true;
             let kausel = |t: f64| kausel::centre_step(&medium, medium.kappa() * t);
             let closed = || Ok((scene.at_centre(kausel), None));
-            let reference = "closed form (Kausel): the reference";
+            let reference = ComparedMethod::Kausel;
             rows.add(reference, "no settings", closed)?;
         }
     }
@@ -217,16 +218,17 @@ fn tables(scene: &KernelScene, densities: &[Density], effort: Effort) -> Rows {
                 table.trace(linear, nu, r, z, 0, &mut cells)?;
                 Ok((cells, Some(0)))
             };
-            let mut rows = Scene {
+            let mut rows = MeasuredScene {
                 effort,
                 question: Question::Kernels,
                 name: scene.name,
                 values: count as f64,
-                errors: &|cells: &Vec<Six>| Ok(off(cells, &exact, &scene.scale, &ALL)),
+                errors: &|cells: &Vec<Six>| Ok(off(cells, &exact, &scene.scale, &ALL_FIELDS)),
                 records: &mut records,
             };
             let setting = format!("{}, {points} points", density.label());
-            rows.add("table", setting, run)?.default_path = density.is_default(points);
+            rows.add(ComparedMethod::TableOfKernels, setting, run)?
+                .default_path = density.is_default(points);
         }
     }
     Ok(records)

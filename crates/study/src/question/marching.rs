@@ -12,7 +12,7 @@ use contact::{FixedDisc, Summary};
 
 /// Shape of the force within a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Order {
+pub(crate) enum MarchOrder {
     First,
     Second,
 }
@@ -33,21 +33,25 @@ pub(crate) fn errors(found: &Summary, exact: &Summary) -> [f64; 4] {
 }
 
 /// Marches until the first separation: the results that [`errors`] looks at, and the work, steps times cells of memory.
-pub(crate) fn march(impact: &FixedDisc<'_>, step: f64, order: Order) -> (Summary, Option<u64>) {
+pub(crate) fn march(
+    impact: &FixedDisc<'_>,
+    step: f64,
+    order: MarchOrder,
+) -> (Summary, Option<u64>) {
     const MOST_STEPS: usize = 1_000_000;
     let cell = step / impact.wave_time;
     let cells = (impact.response.disc.memory / cell).ceil() as usize + 1;
     let response = impact.response;
     let followed = |from: f64, to: f64| match order {
-        Order::First => response.step(to),
-        Order::Second => (response.step_integral(to) - response.step_integral(from)) / cell,
+        MarchOrder::First => response.step(to),
+        MarchOrder::Second => (response.step_integral(to) - response.step_integral(from)) / cell,
     };
     let lag = |j: usize| 1.0 - followed(j as f64 * cell, (j + 1) as f64 * cell);
     let lag: Vec<f64> = (0..cells).map(lag).collect();
     // what the newest force does to v h, and to d
     let (swing, push) = match order {
-        Order::First => ([0.0, 1.0], [0.0, 0.5]),
-        Order::Second => ([0.5, 0.5], [1.0 / 3.0, 1.0 / 6.0]),
+        MarchOrder::First => ([0.0, 1.0], [0.0, 0.5]),
+        MarchOrder::Second => ([0.5, 0.5], [1.0 / 3.0, 1.0 / 6.0]),
     };
     let inertia = 1.25 * step * step;
     let compliance = inertia * push[1] + impact.coupling * (1.0 - lag[0]);
@@ -133,7 +137,7 @@ mod tests {
         let exact = exact.summary;
         let own = Summary::new(&march_implicit(&impact, 0.01).unwrap()).unwrap();
         assert!((own.peak_force / exact.peak_force - 1.0).abs() < 1e-5);
-        for (order, least) in [(Order::First, 0.9), (Order::Second, 1.7)] {
+        for (order, least) in [(MarchOrder::First, 0.9), (MarchOrder::Second, 1.7)] {
             let error = |step: f64| {
                 let errors = errors(&march(&impact, step, order).0, &exact);
                 errors.iter().fold(0.0_f64, |a, e| a.max(e.abs()))

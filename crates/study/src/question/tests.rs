@@ -1,10 +1,12 @@
 //! Where the default path stands, by errors and work counts.
 
+use crate::ComparedMethod;
 use crate::measure::Effort;
 use crate::question;
 use crate::ranking::{LEVELS, rankings};
 use crate::record::{Question, Record};
 use crate::scenes::Density;
+use contact::Choice;
 use std::sync::OnceLock;
 use tabulator::Silent;
 
@@ -17,7 +19,10 @@ fn kernels() -> &'static [Record] {
 #[test]
 fn the_single_integral_meets_its_tolerance_and_no_inversion_comes_near_it_across_the_fronts() {
     let records = kernels();
-    for record in records.iter().filter(|r| r.method == "single integral") {
+    for record in records
+        .iter()
+        .filter(|r| r.method == ComparedMethod::SingleIntegral)
+    {
         let tolerance: f64 = record.setting.replace("tolerance ", "").parse().unwrap();
         assert!(record.error_max <= 3.0 * tolerance, "{record:?}");
         assert!(!record.failed());
@@ -34,7 +39,7 @@ fn talbot_leaves_the_numbers_before_the_last_front_and_not_after() {
     let worst = |scene: &str| {
         records
             .iter()
-            .filter(|r| r.method == "fixed Talbot" && r.scene == scene)
+            .filter(|r| r.method == ComparedMethod::FixedTalbot && r.scene == scene)
             .map(|r| (r.error_max, r.failed()))
             .fold((f64::INFINITY, false), |a, b| if b.0 < a.0 { b } else { a })
     };
@@ -45,7 +50,7 @@ fn talbot_leaves_the_numbers_before_the_last_front_and_not_after() {
 }
 
 /// Least work of a method in a scene at an accuracy.
-fn least_work(records: &[Record], scene: &str, method: &str, level: f64) -> f64 {
+fn least_work(records: &[Record], scene: &str, method: ComparedMethod, level: f64) -> f64 {
     let rows = records.iter().filter(|r| r.scene == scene);
     let rows = rows.filter(|r| r.method == method && !r.failed() && r.error_max <= level);
     rows.filter_map(|r| r.work).fold(f64::INFINITY, f64::min)
@@ -56,14 +61,14 @@ fn the_implicit_march_is_on_the_front_by_work() {
     let records = question::force::measure(Effort::Quick, &|| ()).unwrap();
     let disc = question::force::DISC;
     for level in LEVELS {
-        let of = |method: &str| least_work(&records, disc, method, level);
+        let of = |method: ComparedMethod| least_work(&records, disc, method, level);
         // the scheme alone, at a number of steps: nothing needs less than a tenth below it
         for other in [
-            "implicit of order 1",
-            "implicit of order 2",
-            "wave explicit (the paper's)",
+            ComparedMethod::ImplicitFirst,
+            ComparedMethod::ImplicitSecond,
+            ComparedMethod::WaveExplicit,
         ] {
-            let (own, other) = (of("wave implicit"), of(other));
+            let (own, other) = (of(ComparedMethod::WaveImplicit), of(other));
             assert!(other == f64::INFINITY || own <= 1.1 * other, "{level:e}");
         }
     }
@@ -79,14 +84,14 @@ fn the_implicit_march_is_on_the_front_by_work() {
     assert!(reached(1e-3) && reached(1e-6));
     let explicit: Vec<&Record> = records
         .iter()
-        .filter(|r| r.method.starts_with("wave explicit"))
+        .filter(|r| r.method == ComparedMethod::WaveExplicit)
         .collect();
     assert!(explicit.len() >= 3 && explicit.iter().all(|r| r.error_max > 1e-4));
     // hertz has no error of its own to show: it is right only where nothing is radiated
     let hertz = |scene: &str| {
         records
             .iter()
-            .find(|r| r.scene == scene && r.method == "hertz")
+            .find(|r| r.scene == scene && r.method == ComparedMethod::Hertz)
             .map(|r| r.error_max)
             .unwrap()
     };
@@ -111,26 +116,29 @@ fn fields() -> &'static [Record] {
 #[test]
 fn smooth_cells_beat_linear_ones_and_the_remainder_the_whole_response() {
     let records = fields();
-    let errors = |method: &str, part: &str| -> f64 {
+    let errors = |method: ComparedMethod, part: &str| -> f64 {
         records
             .iter()
             .filter(|r| r.method == method && r.setting.contains(part))
             .map(|r| r.error_max)
             .fold(f64::INFINITY, f64::min)
     };
-    let linear = errors("table, linear cells", "step 0.1,");
-    let smooth = errors("table, FFT", "step 0.1,");
+    let linear = errors(ComparedMethod::TableLinear, "step 0.1,");
+    let smooth = errors(ComparedMethod::TableTransform, "step 0.1,");
     assert!(smooth < 0.01 * linear, "{smooth:e} {linear:e}");
     // second order against fourth: a step four times as long
-    let ratio = errors("table, linear cells", "step 0.4,") / linear;
+    let ratio = errors(ComparedMethod::TableLinear, "step 0.4,") / linear;
     assert!((4.0..64.0).contains(&ratio), "{ratio}");
-    let ratio = errors("table, FFT", "step 0.4,") / smooth;
+    let ratio = errors(ComparedMethod::TableTransform, "step 0.4,") / smooth;
     assert!((64.0..1024.0).contains(&ratio), "{ratio}");
-    let whole = errors("interpolated whole response", "");
-    let remainder = errors("interpolated remainder", "");
+    let whole = errors(ComparedMethod::WholeResponse, "");
+    let remainder = errors(ComparedMethod::RemainderAlone, "");
     assert!(remainder < 0.3 * whole, "{remainder:e} {whole:e}");
     // the three ways to sum are one number
-    for method in ["table, direct sums", "table, sums for this pulse only"] {
+    for method in [
+        ComparedMethod::TableDirectSums,
+        ComparedMethod::TableOfPulse,
+    ] {
         assert!((errors(method, "step 0.1,") / smooth - 1.0).abs() < 1e-6);
     }
     assert!(
@@ -139,7 +147,7 @@ fn smooth_cells_beat_linear_ones_and_the_remainder_the_whole_response() {
             .all(|r| r.question == Question::Fields && r.work.is_some())
     );
     // cells computed for the point itself: fourth order with first and second moments
-    let orders = ["direct, linear cells", "direct"];
+    let orders = [ComparedMethod::DirectLinear, ComparedMethod::Direct];
     let [linear, cubic] = orders.map(|method| errors(method, "step 0.2,"));
     assert!(cubic < 0.01 * linear, "{linear:e} {cubic:e}");
 }
@@ -200,13 +208,24 @@ fn a_table_knows_its_errors_near_the_edge_and_for_short_pulses() {
 fn whole_impacts_hold_their_tolerance_and_cells_alone_do_not() {
     let records = question::impacts::measure(Effort::Quick, &[], &|| ()).unwrap();
     for r in &records {
-        println!("{} {} {} {:.1e}", r.scene, r.method, r.setting, r.error_max);
+        println!(
+            "{} {} {} {:.1e}",
+            r.scene,
+            r.method.name(),
+            r.setting,
+            r.error_max
+        );
     }
-    for record in records.iter().filter(|r| r.method == "computed") {
+    for record in records
+        .iter()
+        .filter(|r| r.method == ComparedMethod::Computed)
+    {
         let tolerance: f64 = record.setting.replace("tolerance ", "").parse().unwrap();
         assert!(record.error_max <= 3.0 * tolerance, "{record:?}");
     }
-    let alone = records.iter().filter(|r| r.method == "cells alone");
+    let alone = records
+        .iter()
+        .filter(|r| r.method == ComparedMethod::CellsAlone);
     let least = alone.map(|r| r.error_max).fold(f64::INFINITY, f64::min);
     assert!(least > 1e-5, "{least:e}");
 }

@@ -4,7 +4,7 @@ use crate::error::BuildError;
 use crate::grid::{Axis, Grid};
 
 /// Bytes that the numbers of a table may take in memory.
-const MOST_BYTES: f64 = 64e9;
+const MOST_TABLE_BYTES: f64 = 64e9;
 
 /// How often the numbers are in memory while a table is put together.
 const COPIES: f64 = 3.0;
@@ -39,7 +39,7 @@ impl Grid {
         axis("z", &self.z)?;
         let gigabytes = 1e-9 * self.bytes()?;
         let range = "64 GB";
-        let fits = gigabytes <= 1e-9 * MOST_BYTES;
+        let fits = gigabytes <= 1e-9 * MOST_TABLE_BYTES;
         setting("size of the table in memory in GB", gigabytes, fits, range)
     }
 

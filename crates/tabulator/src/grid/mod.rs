@@ -152,13 +152,15 @@ impl Grid {
 /// The text of a regular file: a pipe would wait for its other end, a device never ends.
 fn read(path: &Path) -> io::Result<String> {
     /// Bytes at most.
-    const MOST: u64 = 1 << 20;
+    const MOST_FILE_BYTES: u64 = 1 << 20;
     if !std::fs::metadata(path)?.is_file() {
         return Err(io::Error::other("it is not a regular file"));
     }
     let mut text = String::new();
-    File::open(path)?.take(MOST + 1).read_to_string(&mut text)?;
-    if text.len() as u64 > MOST {
+    File::open(path)?
+        .take(MOST_FILE_BYTES + 1)
+        .read_to_string(&mut text)?;
+    if text.len() as u64 > MOST_FILE_BYTES {
         return Err(io::Error::other("it has more than 1 MB"));
     }
     Ok(text)

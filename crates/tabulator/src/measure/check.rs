@@ -205,11 +205,11 @@ fn same_length(item: &str, needed: usize, found: usize) -> Result<(), ContentErr
 }
 
 /// Increment of the state (Steele, Lea and Flood 2014, SplitMix64).
-const STEP: u64 = 0x9e37_79b9_7f4a_7c15;
+const SPLIT_MIX_STEP: u64 = 0x9e37_79b9_7f4a_7c15;
 
 /// Number `index` of the SplitMix64 sequence that starts from the state `seed`.
 fn split_mix(seed: u64, index: u64) -> u64 {
-    let mut x = seed.wrapping_add(index.wrapping_add(1).wrapping_mul(STEP));
+    let mut x = seed.wrapping_add(index.wrapping_add(1).wrapping_mul(SPLIT_MIX_STEP));
     x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
     x ^ (x >> 31)

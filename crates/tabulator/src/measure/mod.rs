@@ -1,7 +1,6 @@
-//! How good a table is: errors off its grid (`verify`), the spacing that an error needs (`refine`), what is stored against
-//! the exact kernels (`check`), and one table against another (`difference`).
+//! How good a table is: the spacing that an error needs (`refine`), the stored numbers compared with the exact kernels
+//! (`check`), and one table compared with another (`difference`).
 
 pub(crate) mod check;
 pub(crate) mod difference;
 pub(crate) mod refine;
-pub(crate) mod verify;

@@ -4,7 +4,7 @@ use crate::assemble::assemble;
 use crate::error::BuildError;
 use crate::grid::{Grid, within};
 use crate::progress::Progress;
-use crate::rows::Work;
+use crate::rows::TableWork;
 use std::collections::HashMap;
 
 /// Trials at most.
@@ -70,7 +70,7 @@ fn measure(grid: &Grid, pulse_length: f64, progress: &dyn Progress) -> Result<f6
         exact_ratios: Vec::new(),
         ..grid.clone()
     };
-    let work = Work::new(&slice, None, progress)?;
+    let work = TableWork::new(&slice, None, progress)?;
     let content = assemble(&work, work.rows(HashMap::new(), None)?)?;
     let is_asked = |&length: &f64| length == pulse_length;
     let index = content.pulse_lengths.iter().position(is_asked);

@@ -212,7 +212,7 @@ fn onto_ball(
     ))
 }
 
-/// Results of a velocity, with their names.
+/// Results of a velocity, with the names that the report and the columns of a table have.
 pub(super) fn named(results: &Results) -> [(&'static str, f64); 5] {
     [
         ("restitution", results.restitution),

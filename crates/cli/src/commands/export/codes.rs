@@ -1,7 +1,7 @@
 //! Inputs of LAMMPS and YADE: the numbers of a case and its laws, and scripts that take them.
 
 use crate::commands::export::case::Case;
-use crate::commands::export::law::{Law, Laws};
+use crate::commands::export::law::{Laws, PairLaw};
 
 /// Hertz's contact time over (m^2/(E*^2 R v))^(1/5).
 const HERTZ_TIME: f64 = 2.868;
@@ -171,7 +171,7 @@ pub(super) fn yade(case: &Case, laws: &Laws) -> String {
     }
     text += &format!("BALLS = {:?}  # radius in m and mass in kg\n", case.balls);
     text += "# E* in Pa, lag J/(mu c2) in m s/N of the area dashpot, ratio of damping of one restitution\nLAWS = {\n";
-    let mut law = |one: &str, two: &str, law: &Law| {
+    let mut law = |one: &str, two: &str, law: &PairLaw| {
         text += &format!(
             "    (\"{one}\", \"{two}\"): ({:?}, {:?}, {:?}),\n",
             law.modulus_pa, law.lag_m_s_n, law.ratio

@@ -6,7 +6,7 @@ use crate::failure::Failure;
 use crate::report::{short, si};
 use contact::{BodyError, HalfSpace, Material, Model, Plasticity, Striker};
 use impact::{Impact, Run};
-use serde_json::{Value, json};
+use serde::Serialize;
 
 /// The area dashpot's relative error in the loss over the square of the memory in collision times, and the memory up to
 /// which that holds: for Poisson's ratios from 0 to 0.45 and 0.02 to 0.99 of the compliance in the block 0.146 at most,
@@ -22,7 +22,16 @@ const OFF: f64 = 0.1 - 1e-3;
 /// inwards: more than is lost where it is printed with four digits.
 const FURTHEST: f64 = 100.0;
 const FACTOR: f64 = 1.1;
-const MARGIN: f64 = 1e-3;
+const RANGE_MARGIN: f64 = 1e-3;
+
+/// Results of the force law of a file, and the velocities in m/s between which it holds.
+#[derive(Debug, Serialize)]
+pub(super) struct LawReport {
+    contact_time_s: f64,
+    peak_force_n: f64,
+    from_m_s: Option<f64>,
+    to_m_s: Option<f64>,
+}
 
 /// A particle code.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -40,7 +49,7 @@ impl Code {
 
 /// A law: Hertz's spring of E*, and what it loses.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Law {
+pub(super) struct PairLaw {
     pub(super) modulus_pa: f64,
     /// Restitution at the velocity of the scene.
     pub(super) restitution: f64,
@@ -53,9 +62,9 @@ pub(super) struct Law {
 /// The laws of a file.
 pub(super) struct Laws {
     /// Of striker and target.
-    pub(super) both: Law,
+    pub(super) both: PairLaw,
     /// Of two balls of the striker's material, and of two of the target's where it is a ball.
-    pub(super) like: Vec<Law>,
+    pub(super) like: Vec<PairLaw>,
     /// Contact time of `both` at the velocity of the scene in s.
     pub(super) contact_time_s: f64,
     /// Its largest force there in N.
@@ -75,7 +84,7 @@ impl Laws {
             Damping::Area(lag) => lag,
             Damping::None | Damping::Ratio(_) => 0.0,
         };
-        let both = Law {
+        let both = PairLaw {
             modulus_pa: collision.effective_modulus_pa,
             restitution: case.run.restitution,
             lag_m_s_n: lag * units.length_m * units.time_s / units.force_n,
@@ -120,14 +129,14 @@ impl Laws {
         Ok(laws)
     }
 
-    /// Its numbers, for `--json`.
-    pub(super) fn value(&self) -> Value {
-        json!({
-            "contact_time_s": self.contact_time_s,
-            "peak_force_n": self.peak_force_n,
-            "from_m_s": self.range_m_s.map(|range| range[0]),
-            "to_m_s": self.range_m_s.map(|range| range[1]),
-        })
+    /// Its numbers.
+    pub(super) fn report(&self) -> LawReport {
+        LawReport {
+            contact_time_s: self.contact_time_s,
+            peak_force_n: self.peak_force_n,
+            from_m_s: self.range_m_s.map(|range| range[0]),
+            to_m_s: self.range_m_s.map(|range| range[1]),
+        }
     }
 
     /// The law of striker and target, and where it holds.
@@ -229,8 +238,8 @@ fn range<E>(v: f64, loss: f64, at: impl Fn(f64) -> Result<Run, E>) -> [f64; 2] {
             } = middle;
         }
         match factor < 1.0 {
-            true => (inside * (1.0 + MARGIN)).min(v),
-            false => (inside * (1.0 - MARGIN)).max(v),
+            true => (inside * (1.0 + RANGE_MARGIN)).min(v),
+            false => (inside * (1.0 - RANGE_MARGIN)).max(v),
         }
     })
 }
@@ -245,9 +254,9 @@ fn alike(
     name: &str,
     material: &Material,
     ball: [f64; 2],
-) -> Result<(Law, String), Failure> {
+) -> Result<(PairLaw, String), Failure> {
     let modulus_pa = 0.5 * material.plane_modulus_pa();
-    let elastic = Law {
+    let elastic = PairLaw {
         modulus_pa,
         restitution: 1.0,
         lag_m_s_n: 0.0,
@@ -279,7 +288,7 @@ fn alike(
             return Ok((elastic, note));
         }
     };
-    let law = Law {
+    let law = PairLaw {
         restitution: run.restitution,
         ratio: ratio(Damping::of_restitution(run.restitution, code.pulls())),
         ..elastic

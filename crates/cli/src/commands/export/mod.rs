@@ -12,9 +12,11 @@ use case::{Case, named};
 use clap::{Args, ValueEnum};
 use formats::read_with_inputs;
 use impact::Run;
-use law::{Code, Laws};
+use law::{Code, LawReport, Laws};
 use output::CSV;
-use serde_json::json;
+use serde::Serialize;
+use serde_json::{Map, Value};
+use std::fmt::{self, Display, Formatter};
 use std::io::Write;
 use std::path::PathBuf;
 
@@ -76,11 +78,11 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let claimed = arguments.overwrite.claim(output, &inputs)?;
     let case = Case::new(&scene, arguments.target_diameter)?;
     let mut notes = case.notes.clone();
-    let mut value = json!({ "output": output.display().to_string() });
+    let mut law = None;
     let mut laws = |code| {
         let laws = Laws::new(&case, code)?;
         notes.extend(laws.notes.iter().cloned());
-        value["law"] = laws.value();
+        law = Some(laws.report());
         Ok::<_, Failure>((head(&case.run, &notes), laws))
     };
     let text = match format {
@@ -98,13 +100,35 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     for warning in &case.run.warnings {
         say(format!("warning: {warning}"));
     }
-    for (name, number) in named(&case.run) {
-        value[name] = number.into();
+    let results = named(&case.run).into_iter();
+    let report = Exported {
+        output: output.display().to_string(),
+        law,
+        results: results
+            .map(|(name, value)| (name.to_owned(), value.into()))
+            .collect(),
+        notes,
+    };
+    show(arguments.json, &report)
+}
+
+/// The file that was written, and what it holds.
+#[derive(Serialize)]
+struct Exported {
+    output: String,
+    /// Of a file with a force law.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    law: Option<LawReport>,
+    #[serde(flatten)]
+    results: Map<String, Value>,
+    notes: Vec<String>,
+}
+
+impl Display for Exported {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let written = lines([("written", &self.output)]);
+        write!(f, "{}\n{written}", self.notes.join("\n"))
     }
-    value["notes"] = json!(notes);
-    let written = lines([("written", output.display())]);
-    let text = format!("{}\n{written}", notes.join("\n"));
-    show(arguments.json, &value, text)
 }
 
 /// Notes and warnings as comments, which all three formats have in the same way.

@@ -6,11 +6,11 @@ use std::f64::consts::PI;
 
 /// Depth at which a contact begins and ends, and the largest step relative to the depth.
 const TOUCH: f64 = 1e-10;
-const STEP: f64 = 0.05;
+const LARGEST_RELATIVE_STEP: f64 = 0.05;
 
 /// Largest step, and the step with which the end of a contact that does not pull is found.
-const LARGEST: f64 = 2e-3;
-const SMALLEST: f64 = 1e-9;
+const LARGEST_STEP: f64 = 2e-3;
+const SMALLEST_STEP: f64 = 1e-9;
 
 /// Largest ratio of damping, whose restitution is below 1e-3.
 const MOST_DAMPING: f64 = 50.0;
@@ -70,10 +70,10 @@ impl Damping {
         let slope = |[d, v]: [f64; 2]| [v, -1.25 * self.force(d.max(0.0), v)];
         let moved =
             |[d, v]: [f64; 2], [by, speed]: [f64; 2], step: f64| [d + step * by, v + step * speed];
-        let (mut state, mut time, mut largest) = ([TOUCH, 1.0], TOUCH, LARGEST);
+        let (mut state, mut time, mut largest) = ([TOUCH, 1.0], TOUCH, LARGEST_STEP);
         let (mut peak_force, mut depth) = (0.0_f64, 0.0_f64);
-        while state[0] >= TOUCH && largest > SMALLEST {
-            let step = (STEP * state[0] / state[1].abs()).min(largest);
+        while state[0] >= TOUCH && largest > SMALLEST_STEP {
+            let step = (LARGEST_RELATIVE_STEP * state[0] / state[1].abs()).min(largest);
             let first = slope(state);
             let second = slope(moved(state, first, 0.5 * step));
             let third = slope(moved(state, second, 0.5 * step));

@@ -5,7 +5,8 @@ use crate::arguments::{Overwrite, check_rows};
 use crate::failure::{Failure, lines, say, show};
 use clap::Args;
 use formats::parts::Parts;
-use serde_json::json;
+use serde::Serialize;
+use std::fmt::{self, Display, Formatter};
 use std::path::{Path, PathBuf};
 
 #[derive(Debug, Args)]
@@ -47,14 +48,33 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     if empty > 0 {
         say(format!("note: {empty} parts have no rows"));
     }
-    let output = output.display().to_string();
-    let (rows, count) = (parts.sweep_rows, parts.parts.len());
-    let value = json!({
-        "output": output,
-        "rows": rows,
-        "parts": count,
-        "sweep_sha256": parts.sha256,
-    });
-    let text = lines([("written", format!("{output}, {rows} rows of {count} parts"))]);
-    show(arguments.json, &value, text)
+    let report = Merged {
+        output: output.display().to_string(),
+        rows: parts.sweep_rows,
+        parts: parts.parts.len(),
+        sweep_sha256: parts.sha256,
+    };
+    show(arguments.json, &report)
+}
+
+/// The sweep that was written.
+#[derive(Serialize)]
+struct Merged {
+    output: String,
+    rows: usize,
+    parts: usize,
+    sweep_sha256: String,
+}
+
+impl Display for Merged {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let Self {
+            output,
+            rows,
+            parts,
+            ..
+        } = self;
+        let text = format!("{output}, {rows} rows of {parts} parts");
+        f.write_str(&lines([("written", text)]))
+    }
 }

@@ -4,22 +4,23 @@ mod merge;
 mod plan;
 mod status;
 
-use crate::arguments::{Kernels, MemoryLimit, Overwrite, check_rows, say_complete};
+use crate::arguments::{KernelOptions, MemoryLimit, Overwrite, check_rows, say_complete};
 use crate::failure::{Failure, check_stdout, lines, say, show};
 use crate::process;
 use crate::progress::Bar;
 use clap::{Args, Subcommand};
 use fault::Fault as _;
 use formats::parts::check_complete;
-use formats::sweep::schema::COUNTED;
+use formats::schema::sweep::COUNTED;
 use formats::sweep::{
-    Axis, Block, Blocks, Computed, Kept, Precision, Shard, Spec, SweepError, fields_bytes,
+    Block, Blocks, Computed, Kept, Precision, Shard, Spec, SweepAxis, SweepError, fields_bytes,
     is_computed, print_csv, row_bytes, run_rows, stage_csv, stage_rows,
 };
 use formats::{Existing, Output, OutputError, QUANTITIES};
-use output::{CSV, Fault, Staged, apart, behind, free_disk, is_standard};
-use serde_json::{Value, json};
+use output::{CSV, OutputFault, Staged, apart, behind, free_disk, is_standard};
+use serde::Serialize;
 use std::cell::RefCell;
+use std::fmt::{self, Display, Formatter};
 use std::io::{BufWriter, ErrorKind, Write};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -47,13 +48,13 @@ Recipes for Slurm, Snakemake and dask are in docs/cluster.md.";
 )]
 pub(crate) struct Arguments {
     #[command(subcommand)]
-    action: Option<Action>,
+    action: Option<SweepAction>,
     #[command(flatten)]
-    run: Run,
+    run: RunArguments,
 }
 
 #[derive(Debug, Subcommand)]
-pub(crate) enum Action {
+pub(crate) enum SweepAction {
     /// Says which parts of a sweep a folder has, which are missing and what else lies there.
     Status(status::Arguments),
     /// Joins the parts of a sweep: byte by byte the file that one run would have written.
@@ -61,7 +62,7 @@ pub(crate) enum Action {
 }
 
 #[derive(Debug, Args)]
-pub(crate) struct Run {
+pub(crate) struct RunArguments {
     /// Sweep file (TOML, see data-schema/sweep.md); - is standard input.
     #[arg(required = true)]
     sweep: Option<PathBuf>,
@@ -72,7 +73,7 @@ pub(crate) struct Run {
     #[arg(long, value_name = "OUT.csv")]
     csv: Option<PathBuf>,
     #[command(flatten)]
-    kernels: Kernels,
+    kernels: KernelOptions,
     /// Compute part I of N into the output, which is then a part for `hertzlamb sweep merge`.
     #[arg(long, value_name = "I/N")]
     shard: Option<Shard>,
@@ -120,8 +121,8 @@ fn range(text: &str) -> Result<Range<usize>, String> {
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let run = &arguments.run;
     match (&arguments.action, &run.sweep, &run.output) {
-        (Some(Action::Status(arguments)), _, _) => status::run(arguments),
-        (Some(Action::Merge(arguments)), _, _) => merge::run(arguments),
+        (Some(SweepAction::Status(arguments)), _, _) => status::run(arguments),
+        (Some(SweepAction::Merge(arguments)), _, _) => merge::run(arguments),
         (None, Some(sweep), _) if run.plan => plan::run(run, sweep, &spec(run, sweep)?),
         (None, Some(sweep), Some(output)) => compute(run, sweep, output),
         (None, Some(sweep), None) if run.csv.as_deref().is_some_and(is_standard) => {
@@ -134,7 +135,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 /// The sweep with the rows that are asked for, within the memory that there is.
-fn selected(arguments: &Run, sweep: &Path) -> Result<Spec, Failure> {
+fn selected(arguments: &RunArguments, sweep: &Path) -> Result<Spec, Failure> {
     let mut spec = spec(arguments, sweep)?;
     let (memory, needed) = (arguments.memory, spec.memory_bytes());
     memory.check(needed, "the sweep", "ask for fewer values")?;
@@ -150,7 +151,7 @@ fn selected(arguments: &Run, sweep: &Path) -> Result<Spec, Failure> {
 }
 
 /// Writes rows to standard output as they are computed; none of them is kept.
-fn stream(arguments: &Run, sweep: &Path) -> Result<(), Failure> {
+fn stream(arguments: &RunArguments, sweep: &Path) -> Result<(), Failure> {
     if arguments.json {
         return Err(Failure::input(STREAMED));
     }
@@ -179,7 +180,10 @@ struct Watched<'a> {
 }
 
 impl Blocks for Watched<'_> {
-    fn each(&self, visit: &mut dyn FnMut(&Block) -> Result<(), Fault>) -> Result<(), Fault> {
+    fn each(
+        &self,
+        visit: &mut dyn FnMut(&Block) -> Result<(), OutputFault>,
+    ) -> Result<(), OutputFault> {
         self.computed.each(&mut |block| {
             self.tally.borrow_mut().add(block);
             self.progress.advance(block.len() as u64);
@@ -188,7 +192,7 @@ impl Blocks for Watched<'_> {
     }
 }
 
-fn compute(arguments: &Run, sweep: &Path, output: &Path) -> Result<(), Failure> {
+fn compute(arguments: &RunArguments, sweep: &Path, output: &Path) -> Result<(), Failure> {
     let start = Instant::now();
     let spec = selected(arguments, sweep)?;
     let Some(outputs) = Outputs::claim(arguments, sweep, output, &spec)? else {
@@ -203,85 +207,126 @@ fn compute(arguments: &Run, sweep: &Path, output: &Path) -> Result<(), Failure> 
     let tally = Tally::of(&kept).map_err(|fault| OutputError::writing(&outputs.part, fault))?;
     outputs.write(&spec, &kept)?;
     let took_s = [start.elapsed().as_secs_f64(), computing_s];
-    let (value, text) = report(arguments, &spec, &outputs, &tally, took_s, kept.resumed);
+    let report = SweepReport::new(arguments, &spec, &outputs, &tally, took_s, kept.resumed);
     // where the rows or the report cannot be printed, the same command goes on with what is kept
     if outputs.print {
-        text.lines().for_each(say);
+        report.to_string().lines().for_each(say);
         print_rows(&spec, &kept)?;
     } else {
-        show(arguments.json, &value, text)?;
+        show(arguments.json, &report)?;
     }
     kept.remove();
     tally.verdict(arguments, spec.selected().len())
 }
 
-/// What was done, in how many s and s of computing, with how many rows of an earlier run.
-fn report(
-    arguments: &Run,
-    spec: &Spec,
-    outputs: &Outputs,
-    tally: &Tally,
-    [wall_s, computing_s]: [f64; 2],
+/// Rows that were computed and written.
+#[derive(Serialize)]
+struct SweepReport {
+    output: String,
+    csv: Option<String>,
+    shape: Vec<usize>,
+    rows: usize,
+    sweep_rows: usize,
+    sweep_sha256: String,
+    /// Rows that an earlier run had computed.
     resumed: usize,
-) -> (Value, String) {
-    let [yielding, cracking, untrusted] = tally.beyond;
-    let (rows, failed) = (spec.selected().len(), tally.failed);
-    let output = outputs.results.path.display().to_string();
-    let mut value = json!({
-        "output": output,
-        "csv": arguments.csv.as_ref().map(|path| path.display().to_string()),
-        "shape": spec.shape(),
-        "rows": rows,
-        "sweep_rows": spec.rows(),
-        "sweep_sha256": spec.sha256,
-        "resumed": resumed,
-        "failed": failed,
-        "yielding": yielding,
-        "cracking": cracking,
-        "untrusted": untrusted,
-        "wall_s": wall_s,
-        "computing_s": computing_s,
-    });
-    let axis = |axis: &Axis| format!("{} ({})", axis.name, axis.len);
-    let axes: Vec<String> = spec.axes.iter().map(axis).collect();
-    let mut text = vec![("axes", axes.join(" x "))];
-    if let Some(part) = &spec.selection {
-        let Range { start, end } = part.rows;
-        value["first_row"] = start.into();
-        let mut of = String::new();
-        if let Some(shard) = part.shard {
-            of = format!("shard {shard}: ");
-            value["shard"] = shard.to_string().into();
+    failed: usize,
+    yielding: usize,
+    cracking: usize,
+    untrusted: usize,
+    wall_s: f64,
+    computing_s: f64,
+    /// Of rows that are a part of the sweep.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    first_row: Option<usize>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    shard: Option<String>,
+    /// Rows whose fields were looked up, of a sweep with probes.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    looked_up: Option<usize>,
+    /// Name and length of each axis.
+    #[serde(skip)]
+    axes: Vec<String>,
+}
+
+impl SweepReport {
+    fn new(
+        arguments: &RunArguments,
+        spec: &Spec,
+        outputs: &Outputs,
+        tally: &Tally,
+        [wall_s, computing_s]: [f64; 2],
+        resumed: usize,
+    ) -> Self {
+        let [yielding, cracking, untrusted] = tally.beyond;
+        let axis = |axis: &SweepAxis| format!("{} ({})", axis.name, axis.len);
+        let part = spec.selection.as_ref();
+        Self {
+            output: outputs.results.path.display().to_string(),
+            csv: arguments
+                .csv
+                .as_ref()
+                .map(|path| path.display().to_string()),
+            shape: spec.shape(),
+            rows: spec.selected().len(),
+            sweep_rows: spec.rows(),
+            sweep_sha256: spec.sha256.clone(),
+            resumed,
+            failed: tally.failed,
+            yielding,
+            cracking,
+            untrusted,
+            wall_s,
+            computing_s,
+            first_row: part.map(|part| part.rows.start),
+            shard: part.and_then(|part| Some(part.shard?.to_string())),
+            looked_up: spec.has_probes().then_some(tally.looked_up),
+            axes: spec.axes.iter().map(axis).collect(),
         }
-        text.push(("part", format!("{of}rows {start}:{end} of {}", spec.rows())));
     }
-    let scenes = format!("{rows}, {failed} failed, {resumed} resumed");
-    text.push(("scenes", scenes));
-    if yielding + cracking > 0 {
-        let beyond = format!(
-            "{yielding} yield (yield_onset above 1), {cracking} may crack (cone_crack_onset above 1)"
+}
+
+impl Display for SweepReport {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let rows = self.rows;
+        let mut text = vec![("axes", self.axes.join(" x "))];
+        if let Some(start) = self.first_row {
+            let of = self.shard.as_ref();
+            let of = of.map_or_else(String::new, |shard| format!("shard {shard}: "));
+            let (end, all) = (start + rows, self.sweep_rows);
+            text.push(("part", format!("{of}rows {start}:{end} of {all}")));
+        }
+        let scenes = format!("{rows}, {} failed, {} resumed", self.failed, self.resumed);
+        text.push(("scenes", scenes));
+        if self.yielding + self.cracking > 0 {
+            let beyond = format!(
+                "{} yield (yield_onset above 1), {} may crack (cone_crack_onset above 1)",
+                self.yielding, self.cracking
+            );
+            text.push(("not elastic", beyond));
+        }
+        if self.untrusted > 0 {
+            let faster = format!(
+                "{} faster than plasticity = \"jackson_green\" is trusted (velocity_over_trusted above 1): use \"thornton\" or \"recovery\" there",
+                self.untrusted
+            );
+            text.push(("untrusted", faster));
+        }
+        if let Some(count) = self.looked_up {
+            let fields = format!("{count} of {rows} scenes looked up, the others computed");
+            text.push(("fields", fields));
+        }
+        let time = format!(
+            "{:.2} s, {:.2} s of it computing",
+            self.wall_s, self.computing_s
         );
-        text.push(("not elastic", beyond));
+        text.extend([("time", time), ("written", self.output.clone())]);
+        f.write_str(&lines(text))
     }
-    if untrusted > 0 {
-        let faster = format!(
-            "{untrusted} faster than plasticity = \"jackson_green\" is trusted (velocity_over_trusted above 1): use \"thornton\" or \"recovery\" there"
-        );
-        text.push(("untrusted", faster));
-    }
-    if spec.has_probes() {
-        let count = tally.looked_up;
-        value["looked_up"] = count.into();
-        let fields = format!("{count} of {rows} scenes looked up, the others computed");
-        text.push(("fields", fields));
-    }
-    let time = format!("{wall_s:.2} s, {computing_s:.2} s of it computing");
-    text.extend([("time", time), ("written", output)]);
-    (value, lines(text))
 }
 
 /// The sweep, and what of its results is written.
-fn spec(arguments: &Run, sweep: &Path) -> Result<Spec, Failure> {
+fn spec(arguments: &RunArguments, sweep: &Path) -> Result<Spec, Failure> {
     let read = match is_standard(sweep) {
         true => Spec::from_standard_input(),
         false => Spec::from_file(sweep),
@@ -340,7 +385,7 @@ struct Outputs {
 impl Outputs {
     /// Claims all outputs; nothing where they are there already and that is enough.
     fn claim(
-        arguments: &Run,
+        arguments: &RunArguments,
         sweep: &Path,
         output: &Path,
         spec: &Spec,
@@ -444,7 +489,7 @@ struct Tally {
 }
 
 impl Tally {
-    fn of(rows: &impl Blocks) -> Result<Self, Fault> {
+    fn of(rows: &impl Blocks) -> Result<Self, OutputFault> {
         let mut tally = Self::default();
         rows.each(&mut |block| {
             tally.add(block);
@@ -465,7 +510,7 @@ impl Tally {
     }
 
     /// Warns of scenes that failed; an error where all of them did, or one where that is asked for.
-    fn verdict(&self, arguments: &Run, rows: usize) -> Result<(), Failure> {
+    fn verdict(&self, arguments: &RunArguments, rows: usize) -> Result<(), Failure> {
         let Some((row, reason)) = &self.first else {
             return Ok(());
         };

@@ -1,10 +1,11 @@
 //! `hertzlamb sweep --plan`: what a sweep takes, measured on a few of its rows.
 
-use super::Run;
+use super::RunArguments;
 use crate::failure::{Failure, lines, show};
 use formats::sweep::{Spec, column_names, compute_rows, grain, row_bytes};
 use output::processor_s;
-use serde_json::json;
+use serde::Serialize;
+use std::fmt::{self, Display, Formatter};
 use std::path::Path;
 use std::time::Instant;
 
@@ -17,7 +18,7 @@ const MEASURED_S: f64 = 1.0;
 /// Rows of the first measurement.
 const FIRST_ROWS: usize = 64;
 
-pub(crate) fn run(arguments: &Run, sweep: &Path, spec: &Spec) -> Result<(), Failure> {
+pub(crate) fn run(arguments: &RunArguments, sweep: &Path, spec: &Spec) -> Result<(), Failure> {
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     let (measured_rows, rows_per_second) =
         measure(spec, threads).map_err(|error| error.in_file(sweep))?;
@@ -32,41 +33,65 @@ pub(crate) fn run(arguments: &Run, sweep: &Path, spec: &Spec) -> Result<(), Fail
     let (bytes, kept) = row_bytes(spec);
     // 32 bytes of its seal for each 8192
     let sealed = |bytes: usize| bytes + bytes / 256;
-    let all_bytes = sealed(rows * bytes);
     let bytes_per_shard = sealed(rows_per_shard * bytes);
-    let disk_bytes_per_shard = bytes_per_shard + rows_per_shard * kept;
-    let seconds_per_shard = rows_per_shard as f64 / rows_per_second;
-    let value = json!({
-        "rows": rows,
-        "shards": count,
-        "rows_per_shard": rows_per_shard,
-        "bytes_per_shard": bytes_per_shard,
-        "disk_bytes_per_shard": disk_bytes_per_shard,
-        "seconds_per_shard": seconds_per_shard,
-        "seconds": seconds,
-        "bytes": all_bytes,
-        "rows_per_second": rows_per_second,
-        "threads": threads,
-        "measured_rows": measured_rows,
-        "sweep_sha256": spec.sha256,
-        "columns": column_names(spec),
-    });
-    let [each, all, disk] = [bytes_per_shard, all_bytes, disk_bytes_per_shard]
-        .map(|bytes| format!("{:.3} GB", 1e-9 * bytes as f64));
-    let shards =
-        format!("{count} of up to {rows_per_shard} rows, {each} and {seconds_per_shard:.3} s each");
-    let rate = format!(
-        "{rows_per_second:.0} rows a second on {threads} threads, from {measured_rows} rows"
-    );
-    let text = lines([
-        ("sweep", spec.sha256.clone()),
-        ("rows", rows.to_string()),
-        ("shards", shards),
-        ("in all", format!("{all}, {seconds:.3} s on this machine")),
-        ("rate", rate),
-        ("disk", format!("{disk} a shard while it is written")),
-    ]);
-    show(arguments.json, &value, text)
+    let report = SweepPlan {
+        rows,
+        shards: count,
+        rows_per_shard,
+        bytes_per_shard,
+        disk_bytes_per_shard: bytes_per_shard + rows_per_shard * kept,
+        seconds_per_shard: rows_per_shard as f64 / rows_per_second,
+        seconds,
+        bytes: sealed(rows * bytes),
+        rows_per_second,
+        threads,
+        measured_rows,
+        sweep_sha256: spec.sha256.clone(),
+        columns: column_names(spec),
+    };
+    show(arguments.json, &report)
+}
+
+/// Time, memory and disk that a sweep takes, as a whole and by shards.
+#[derive(Serialize)]
+struct SweepPlan {
+    rows: usize,
+    shards: usize,
+    rows_per_shard: usize,
+    bytes_per_shard: usize,
+    disk_bytes_per_shard: usize,
+    seconds_per_shard: f64,
+    seconds: f64,
+    bytes: usize,
+    rows_per_second: f64,
+    threads: usize,
+    measured_rows: usize,
+    sweep_sha256: String,
+    columns: Vec<String>,
+}
+
+impl Display for SweepPlan {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let [each, all, disk] = [self.bytes_per_shard, self.bytes, self.disk_bytes_per_shard]
+            .map(|bytes| format!("{:.3} GB", 1e-9 * bytes as f64));
+        let shards = format!(
+            "{} of up to {} rows, {each} and {:.3} s each",
+            self.shards, self.rows_per_shard, self.seconds_per_shard
+        );
+        let rate = format!(
+            "{:.0} rows a second on {} threads, from {} rows",
+            self.rows_per_second, self.threads, self.measured_rows
+        );
+        let all = format!("{all}, {:.3} s on this machine", self.seconds);
+        f.write_str(&lines([
+            ("sweep", self.sweep_sha256.clone()),
+            ("rows", self.rows.to_string()),
+            ("shards", shards),
+            ("in all", all),
+            ("rate", rate),
+            ("disk", format!("{disk} a shard while it is written")),
+        ]))
+    }
 }
 
 /// Rows spread over the sweep, and how many of them a second takes; time is that of the processor, which other work on

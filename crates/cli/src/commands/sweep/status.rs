@@ -1,13 +1,13 @@
 //! `hertzlamb sweep status`: what a folder of parts has and lacks.
 
 use super::failure;
-use crate::arguments::Kernels;
+use crate::arguments::KernelOptions;
 use crate::failure::{Failure, lines, print, show};
 use clap::Args;
 use formats::parts::Parts;
-use formats::stored::Part;
-use formats::sweep::{Shard, Spec, Unfinished};
-use serde_json::{Value, json};
+use formats::sweep::{Shard, Spec};
+use serde::Serialize;
+use std::fmt::{self, Display, Formatter};
 use std::path::PathBuf;
 
 #[derive(Debug, Args)]
@@ -18,7 +18,7 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "SWEEP.toml")]
     sweep: Option<PathBuf>,
     #[command(flatten)]
-    kernels: Kernels,
+    kernels: KernelOptions,
     /// Into how many shards it is divided; as the parts say otherwise.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=Shard::MOST as i64))]
     shards: Option<u32>,
@@ -43,84 +43,138 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         let missing = missing_shards.ok_or_else(|| Failure::input(unknown))?;
         return print(ranges(&missing));
     }
-    let gaps = parts.missing();
-    let rows = parts.sweep_rows - gaps.iter().map(ExactSizeIterator::len).sum::<usize>();
-    let failed: usize = parts.parts.iter().map(|part| part.failed).sum();
-    let overlap = parts.overlap().map(|error| error.to_string());
-    let complete = gaps.is_empty() && overlap.is_none();
-    let value = json!({
-        "sweep_sha256": parts.sha256,
-        "sweep_rows": parts.sweep_rows,
-        "rows": rows,
-        "failed": failed,
-        "complete": complete,
-        "shards": shards,
-        "parts": parts.parts.iter().map(stored).collect::<Value>(),
-        "missing_rows": gaps.iter().map(|gap| json!([gap.start, gap.end])).collect::<Value>(),
-        "missing_shards": missing_shards,
-        "overlap": overlap,
-        "foreign": parts.foreign.iter().map(foreign).collect::<Value>(),
-        "unfinished": parts.unfinished.iter().map(at_work).collect::<Value>(),
-    });
-    let (count, all) = (parts.parts.len(), parts.sweep_rows);
-    let of_rows = format!("{count} with {rows} of {all} rows, {failed} failed");
-    let mut text = vec![("sweep", parts.sha256.clone()), ("parts", of_rows)];
-    if let (Some(missing), Some(count)) = (missing_shards, shards)
-        && !missing.is_empty()
-    {
-        text.push(("missing", format!("shards {} of {count}", ranges(&missing))));
-    }
-    for gap in gaps.iter().take(MOST_LINES) {
-        text.push(("missing", format!("rows {}:{}", gap.start, gap.end)));
-    }
-    if gaps.len() > MOST_LINES {
-        let more = gaps.len() - MOST_LINES;
-        text.push(("missing", format!("{more} more ranges of rows")));
-    }
-    text.extend(overlap.map(|overlap| ("twice", overlap)));
-    for (_, reason) in &parts.foreign {
-        text.push(("foreign", reason.clone()));
-    }
-    for run in &parts.unfinished {
-        let (file, rows) = (run.path.display(), run.rows.len());
-        let keeps = format!("{file} keeps {} of {rows} rows", run.kept);
-        text.push(("unfinished", keeps));
-    }
-    let unsealed = parts.parts.iter().filter(|part| !part.sealed).count();
-    if unsealed > 0 {
-        let of_older = format!("{unsealed} parts of an older version: damage to them is not seen");
-        text.push(("unsealed", of_older));
-    }
-    if complete {
-        text.push(("complete", "yes".to_owned()));
-    }
-    show(arguments.json, &value, lines(text))
+    show(arguments.json, &Status::of(&parts, shards, missing_shards))
 }
 
-fn stored(part: &Part) -> Value {
-    json!({
-        "file": part.path.display().to_string(),
-        "shard": part.selection.shard.map(|shard| shard.to_string()),
-        "first_row": part.selection.rows.start,
-        "rows": part.selection.rows.len(),
-        "failed": part.failed,
-        "sealed": part.sealed,
-    })
+/// The parts of a sweep in a folder, and what the folder lacks.
+#[derive(Serialize)]
+struct Status {
+    sweep_sha256: String,
+    sweep_rows: usize,
+    rows: usize,
+    failed: usize,
+    complete: bool,
+    shards: Option<usize>,
+    parts: Vec<PartReport>,
+    missing_rows: Vec<[usize; 2]>,
+    missing_shards: Option<Vec<usize>>,
+    overlap: Option<String>,
+    foreign: Vec<ForeignFile>,
+    unfinished: Vec<UnfinishedRun>,
+}
+
+#[derive(Serialize)]
+struct PartReport {
+    file: String,
+    shard: Option<String>,
+    first_row: usize,
+    rows: usize,
+    failed: usize,
+    sealed: bool,
 }
 
 /// A file that is none of the parts.
-fn foreign((path, reason): &(PathBuf, String)) -> Value {
-    json!({ "file": path.display().to_string(), "reason": reason })
+#[derive(Serialize)]
+struct ForeignFile {
+    file: String,
+    reason: String,
 }
 
 /// A run that is at work or was interrupted.
-fn at_work(run: &Unfinished) -> Value {
-    json!({
-        "file": run.path.display().to_string(),
-        "first_row": run.rows.start,
-        "rows": run.rows.len(),
-        "kept": run.kept,
-    })
+#[derive(Serialize)]
+struct UnfinishedRun {
+    file: String,
+    first_row: usize,
+    rows: usize,
+    kept: usize,
+}
+
+impl Status {
+    fn of(parts: &Parts, shards: Option<usize>, missing_shards: Option<Vec<usize>>) -> Self {
+        let gaps = parts.missing();
+        let overlap = parts.overlap().map(|error| error.to_string());
+        let stored = parts.parts.iter().map(|part| PartReport {
+            file: part.path.display().to_string(),
+            shard: part.selection.shard.map(|shard| shard.to_string()),
+            first_row: part.selection.rows.start,
+            rows: part.selection.rows.len(),
+            failed: part.failed,
+            sealed: part.sealed,
+        });
+        let foreign = parts.foreign.iter().map(|(path, reason)| ForeignFile {
+            file: path.display().to_string(),
+            reason: reason.clone(),
+        });
+        let unfinished = parts.unfinished.iter().map(|run| UnfinishedRun {
+            file: run.path.display().to_string(),
+            first_row: run.rows.start,
+            rows: run.rows.len(),
+            kept: run.kept,
+        });
+        Self {
+            sweep_sha256: parts.sha256.clone(),
+            sweep_rows: parts.sweep_rows,
+            rows: parts.sweep_rows - gaps.iter().map(ExactSizeIterator::len).sum::<usize>(),
+            failed: parts.parts.iter().map(|part| part.failed).sum(),
+            complete: gaps.is_empty() && overlap.is_none(),
+            shards,
+            parts: stored.collect(),
+            missing_rows: gaps.iter().map(|gap| [gap.start, gap.end]).collect(),
+            missing_shards,
+            overlap,
+            foreign: foreign.collect(),
+            unfinished: unfinished.collect(),
+        }
+    }
+
+    /// Shards and ranges of rows that no part has, a line each.
+    fn missing(&self) -> Vec<String> {
+        let mut text = Vec::new();
+        if let (Some(missing), Some(count)) = (&self.missing_shards, self.shards)
+            && !missing.is_empty()
+        {
+            text.push(format!("shards {} of {count}", ranges(missing)));
+        }
+        let shown = self.missing_rows.iter().take(MOST_LINES);
+        text.extend(shown.map(|[start, end]| format!("rows {start}:{end}")));
+        if self.missing_rows.len() > MOST_LINES {
+            let more = self.missing_rows.len() - MOST_LINES;
+            text.push(format!("{more} more ranges of rows"));
+        }
+        text
+    }
+}
+
+impl Display for Status {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let (count, rows, all) = (self.parts.len(), self.rows, self.sweep_rows);
+        let of_rows = format!("{count} with {rows} of {all} rows, {} failed", self.failed);
+        let mut text = vec![("sweep", self.sweep_sha256.clone()), ("parts", of_rows)];
+        text.extend(
+            self.missing()
+                .into_iter()
+                .map(|missing| ("missing", missing)),
+        );
+        text.extend(self.overlap.clone().map(|overlap| ("twice", overlap)));
+        let foreign = self.foreign.iter();
+        text.extend(foreign.map(|file| ("foreign", file.reason.clone())));
+        for UnfinishedRun {
+            file, rows, kept, ..
+        } in &self.unfinished
+        {
+            text.push(("unfinished", format!("{file} keeps {kept} of {rows} rows")));
+        }
+        let unsealed = self.parts.iter().filter(|part| !part.sealed).count();
+        if unsealed > 0 {
+            let of_older =
+                format!("{unsealed} parts of an older version: damage to them is not seen");
+            text.push(("unsealed", of_older));
+        }
+        if self.complete {
+            text.push(("complete", "yes".to_owned()));
+        }
+        f.write_str(&lines(text))
+    }
 }
 
 /// Ranges that are told one by one.

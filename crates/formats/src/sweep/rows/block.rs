@@ -2,7 +2,7 @@
 
 use crate::quantities::QUANTITIES;
 use contact::{Choice, Model};
-use output::Fault;
+use output::OutputFault;
 use std::ops::Range;
 
 /// Consecutive rows, of which no more than a block needs to be in memory.
@@ -11,14 +11,23 @@ pub trait Blocks {
     ///
     /// # Errors
     /// That of `visit`, or why a block cannot be read.
-    fn each(&self, visit: &mut dyn FnMut(&Block) -> Result<(), Fault>) -> Result<(), Fault>;
+    fn each(
+        &self,
+        visit: &mut dyn FnMut(&Block) -> Result<(), OutputFault>,
+    ) -> Result<(), OutputFault>;
 }
 
 impl<T: AsRef<[Block]> + ?Sized> Blocks for T {
-    fn each(&self, visit: &mut dyn FnMut(&Block) -> Result<(), Fault>) -> Result<(), Fault> {
+    fn each(
+        &self,
+        visit: &mut dyn FnMut(&Block) -> Result<(), OutputFault>,
+    ) -> Result<(), OutputFault> {
         self.as_ref().iter().try_for_each(visit)
     }
 }
+
+/// Sentence about a block that cannot have been computed.
+pub(crate) const NOT_HELD: &str = "it has models that are not known, or failures without reasons";
 
 /// Results of consecutive rows.
 #[derive(Debug, Clone, Default, PartialEq)]

@@ -3,11 +3,11 @@
 use super::block::{Block, Blocks};
 use crate::quantities::Described;
 use crate::scene::keys::{SECTIONS, keys_of};
-use crate::sweep::axes::{Column as Key, Values};
+use crate::schema::sweep::{FAILURE, MODEL, part};
+use crate::sweep::axes::{SweptKey, Values};
 use crate::sweep::fields::Precision;
-use crate::sweep::schema::{FAILURE, MODEL, part};
 use crate::sweep::spec::Spec;
-use output::Fault;
+use output::OutputFault;
 use std::ops::Range;
 
 /// What a column holds.
@@ -66,7 +66,7 @@ pub(crate) fn columns(spec: &Spec) -> Vec<Column<'_>> {
 }
 
 /// What a key that varies is.
-pub(super) fn described(key: &Key) -> Described {
+pub(super) fn described(key: &SweptKey) -> Described {
     of_key(key.name())
 }
 
@@ -107,7 +107,7 @@ impl What<'_> {
         spec: &Spec,
         block: &'b Block,
         some: Range<usize>,
-    ) -> Result<Cells<'b>, Fault> {
+    ) -> Result<Cells<'b>, OutputFault> {
         let rows = block.start + some.start..block.start + some.end;
         Ok(match *self {
             Self::Row => Cells::Whole(rows.map(|row| row as i64).collect()),
@@ -143,10 +143,10 @@ impl What<'_> {
 }
 
 /// A number in single precision, where it has one.
-fn single(number: f64, row: usize, name: &str) -> Result<f32, Fault> {
+fn single(number: f64, row: usize, name: &str) -> Result<f32, OutputFault> {
     let rounded = number as f32;
     if rounded.is_infinite() && number.is_finite() {
-        return Err(Fault::from(format!(
+        return Err(OutputFault::from(format!(
             "{name} = {number} in row {row} is outside [-3.4e38, 3.4e38] of single precision"
         )));
     }
@@ -157,11 +157,11 @@ fn single(number: f64, row: usize, name: &str) -> Result<f32, Fault> {
 pub(super) fn each_of(
     spec: &Spec,
     blocks: &(impl Blocks + ?Sized),
-    visit: &mut dyn FnMut(&Block) -> Result<(), Fault>,
-) -> Result<usize, Fault> {
+    visit: &mut dyn FnMut(&Block) -> Result<(), OutputFault>,
+) -> Result<usize, OutputFault> {
     let rows = spec.selected();
     let (mut next, mut failed) = (rows.start, 0);
-    let missing = |row: usize| Fault::from(format!("row {row} is not there"));
+    let missing = |row: usize| OutputFault::from(format!("row {row} is not there"));
     blocks.each(&mut |block| {
         let end = block.start + block.len();
         if block.start != next || end > rows.end {
@@ -182,7 +182,7 @@ pub(super) fn each_of(
 /// The unit that a scene key carries in its name, and the ending that says so; `1` and nothing without one.
 pub fn key_unit(key: &str) -> (&'static str, &'static str) {
     // the longest first
-    const UNITS: [(&str, &str); 9] = [
+    const KEY_UNITS: [(&str, &str); 9] = [
         ("Pa m^(1/2)", "_pa_sqrt_m"),
         ("kg/m^3", "_kg_m3"),
         ("m/s", "_m_s"),
@@ -193,7 +193,7 @@ pub fn key_unit(key: &str) -> (&'static str, &'static str) {
         ("s", "_s"),
         ("N", "_n"),
     ];
-    let found = UNITS.iter().find(|(_, ending)| key.ends_with(ending));
+    let found = KEY_UNITS.iter().find(|(_, ending)| key.ends_with(ending));
     found.copied().unwrap_or(("1", ""))
 }
 

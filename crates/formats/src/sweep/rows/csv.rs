@@ -3,10 +3,11 @@
 use super::block::{Block, Blocks};
 use super::columns::{Cells, Column, columns};
 use crate::sweep::spec::Spec;
+use ::csv::Writer;
 use contact::{Choice, Model};
-use output::{Fault, Output, OutputError, Staged};
+use output::{Output, OutputError, OutputFault, Staged};
 use rayon::prelude::*;
-use std::fmt::Write as _;
+use std::fmt::{Display, Write as _};
 use std::io::{self, BufWriter, Write};
 
 /// Writes one line a row: the varied keys, the results, the model, the reason of a failure; into an output that was claimed
@@ -37,16 +38,17 @@ pub fn print_csv(
 ) -> io::Result<()> {
     // the lines are numbered by their order
     let columns = &columns(spec)[1..];
-    let names: Vec<&str> = columns.iter().map(|c| c.described.name.as_str()).collect();
-    writeln!(file, "{}", names.join(","))?;
+    let mut head = Writer::from_writer(Vec::new());
+    head.write_record(columns.iter().map(|column| &column.described.name))?;
+    file.write_all(&finished(head)?)?;
     let mut unwritten = None;
     let read = blocks.each(&mut |block| {
         let rows = (0..block.len()).into_par_iter().step_by(AT_A_TIME);
         let parts = rows.map(|from| lines(spec, columns, block, from));
-        let parts: Vec<String> = parts.collect::<Result<_, Fault>>()?;
-        let written = (parts.iter()).try_for_each(|part| file.write_all(part.as_bytes()));
+        let parts: Vec<Vec<u8>> = parts.collect::<Result<_, OutputFault>>()?;
+        let written = parts.iter().try_for_each(|part| file.write_all(part));
         written.map_err(|error| {
-            let fault = Fault::from(error.to_string());
+            let fault = OutputFault::from(error.to_string());
             unwritten = Some(error);
             fault
         })
@@ -59,48 +61,64 @@ pub fn print_csv(
 const AT_A_TIME: usize = 1024;
 
 /// Some lines of a block.
-fn lines(spec: &Spec, columns: &[Column<'_>], block: &Block, from: usize) -> Result<String, Fault> {
+fn lines(
+    spec: &Spec,
+    columns: &[Column<'_>],
+    block: &Block,
+    from: usize,
+) -> Result<Vec<u8>, OutputFault> {
     let some = from..(from + AT_A_TIME).min(block.len());
     let cells = columns.iter().map(|column| {
         let cells = column.what.cells(spec, block, some.clone())?;
         Ok((column.what.words(), cells))
     });
-    let cells: Vec<_> = cells.collect::<Result<_, Fault>>()?;
-    let mut text = String::with_capacity(300 * some.len());
+    let cells: Vec<_> = cells.collect::<Result<_, OutputFault>>()?;
+    let mut writer = Writer::from_writer(Vec::with_capacity(300 * some.len()));
+    let mut digits = String::new();
     for i in 0..some.len() {
-        for (k, (words, cells)) in cells.iter().enumerate() {
-            if k > 0 {
-                text.push(',');
-            }
-            // writing to a string cannot fail
-            let _ = match cells {
-                Cells::Whole(rows) => write!(text, "{}", rows[i]),
-                // a failed scene has empty fields
-                Cells::Double(numbers) if !numbers[i].is_finite() => Ok(()),
-                Cells::Double(numbers) => write!(text, "{}", numbers[i]),
-                Cells::Single(numbers) if !numbers[i].is_finite() => Ok(()),
-                Cells::Single(numbers) => write!(text, "{}", numbers[i]),
-                Cells::Words(places) => {
-                    let word = words.map_or("", |words| &words[places[i] as usize]);
-                    write!(text, "{}", quoted(word))
-                }
-                Cells::Models(models) => {
-                    let model = Model::ALL.get(usize::from(models[i]));
-                    text.write_str(model.map_or("", |model| model.name()))
-                }
-                Cells::Reasons(reasons) => write!(text, "{}", quoted(reasons[i].unwrap_or(""))),
-            };
+        for (words, cells) in &cells {
+            let field = field(&mut digits, cells, *words, i);
+            writer.write_field(field).map_err(io::Error::from)?;
         }
-        text.push('\n');
+        writer
+            .write_record(None::<&[u8]>)
+            .map_err(io::Error::from)?;
     }
-    Ok(text)
+    Ok(finished(writer)?)
 }
 
-/// In quotation marks where a comma or one of them would break the line.
-fn quoted(word: &str) -> String {
-    if word.contains(['"', ',', '\n']) {
-        format!("\"{}\"", word.replace('"', "\"\""))
-    } else {
-        word.to_owned()
+/// The text of a cell; numbers are written into `digits`. A scene that failed has empty fields.
+fn field<'a>(
+    digits: &'a mut String,
+    cells: &'a Cells<'_>,
+    words: Option<&'a Vec<String>>,
+    row: usize,
+) -> &'a str {
+    match cells {
+        Cells::Whole(rows) => shown(digits, rows[row]),
+        Cells::Double(numbers) if numbers[row].is_finite() => shown(digits, numbers[row]),
+        Cells::Single(numbers) if numbers[row].is_finite() => shown(digits, numbers[row]),
+        Cells::Double(_) | Cells::Single(_) => "",
+        Cells::Words(places) => words.map_or("", |words| &words[places[row] as usize]),
+        Cells::Models(models) => {
+            let model = Model::ALL.get(usize::from(models[row]));
+            model.map_or("", |model| model.name())
+        }
+        Cells::Reasons(reasons) => reasons[row].unwrap_or(""),
     }
+}
+
+/// A number as text.
+fn shown(digits: &mut String, number: impl Display) -> &str {
+    digits.clear();
+    // writing to a string cannot fail
+    let _ = write!(digits, "{number}");
+    digits
+}
+
+/// The bytes of the lines that a writer has.
+fn finished(writer: Writer<Vec<u8>>) -> io::Result<Vec<u8>> {
+    writer
+        .into_inner()
+        .map_err(::csv::IntoInnerError::into_error)
 }

@@ -3,11 +3,11 @@
 //! It is found and checked without a reader of Parquet: that trusts what it reads.
 
 use crate::scene::section::parse;
-use crate::sweep::fields::{Fields, Precision, stored_columns};
+use crate::sweep::fields::{Precision, WrittenResults, stored_columns};
 use crate::sweep::shard::{Part, Selection};
+use ledger::sha256_hex;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
-use sha2::{Digest, Sha256};
 use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom};
 use std::ops::Range;
@@ -95,7 +95,7 @@ impl Footer {
             "" => None,
             shard => Some(shard.parse().ok()?),
         };
-        let mut fields = Fields::all(stored_columns(&parse(&self.sweep).ok()?).ok()?);
+        let mut fields = WrittenResults::all(stored_columns(&parse(&self.sweep).ok()?).ok()?);
         fields.retain(|name| self.columns.contains_key(name));
         let mut precisions = [Precision::Double, Precision::Single].into_iter();
         fields.precision = precisions.find(|precision| self.bits == *precision as usize)?;
@@ -146,11 +146,11 @@ pub(super) fn seal_in(footer: &[u8]) -> Option<Range<usize>> {
 
 /// SHA-256 of a footer whose seal is blank.
 pub(super) fn sum_without(footer: &[u8], digits: &Range<usize>) -> String {
-    let mut hash = Sha256::new();
-    hash.update(&footer[..digits.start]);
-    hash.update([b'0'; DIGITS]);
-    hash.update(&footer[digits.end..]);
-    format!("{:x}", hash.finalize())
+    sha256_hex([
+        &footer[..digits.start],
+        &[b'0'; DIGITS],
+        &footer[digits.end..],
+    ])
 }
 
 fn find(bytes: &[u8], wanted: &[u8]) -> Option<usize> {

@@ -10,16 +10,16 @@ use crate::hdf::{
     text, texts,
 };
 use crate::quantities::{Labels, QUANTITIES};
-use crate::results::schema::COORDINATES;
-use crate::sweep::axes::{Axis, Column as Key, Values};
+use crate::schema::results::COORDINATES;
+use crate::schema::sweep::{self as schema, part};
+use crate::sweep::axes::{SweepAxis, SweptKey, Values};
 use crate::sweep::fields::Precision;
 use crate::sweep::journal::results as kept_results;
-use crate::sweep::schema::{self, part};
 use crate::sweep::spec::Spec;
 use contact::{Choice, Model};
 use hdf5::types::OwnedDynValue;
 use hdf5::{Dataset, Group, Hyperslab, SliceOrIndex};
-use output::{Fault, Output, OutputError, Staged};
+use output::{Output, OutputError, OutputFault, Staged};
 use std::collections::HashMap;
 use std::fs::File;
 use std::io;
@@ -48,7 +48,7 @@ pub(crate) fn stage_hdf5<'a>(
 ) -> Result<Staged<'a>, OutputError> {
     output.stage_made(|name| {
         new_file(name, |library, file| {
-            let told = |error: hdf5::Error| Fault::from(reason(&error));
+            let told = |error: hdf5::Error| OutputFault::from(reason(&error));
             let reserved = begin(library, spec, sources).map_err(told)?;
             let (failed, reasons) = fill(file, spec, &reserved, blocks)?;
             finish(library, failed, &reasons).map_err(told)
@@ -166,7 +166,7 @@ fn fill(
     spec: &Spec,
     reserved: &[Reserved<'_>],
     blocks: &(impl Blocks + ?Sized),
-) -> Result<(usize, Vec<String>), Fault> {
+) -> Result<(usize, Vec<String>), OutputFault> {
     let (mut reasons, mut known) = (Vec::new(), HashMap::new());
     let failed = each_of(spec, blocks, &mut |block| {
         for (_, reason) in &block.failures {
@@ -250,7 +250,7 @@ fn write_root(file: &hdf5::File, spec: &Spec) -> Result<(), hdf5::Error> {
 }
 
 /// The keys that vary, each with the axis that it belongs to.
-fn write_axes(file: &hdf5::File, axes: &[Axis]) -> Result<(), hdf5::Error> {
+fn write_axes(file: &hdf5::File, axes: &[SweepAxis]) -> Result<(), hdf5::Error> {
     let group = file.create_group(schema::AXES)?;
     for axis in axes {
         for key in &axis.columns {
@@ -266,7 +266,10 @@ fn write_axes(file: &hdf5::File, axes: &[Axis]) -> Result<(), hdf5::Error> {
 /// a dimension with others.
 ///
 /// Of keys that vary together the scale is their number, and each of them a list over it.
-fn write_scales(group: &Group, axes: &[Axis]) -> Result<(Vec<Dataset>, Vec<String>), hdf5::Error> {
+fn write_scales(
+    group: &Group,
+    axes: &[SweepAxis],
+) -> Result<(Vec<Dataset>, Vec<String>), hdf5::Error> {
     let (mut scales, mut beside) = (Vec::new(), Vec::new());
     for axis in axes {
         let own = axis.columns.iter().find(|key| key.name() == axis.name);
@@ -287,7 +290,7 @@ fn write_scales(group: &Group, axes: &[Axis]) -> Result<(Vec<Dataset>, Vec<Strin
     Ok((scales, beside))
 }
 
-fn write_key(group: &Group, key: &Key) -> Result<Dataset, hdf5::Error> {
+fn write_key(group: &Group, key: &SweptKey) -> Result<Dataset, hdf5::Error> {
     let described = described(key);
     let labels = described.labels();
     match &key.values {

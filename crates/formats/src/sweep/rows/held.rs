@@ -2,7 +2,7 @@
 
 use super::block::{Block, Blocks, NO_MODEL};
 use crate::sweep::shard::BLOCK;
-use output::Fault;
+use output::OutputFault;
 use rayon::prelude::*;
 
 /// Some results of rows, which count from 0.
@@ -47,7 +47,10 @@ impl Held {
 }
 
 impl Blocks for Held {
-    fn each(&self, visit: &mut dyn FnMut(&Block) -> Result<(), Fault>) -> Result<(), Fault> {
+    fn each(
+        &self,
+        visit: &mut dyn FnMut(&Block) -> Result<(), OutputFault>,
+    ) -> Result<(), OutputFault> {
         let all = self.models.len();
         for start in (0..all).step_by(BLOCK) {
             let rows = start..(start + BLOCK).min(all);

@@ -16,6 +16,7 @@ pub use self::hdf5::row_bytes;
 pub(crate) use self::hdf5::stage_hdf5;
 #[cfg(feature = "parquet")]
 use self::parquet::stage_parquet;
+pub(crate) use block::NOT_HELD;
 pub use block::{Block, Blocks, NO_MODEL};
 pub(crate) use columns::{Cells, What, columns};
 pub use columns::{column_names, described_keys, key_unit};

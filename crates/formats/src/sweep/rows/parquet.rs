@@ -3,13 +3,14 @@
 use super::block::{Block, Blocks};
 use super::columns::{Cells, Column, What, columns, each_of};
 use super::footer::{DIGITS, FORMAT_VERSION, Footer, TAIL, footer_in, seal_in, sum_without};
+use crate::schema::sweep::{FILE_TYPE, part};
 use crate::sweep::axes::Values;
 use crate::sweep::fields::Precision;
-use crate::sweep::schema::{FILE_TYPE, part};
 use crate::sweep::spec::Spec;
 use bytes::Bytes;
 use contact::{Choice, Model};
-use output::{Fault, Output, OutputError, Staged};
+use ledger::sha256_hex;
+use output::{Output, OutputError, OutputFault, Staged};
 use parquet::basic::{Compression, Encoding, LogicalType, Repetition, Type as Physical, ZstdLevel};
 use parquet::column::writer::{
     ColumnCloseResult, ColumnWriter, ColumnWriterImpl, get_column_writer,
@@ -22,7 +23,6 @@ use parquet::file::writer::{SerializedFileWriter, SerializedPageWriter, TrackedW
 use parquet::schema::types::{ColumnDescPtr, ColumnPath, Type, TypePtr};
 use rayon::prelude::*;
 use serde_json::json;
-use sha2::{Digest, Sha256};
 use std::fs::File;
 use std::io::{self, BufWriter, Seek, SeekFrom, Write};
 use std::sync::Arc;
@@ -55,7 +55,7 @@ pub(super) fn stage_parquet<'a>(
         let mut write = |group: &mut Block| {
             row_groups.push(write_group(&mut writer, spec, &columns, &words, group)?);
             *group = Block::default();
-            Ok::<_, Fault>(())
+            Ok::<_, OutputFault>(())
         };
         let failed = each_of(spec, blocks, &mut |block| {
             let mut done = 0;
@@ -80,7 +80,7 @@ pub(super) fn stage_parquet<'a>(
         let text = serde_json::to_string(&footer).map_err(|error| error.to_string())?;
         writer.append_key_value_metadata(KeyValue::new("hertzlamb".to_owned(), text));
         writer.close().map_err(fault)?;
-        seal(made).map_err(Fault::from)
+        seal(made).map_err(OutputFault::from)
     })
 }
 
@@ -100,7 +100,7 @@ fn write_group(
     columns: &[Column<'_>],
     words: &[Vec<ByteArray>],
     rows: &Block,
-) -> Result<String, Fault> {
+) -> Result<String, OutputFault> {
     let (described, properties) = (writer.schema_descr().columns(), writer.properties());
     let columns = columns.par_iter().zip(words).zip(described);
     let encoded: Vec<_> = columns
@@ -110,14 +110,14 @@ fn write_group(
         })
         .collect();
     let mut group = writer.next_row_group().map_err(fault)?;
-    let mut hash = Sha256::new();
+    let mut written = Vec::with_capacity(encoded.len());
     for column in encoded {
         let (bytes, closed) = column?;
-        hash.update(&bytes);
         group.append_column(&bytes, closed).map_err(fault)?;
+        written.push(bytes);
     }
     group.close().map_err(fault)?;
-    Ok(format!("{:x}", hash.finalize()))
+    Ok(sha256_hex(written.iter().map(|bytes| &bytes[..])))
 }
 
 /// What the file says of itself, but for its groups.
@@ -268,9 +268,9 @@ fn properties(columns: &[Column<'_>]) -> Result<WriterProperties, ParquetError> 
     Ok(properties.build())
 }
 
-fn fault(error: ParquetError) -> Fault {
+fn fault(error: ParquetError) -> OutputFault {
     match error {
-        ParquetError::External(error) => Fault::from(error.to_string()),
-        other => Fault::from(other.to_string()),
+        ParquetError::External(error) => OutputFault::from(error.to_string()),
+        other => OutputFault::from(other.to_string()),
     }
 }

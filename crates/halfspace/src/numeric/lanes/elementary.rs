@@ -48,7 +48,7 @@ impl<S: Simd> Real for Lanes<S> {
     #[inline(always)]
     fn ln(self) -> Self {
         // of 2^52 the last bit counts one
-        const MAGIC: f64 = 4_503_599_627_370_496.0;
+        const LAST_BIT_IS_ONE: f64 = 4_503_599_627_370_496.0;
         let simd = self.simd;
         let bits = simd.add_u64s(
             simd.transmute_u64s_f64s(self.register),
@@ -61,9 +61,11 @@ impl<S: Simd> Real for Lanes<S> {
         let shifted = simd.wrapping_dyn_shr_u32s(cast(bits), simd.splat_u32s(20));
         let exponent = simd.or_u64s(
             simd.and_u64s(cast(shifted), simd.splat_u64s(0xfff << 32)),
-            simd.splat_u64s(MAGIC.to_bits()),
+            simd.splat_u64s(LAST_BIT_IS_ONE.to_bits()),
         );
-        let k = (self.with(simd.transmute_f64s_u64s(exponent)) - MAGIC) * 0.5_f64.powi(32) - 1023.0;
+        let k = (self.with(simd.transmute_f64s_u64s(exponent)) - LAST_BIT_IS_ONE)
+            * 0.5_f64.powi(32)
+            - 1023.0;
         let f = self.with(simd.transmute_f64s_u64s(fraction)) - 1.0;
         let s = f / (f + 2.0);
         let z = s * s;

@@ -23,7 +23,7 @@ mod pair;
 mod points;
 
 pub(crate) use pair::Pair;
-pub(crate) use points::{Map, Points, half_axes, major_axis, power};
+pub(crate) use points::{ComplexMap, Points, half_axes, major_axis, power};
 
 use crate::numeric::scalar::Scalar;
 use pulp::{Simd, WithSimd};

@@ -10,7 +10,7 @@ use pulp::{Simd, WithSimd};
 const BLOCKS: usize = 8;
 
 /// A function of a complex number.
-pub(crate) trait Map {
+pub(crate) trait ComplexMap {
     fn at<C: Complex>(&self, v: C) -> C;
 }
 
@@ -54,7 +54,7 @@ impl Points {
 
     /// Replaces each point.
     #[inline]
-    pub(crate) fn map(&mut self, map: &impl Map) {
+    pub(crate) fn map(&mut self, map: &impl ComplexMap) {
         dispatch(Mapped { points: self, map });
     }
 
@@ -120,7 +120,7 @@ struct Mapped<'a, M> {
     map: &'a M,
 }
 
-impl<M: Map> WithSimd for Mapped<'_, M> {
+impl<M: ComplexMap> WithSimd for Mapped<'_, M> {
     type Output = ();
 
     #[inline(always)]

@@ -1,12 +1,13 @@
-//! From rows to a table: numbers in their places, errors measured off the grid, the file under its name.
+//! From rows to a table: numbers in their places, errors measured off the grid (`verify`), the file under its name.
 
-use crate::block::{Kind, Row};
+mod verify;
+
+use crate::block::{PointKind, Row};
 use crate::error::BuildError;
-use crate::measure::verify;
 use crate::numbers::NUMBERS_REVISION;
-use crate::rows::Work;
+use crate::rows::TableWork;
 use lookup::{Accuracy, BadTable, Between, Content, Origin, Slice, Table, Verification, schema};
-use output::{Fault, Output};
+use output::{Output, OutputFault};
 use rayon::prelude::*;
 use std::fs::File;
 use std::path::Path;
@@ -14,7 +15,7 @@ use std::time::{Instant, SystemTime, UNIX_EPOCH};
 
 /// What a build did.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Summary {
+pub struct BuildSummary {
     /// Identity of the settings.
     pub id: String,
     /// SHA-256 of the content.
@@ -33,16 +34,16 @@ pub struct Summary {
 
 /// From all rows to the file under its name.
 pub(crate) fn complete(
-    work: &Work<'_>,
+    work: &TableWork<'_>,
     rows: Vec<Row>,
     output: &Output,
     started: Instant,
-) -> Result<Summary, BuildError> {
+) -> Result<BuildSummary, BuildError> {
     let content = assemble(work, rows)?;
     let staged = output.stage_made(|name| write_checked(&content, name))?;
     let bytes = staged.bytes;
     staged.commit()?;
-    Ok(Summary {
+    Ok(BuildSummary {
         id: lookup::settings_id(&content.origin.grid),
         content_sha256: lookup::stated_hash(&output.real)?,
         points: content.r.len() * content.z.len() * content.slices.len(),
@@ -54,13 +55,13 @@ pub(crate) fn complete(
 }
 
 /// Writes a table and reads it back.
-fn write_checked(content: &Content, name: &Path) -> Result<File, Fault> {
+fn write_checked(content: &Content, name: &Path) -> Result<File, OutputFault> {
     let held = lookup::write(name, content)
         .and_then(|file| Ok(lookup::holds(name, content)?.then_some(file)));
     let wrong = match held.map_err(|error| error.what) {
         Ok(Some(file)) => return Ok(file),
         Ok(None) => "it is not read back as it was written".to_owned(),
-        // its file is the temporary one, of which nobody should hear
+        // its path is that of a temporary file, which means nothing to the user
         Err(BadTable::Unwritable(detail)) => detail,
         Err(other) => other.to_string(),
     };
@@ -71,8 +72,9 @@ fn write_checked(content: &Content, name: &Path) -> Result<File, Fault> {
 ///
 /// # Errors
 /// [`BuildError`] when the numbers are no table or a probe cannot be looked up.
-pub(crate) fn assemble(work: &Work<'_>, rows: Vec<Row>) -> Result<Content, BuildError> {
-    let mut of_kind = Kind::ALL.map(|kind| vec![Vec::new(); work.points[kind as usize].0.len()]);
+pub(crate) fn assemble(work: &TableWork<'_>, rows: Vec<Row>) -> Result<Content, BuildError> {
+    let mut of_kind =
+        PointKind::ALL.map(|kind| vec![Vec::new(); work.points[kind as usize].0.len()]);
     for (block, row) in work.blocks.iter().zip(rows) {
         of_kind[block.kind as usize][block.slice].push(row);
     }
@@ -80,7 +82,7 @@ pub(crate) fn assemble(work: &Work<'_>, rows: Vec<Row>) -> Result<Content, Build
     let table = Table::new(unmeasured(work, nodes)?)?;
     let steps = probes.len() + between.len();
     work.progress.total("verification", steps as u64);
-    let measure = |kind: Kind, rows: &[Vec<Row>]| {
+    let measure = |kind: PointKind, rows: &[Vec<Row>]| {
         let ratios = work.points[kind as usize].0.iter();
         let each = ratios.zip(rows).map(|(&poisson_ratio, rows)| {
             let verification = verify::verify(&table, work, kind, poisson_ratio, rows)?;
@@ -93,8 +95,8 @@ pub(crate) fn assemble(work: &Work<'_>, rows: Vec<Row>) -> Result<Content, Build
         });
         each.collect::<Result<Vec<_>, BuildError>>()
     };
-    let on = measure(Kind::Probes, &probes)?;
-    let between = measure(Kind::Between, &between)?;
+    let on = measure(PointKind::Probes, &probes)?;
+    let between = measure(PointKind::Between, &between)?;
     let mut content = table.into_content();
     content.between = between;
     for (slice, measured) in content.slices.iter_mut().zip(on) {
@@ -107,8 +109,8 @@ pub(crate) fn assemble(work: &Work<'_>, rows: Vec<Row>) -> Result<Content, Build
 }
 
 /// The content before anything is measured, from the rows of nodes of each slice.
-fn unmeasured(work: &Work<'_>, nodes: Vec<Vec<Row>>) -> Result<Content, BuildError> {
-    let Work { grid, known, .. } = *work;
+fn unmeasured(work: &TableWork<'_>, nodes: Vec<Vec<Row>>) -> Result<Content, BuildError> {
+    let TableWork { grid, known, .. } = *work;
     let older = known.map(|known| known.content.origin.numbers_revision);
     let [(_, [r, z]), (_, probes), (ratios, between)] = work.points.clone();
     let [between_r, between_z] = if ratios.is_empty() {

@@ -2,11 +2,11 @@
 
 use crate::font;
 use crate::geometry::{Point, Rect};
-use crate::text::{Run, runs, width};
+use crate::text::{TextRun, runs, width};
 
 /// A part of an outline.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Segment {
+pub(crate) enum OutlinePart {
     Move(f64, f64),
     Line(f64, f64),
     /// A cubic: two control points and the end.
@@ -39,8 +39,8 @@ impl Stroke {
 
 /// An outline, filled or drawn.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(crate) struct Shape {
-    pub(crate) segments: Vec<Segment>,
+pub(crate) struct DrawnPath {
+    pub(crate) segments: Vec<OutlinePart>,
     /// With an opacity: 1 hides what is below.
     pub(crate) fill: Option<(u32, f64)>,
     pub(crate) stroke: Option<Stroke>,
@@ -48,8 +48,8 @@ pub(crate) struct Shape {
     pub(crate) clip: Option<Rect>,
 }
 
-impl Shape {
-    fn new(segments: Vec<Segment>) -> Self {
+impl DrawnPath {
+    fn new(segments: Vec<OutlinePart>) -> Self {
         Self {
             segments,
             ..Self::default()
@@ -59,8 +59,8 @@ impl Shape {
     /// Straight lines through points.
     pub(crate) fn polyline(points: &[Point]) -> Self {
         let segments = points.iter().enumerate().map(|(i, &(x, y))| match i {
-            0 => Segment::Move(x, y),
-            _ => Segment::Line(x, y),
+            0 => OutlinePart::Move(x, y),
+            _ => OutlinePart::Line(x, y),
         });
         Self::new(segments.collect())
     }
@@ -74,7 +74,7 @@ impl Shape {
     /// A closed outline through points.
     pub(crate) fn polygon(points: &[Point]) -> Self {
         let mut shape = Self::polyline(points);
-        shape.segments.push(Segment::Close);
+        shape.segments.push(OutlinePart::Close);
         shape
     }
 
@@ -91,12 +91,12 @@ impl Shape {
         // a cubic's distance from the circle is below 3e-4 of the radius
         let (r, c) = (radius, 0.552_284_75 * radius);
         Self::new(vec![
-            Segment::Move(x + r, y),
-            Segment::Curve([x + r, y + c, x + c, y + r, x, y + r]),
-            Segment::Curve([x - c, y + r, x - r, y + c, x - r, y]),
-            Segment::Curve([x - r, y - c, x - c, y - r, x, y - r]),
-            Segment::Curve([x + c, y - r, x + r, y - c, x + r, y]),
-            Segment::Close,
+            OutlinePart::Move(x + r, y),
+            OutlinePart::Curve([x + r, y + c, x + c, y + r, x, y + r]),
+            OutlinePart::Curve([x - c, y + r, x - r, y + c, x - r, y]),
+            OutlinePart::Curve([x - r, y - c, x - c, y - r, x, y - r]),
+            OutlinePart::Curve([x + c, y - r, x + r, y - c, x + r, y]),
+            OutlinePart::Close,
         ])
     }
 
@@ -118,7 +118,7 @@ impl Shape {
 
 /// Pixels stretched over an area; rows from the top.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Picture {
+pub(crate) struct Bitmap {
     pub(crate) area: Rect,
     pub(crate) columns: u32,
     pub(crate) rows: u32,
@@ -134,7 +134,7 @@ pub(crate) const END: f64 = 1.0;
 /// A line of text.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Text {
-    runs: Vec<Run>,
+    runs: Vec<TextRun>,
     /// Its start on the line on which letters stand.
     start: Point,
     size: f64,
@@ -165,14 +165,14 @@ impl Text {
     }
 
     fn width(&self) -> f64 {
-        self.size * self.runs.iter().map(Run::width).sum::<f64>()
+        self.size * self.runs.iter().map(TextRun::width).sum::<f64>()
     }
 
     /// Its parts with their sizes and starts; blanks around one are left out, its place says them.
     pub(crate) fn parts<'a>(&'a self) -> Vec<(&'a str, f64, Point)> {
         let mut along = 0.0;
-        let part = |run: &'a Run| {
-            let Run { text, size, rise } = run;
+        let part = |run: &'a TextRun| {
+            let TextRun { text, size, rise } = run;
             let size = self.size * size;
             let width = |text: &str| size * font::width(text);
             let indent = width(&text[..text.len() - text.trim_start().len()]);
@@ -213,14 +213,14 @@ impl Text {
 /// One thing that is drawn.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Item {
-    Shape(Shape),
-    Picture(Picture),
+    DrawnPath(DrawnPath),
+    Bitmap(Bitmap),
     Text(Text),
 }
 
 /// Everything that is drawn, later over earlier.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Scene {
+pub struct Drawing {
     /// The canvas.
     pub canvas: Rect,
     /// The plots of the panels, without what is written around them.
@@ -228,18 +228,18 @@ pub struct Scene {
     pub(crate) items: Vec<Item>,
 }
 
-impl Scene {
+impl Drawing {
     /// Every text with the rectangle that it covers; raised and lowered parts are written level.
     pub fn texts(&self) -> Vec<(String, Rect)> {
         let texts = self.items.iter().filter_map(|item| match item {
             Item::Text(text) => Some((text.plain(), text.bounds())),
-            Item::Shape(_) | Item::Picture(_) => None,
+            Item::DrawnPath(_) | Item::Bitmap(_) => None,
         });
         texts.collect()
     }
 
-    pub(crate) fn shape(&mut self, shape: Shape) {
-        self.items.push(Item::Shape(shape));
+    pub(crate) fn shape(&mut self, shape: DrawnPath) {
+        self.items.push(Item::DrawnPath(shape));
     }
 
     pub(crate) fn text(&mut self, text: Text) {

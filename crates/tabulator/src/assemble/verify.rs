@@ -1,21 +1,21 @@
 //! Errors measured off the grid: exact against looked-up responses at the centre of every mesh.
 
-use crate::block::{Kind, Row};
+use crate::block::{PointKind, Row};
 use crate::error::BuildError;
 use crate::known::Known;
-use crate::rows::Work;
+use crate::rows::TableWork;
 use halfspace::{Medium, Profile, Six};
 use lookup::{PulseSum, Series, Smoothness, Table, Verification};
 use rayon::prelude::*;
 
 /// A pulse is sampled by at least this many cells where the table has them.
-const SAMPLES: f64 = 250.0;
+const CELLS_OF_PULSE: f64 = 250.0;
 
 /// Measures errors at one Poisson ratio at the places of a kind: a row holds the exact numbers at a radius and all depths.
-pub(crate) fn verify<'a>(
+pub(super) fn verify<'a>(
     table: &Table,
-    work: &Work<'a>,
-    kind: Kind,
+    work: &TableWork<'a>,
+    kind: PointKind,
     poisson_ratio: f64,
     rows: &[Row],
 ) -> Result<Verification, BuildError> {
@@ -38,7 +38,8 @@ pub(crate) fn verify<'a>(
                 let exact = exact(width, row, k, z.len());
                 let found = table.series(poisson_ratio, r, depth)?;
                 let rest = medium.static_field(Profile::Hertz, r, depth)?;
-                let coarsening = |length: f64| (length / width / SAMPLES).log2().max(0.0) as u32;
+                let coarsening =
+                    |length: f64| (length / width / CELLS_OF_PULSE).log2().max(0.0) as u32;
                 let lengths = &table.content().pulse_lengths;
                 for lengths in lengths.chunk_by(|&a, &b| coarsening(a) == coarsening(b)) {
                     let pulses = (coarsening(lengths[0]), lengths, arrived);

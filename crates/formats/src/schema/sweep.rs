@@ -1,4 +1,4 @@
-//! Names and versions on disk.
+//! Names and versions of a sweep and of a file with some of its rows.
 
 /// Value of the attribute `file_type`.
 pub const FILE_TYPE: &str = "hertzlamb sweep";

@@ -1,6 +1,5 @@
-//! Names and versions on disk.
+//! Names and versions of a results file.
 
-pub use crate::quantities::FIELDS;
 use crate::quantities::{Described, Labels, labels, labels_of};
 use impact::{EnergySeries, ProbeFields, Series};
 

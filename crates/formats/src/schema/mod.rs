@@ -1,0 +1,4 @@
+//! Names and versions on disk, a file for each format.
+
+pub mod results;
+pub mod sweep;
