@@ -41,22 +41,29 @@ const RADII_ON_AXIS: f64 = 2.0;
 /// Points of a section whose plans are made for a forecast, at most.
 const MOST_PLANS: usize = 4096;
 
-/// The work on the fields of a scene, known from the plans of its points.
-pub(crate) struct Work {
-    /// Seconds of one thread with kernels that are computed.
-    pub(crate) computed_s: f64,
-    /// Seconds of one thread with those of a table that is in memory.
-    pub(crate) looked_up_s: f64,
-    /// Discs at a point, at most.
-    discs: usize,
+/// How the fields of a probe, or of the points of the section, are computed: known before any kernel is.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Road {
+    /// Number of the probe from 0; none for the section.
+    pub probe: Option<usize>,
+    /// How many points there are.
+    pub points: usize,
+    /// Discs of fixed radii that stand for the load, at most.
+    pub discs: usize,
+    /// Whether their kernels are looked up rather than computed.
+    pub looked_up: bool,
+    /// Samples in time of each point.
+    pub samples: usize,
+    /// Samples of all points at which the past of the force is integrated, which discs do not serve.
+    pub integrated: f64,
+    /// Seconds of one thread.
+    pub seconds: f64,
 }
 
-/// Places of a point of a scene, and how many points it stands for.
-fn planned(scene: &Scene) -> Vec<([f64; 2], bool, f64)> {
-    let probes = scene
-        .probes
-        .iter()
-        .map(|probe| ([probe.r_m, probe.z_m], false, 1.0));
+/// Places of a scene, each with the number of its probe or none in the section, and how many points it stands for.
+fn planned(scene: &Scene) -> Vec<([f64; 2], Option<usize>, f64)> {
+    let probes = scene.probes.iter().enumerate();
+    let probes = probes.map(|(i, probe)| ([probe.r_m, probe.z_m], Some(i), 1.0));
     let section = scene.section.iter().flat_map(|section| {
         let Section {
             r_max_m,
@@ -78,82 +85,103 @@ fn planned(scene: &Scene) -> Vec<([f64; 2], bool, f64)> {
         let places = r_m
             .into_iter()
             .flat_map(move |r| z_m.clone().into_iter().map(move |z| [r, z]));
-        places.map(move |place_m| (place_m, true, each))
+        places.map(move |place_m| (place_m, None, each))
     });
     probes.chain(section).collect()
 }
 
-impl Work {
-    /// Of a scene whose excitation is known, on samples a step apart.
-    pub(crate) fn new(scene: &Scene, excitation: &Excitation, reach: Option<[f64; 2]>) -> Self {
-        let wanted = Wanted::of(scene);
-        let tolerance = scene.settings.tolerance;
-        let samples = wanted.cells(excitation);
-        let (duration_s, step_s) = wanted.duration_and_step_s(excitation);
-        let follows = matches!(excitation.radius(), PressureRadius::Following { .. });
-        let times_s = |count: f64| -> Vec<f64> {
-            let count = if follows { count as usize } else { 0 };
-            (0..count)
-                .map(|n| duration_s * n as f64 / (count as f64 - 1.0).max(1.0))
-                .collect()
+/// The roads of the points of a scene whose excitation is known, with kernels of a table that reaches to `reach` or, without it,
+/// computed ones.
+pub(crate) fn roads(scene: &Scene, excitation: &Excitation, reach: Option<[f64; 2]>) -> Vec<Road> {
+    let (wanted, tolerance) = (Wanted::of(scene), scene.settings.tolerance);
+    let samples = wanted.cells(excitation);
+    let (duration_s, step_s) = wanted.duration_and_step_s(excitation);
+    let follows = matches!(excitation.radius(), PressureRadius::Following { .. });
+    // windows are looked for among them
+    let times_s = |count: f64| -> Vec<f64> {
+        let gaps = (count - 1.0).max(1.0);
+        let count = if follows && reach.is_none() {
+            count as usize
+        } else {
+            0
         };
-        let frames = match &scene.section {
-            Some(Section { frames, .. }) if !scene.peaks => (*frames as f64).min(samples),
-            Some(_) | None => samples,
+        (0..count).map(|n| duration_s * n as f64 / gaps).collect()
+    };
+    let frames = match &scene.section {
+        Some(Section { frames, .. }) if !scene.peaks => (*frames as f64).min(samples),
+        Some(_) | None => samples,
+    };
+    let all_s = times_s(duration_s / step_s + 1.0);
+    let frames_s = if scene.section.is_some() {
+        times_s(frames)
+    } else {
+        Vec::new()
+    };
+    let asked = (samples as usize, scene.rates() > 0);
+    let sets = Sets::new(excitation, tolerance, reach, asked);
+    let digits = -tolerance.log10();
+    let more = if scene.rates() > 0 { WITH_RATES } else { 1.0 };
+    let kernel_s = match reach {
+        None => more * (KERNELS + KERNELS_A_DIGIT * digits) * KERNEL_S + samples * CELL_S,
+        Some(_) => samples * LOOKED_UP_S,
+    };
+    let mut roads: Vec<Road> = Vec::new();
+    for (place_m, probe, points) in planned(scene) {
+        let (times_s, count) = match probe {
+            None => (&frames_s, frames),
+            Some(_) => (&all_s, samples),
         };
-        let [all_s, frames_s] = [duration_s / step_s + 1.0, frames].map(times_s);
-        let digits = -tolerance.log10();
-        let asked = (samples as usize, scene.rates() > 0);
-        let sets = Sets::new(excitation, tolerance, None, asked);
-        let mut work = Self {
-            computed_s: OUTPUT_S,
-            looked_up_s: 0.0,
-            discs: 1,
+        let asked: Vec<_> = derivatives(scene).map(|one| (one, &times_s[..])).collect();
+        let plan = PointPlan::new(&sets, (excitation, tolerance), &asked, place_m);
+        let discs = sets.get(plan.set).count();
+        let still_s = if follows { count * STATIC_S } else { 0.0 };
+        let sum_s = convolved_s(scene, samples, count);
+        let is_on_axis = place_m[0] < AXIS * place_m[1].hypot(excitation.units().disc_radius_m);
+        let axis = if is_on_axis { RADII_ON_AXIS } else { 1.0 };
+        let kernels = |whole: bool| {
+            if whole {
+                KERNELS_OF_WHOLE
+            } else {
+                KERNELS_OF_PARTS
+            }
         };
-        let more = if scene.rates() > 0 { WITH_RATES } else { 1.0 };
-        let kernels = more * (KERNELS + KERNELS_A_DIGIT * digits);
-        let trace_s = kernels * KERNEL_S + samples * CELL_S;
-        let looked_up = Sets::new(
-            excitation,
-            tolerance,
-            reach.or(Some([f64::INFINITY; 2])),
-            asked,
-        );
-        let looked_up = looked_up.get(0).count() as f64;
-        for (place_m, is_of_section, points) in planned(scene) {
-            let (times_s, count) = match is_of_section {
-                true => (&frames_s, frames),
-                false => (&all_s, samples),
-            };
-            let asked: Vec<_> = derivatives(scene).map(|one| (one, &times_s[..])).collect();
-            let plan = PointPlan::new(&sets, (excitation, tolerance), &asked, place_m);
-            let discs = sets.get(plan.set).count();
-            work.discs = work.discs.max(discs);
-            let sums = asked.len() as f64;
-            let still_s = if follows { count * STATIC_S } else { 0.0 };
-            let sum_s = convolved_s(scene, samples, count);
-            let radius_m = excitation.units().disc_radius_m;
-            let is_on_axis = place_m[0] < AXIS * place_m[1].hypot(radius_m);
-            let axis = if is_on_axis { RADII_ON_AXIS } else { 1.0 };
-            let integrated: f64 = (plan.integrated.iter().flatten())
-                .map(|one| {
-                    if one.whole {
-                        KERNELS_OF_WHOLE
-                    } else {
-                        KERNELS_OF_PARTS
-                    }
-                })
-                .sum();
-            let past_s = axis * integrated * digits.powi(2) * KERNEL_S;
-            let discs = discs as f64;
-            work.computed_s +=
-                points * (discs * trace_s + sums * ((discs + 1.0) * sum_s + still_s) + past_s);
-            work.looked_up_s += points
-                * (looked_up * samples * LOOKED_UP_S
-                    + sums * ((looked_up + 1.0) * sum_s + still_s));
+        let integrated = plan.integrated.iter().flatten();
+        let past: f64 = integrated.map(|one| kernels(one.whole)).sum();
+        let seconds = discs as f64 * kernel_s
+            + asked.len() as f64 * ((discs as f64 + 1.0) * sum_s + still_s)
+            + axis * past * digits.powi(2) * KERNEL_S;
+        let integrated: usize = plan.integrated.iter().map(Vec::len).sum();
+        let road = Road {
+            probe,
+            points: 1,
+            discs,
+            looked_up: reach.is_some(),
+            samples: count as usize,
+            integrated: points * integrated as f64,
+            seconds: points * seconds,
+        };
+        match roads
+            .last_mut()
+            .filter(|last| last.probe.is_none() && probe.is_none())
+        {
+            Some(last) => {
+                last.discs = last.discs.max(discs);
+                last.integrated += road.integrated;
+                last.seconds += road.seconds;
+            }
+            None => roads.push(road),
         }
-        work
     }
+    if let (Some(last), Some(section)) = (roads.last_mut(), &scene.section) {
+        last.points = section.points[0] * section.points[1];
+    }
+    roads
+}
+
+/// Seconds of one thread that the fields of a scene take with kernels that are computed.
+pub(crate) fn computed_s(scene: &Scene, excitation: &Excitation) -> f64 {
+    let roads = roads(scene, excitation, None);
+    OUTPUT_S + roads.iter().map(|road| road.seconds).sum::<f64>()
 }
 
 /// The fields, and the rates of them that a scene asks for.
@@ -188,7 +216,7 @@ pub(crate) fn busy(points: usize) -> f64 {
 }
 
 /// What computing and keeping a scene takes, about.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Forecast {
     /// Points at which fields are asked for.
     pub points: usize,
@@ -200,6 +228,8 @@ pub struct Forecast {
     pub memory_bytes: f64,
     /// A results file in bytes.
     pub disk_bytes: f64,
+    /// How the fields are computed, probe by probe, then on the section.
+    pub roads: Vec<Road>,
 }
 
 /// What a scene may take.
@@ -279,22 +309,21 @@ impl Forecast {
         let cells = memory_s / grid.step_s;
         let products = samples * cells.min(samples);
         let reach = source.and_then(KernelSource::table_reach);
-        let work = Work::new(scene, excitation, reach);
-        let (loaded_s, fields_s) = match source {
-            None => (0.0, 0.0),
-            Some(KernelSource::Direct(_)) => (0.0, work.computed_s),
-            Some(KernelSource::Table(table)) => {
-                let decoded = table.decoded_bytes() as f64;
-                (TABLE_S + DECODED_S * decoded, work.looked_up_s)
-            }
+        let roads = source.map_or_else(Vec::new, |_| roads(scene, excitation, reach));
+        let loaded_s = match source {
+            None => 0.0,
+            Some(KernelSource::Direct(_)) => OUTPUT_S,
+            Some(KernelSource::Table(table)) => TABLE_S + DECODED_S * table.decoded_bytes() as f64,
         };
+        let fields_s: f64 = roads.iter().map(|road| road.seconds).sum();
         let deflection_s = (products * PRODUCT_S).min(1e-9 * transform_ns(2.0 * samples));
         let forcings = 1.0 + scene.rates() as f64;
-        let discs = source.map_or(0.0, |_| work.discs as f64);
+        let discs = roads.iter().map(|road| road.discs).max().unwrap_or(0) as f64;
         let of_discs = threads * CELL * (discs - 1.0).max(0.0) + forcings * FORCE_SAMPLE * discs;
         let mut forecast = Self::of(scene, samples, threads);
         forecast.seconds = loaded_s + fields_s / threads + deflection_s;
         forecast.memory_bytes += samples * of_discs;
+        forecast.roads = roads;
         forecast
     }
 
@@ -331,6 +360,7 @@ impl Forecast {
             samples,
             seconds: 0.0,
             memory_bytes: samples * (SAMPLE + cells) + probes + section + record,
+            roads: Vec::new(),
             disk_bytes: 8.0 * samples * (10.0 + (6.0 + more) * scene.probes.len() as f64) + kept,
         }
     }

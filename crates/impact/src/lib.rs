@@ -40,7 +40,7 @@ pub mod sweep;
 
 pub use contact::{HalfSpace, Material, Settings, Striker};
 pub use convolution::Trace;
-pub use cost::{Allowance, Forecast};
+pub use cost::{Allowance, Forecast, Road};
 pub use energy::EnergySeries;
 pub use error::ImpactError;
 pub use excitation::{Excitation, Motion, PressureRadius};

@@ -6,10 +6,10 @@ use crate::progress::Bar;
 use crate::report::{text_report, understood};
 use clap::Args;
 use formats::{check_results, json_report, read_with_inputs, stage_results, stage_results_csv};
-use impact::{Allowance, Forecast, ImpactError, Outcome, Scene, simulate_within};
+use impact::{Allowance, Forecast, ImpactError, Outcome, Road, Scene, simulate_within};
 use output::{CSV, Ending, Existing, HDF5, Output, Role, Staged, apart};
 use serde::{Serialize, Serializer};
-use std::cell::Cell;
+use std::cell::RefCell;
 use std::fmt::{self, Display, Formatter};
 use std::iter;
 use std::path::{Path, PathBuf};
@@ -57,11 +57,12 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     let [output, csv] = outputs(arguments, &scene, inputs)?;
     let kernels = arguments.kernels.choice()?;
-    let (forecast, progress) = (Cell::new(Forecast::least(&scene)), Bar::after(PATIENCE));
+    let forecast = RefCell::new(Forecast::least(&scene));
+    let progress = Bar::after(PATIENCE);
     let allowance = Allowance {
         memory_bytes: arguments.memory.bytes(),
         go_on: &|found| {
-            forecast.set(*found);
+            forecast.replace(found.clone());
             if found.seconds > LONG_S && !arguments.dry_run {
                 say(takes(found));
             }
@@ -71,7 +72,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         watch: &|| progress.advance(1),
     };
     let outcome = match simulate_within(&scene, &kernels, &allowance) {
-        Err(ImpactError::GivenUp { .. }) => return plan(arguments, &scene, &forecast.get()),
+        Err(ImpactError::GivenUp { .. }) => return plan(arguments, &scene, &forecast.borrow()),
         found => found?,
     };
     drop(progress);
@@ -124,8 +125,12 @@ fn plan(arguments: &Arguments, scene: &Scene, forecast: &Forecast) -> Result<(),
         text: format!(
             "{}\n{}",
             lines([("impact", understood(scene))]),
-            takes(forecast)
+            iter::once(takes(forecast))
+                .chain(forecast.roads.iter().map(along))
+                .collect::<Vec<_>>()
+                .join("\n")
         ),
+        roads: forecast.roads.iter().map(PlannedRoad::from).collect(),
     };
     show(arguments.json, &report)
 }
@@ -139,8 +144,64 @@ struct ScenePlan {
     memory_bytes: f64,
     disk_bytes: f64,
     threads: usize,
+    roads: Vec<PlannedRoad>,
     #[serde(skip)]
     text: String,
+}
+
+/// How the fields of a probe, numbered from 1, or of the section are computed.
+#[derive(Serialize)]
+struct PlannedRoad {
+    probe: Option<usize>,
+    points: usize,
+    discs: usize,
+    looked_up: bool,
+    samples: usize,
+    integrated: f64,
+    seconds: f64,
+}
+
+impl From<&Road> for PlannedRoad {
+    fn from(road: &Road) -> Self {
+        Self {
+            probe: road.probe.map(|probe| probe + 1),
+            points: road.points,
+            discs: road.discs,
+            looked_up: road.looked_up,
+            samples: road.samples,
+            integrated: road.integrated,
+            seconds: road.seconds,
+        }
+    }
+}
+
+/// A line on how the fields of a probe or of the section are computed.
+fn along(road: &Road) -> String {
+    let name = match road.probe {
+        Some(probe) => format!("probe {}", probe + 1),
+        None => format!("section, {} points", road.points),
+    };
+    let discs = match (road.discs, road.looked_up) {
+        (1, false) => "1 disc".to_owned(),
+        (1, true) => "1 disc looked up".to_owned(),
+        (discs, looked_up) => {
+            format!("{discs} discs{}", if looked_up { " looked up" } else { "" })
+        }
+    };
+    let each = road.integrated / road.points.max(1) as f64;
+    let integrated = match road.probe {
+        _ if each == 0.0 => String::new(),
+        Some(_) => format!("; {each:.0} of {} samples integrated", road.samples),
+        None => format!(
+            "; {each:.1} of {} samples of a point integrated",
+            road.samples
+        ),
+    };
+    let time = match road.seconds {
+        short if short < 1.0 => format!("{:.0} ms", (1e3 * short).max(1.0)),
+        long => format!("{long:.1} s"),
+    };
+    format!("{name}: {discs}{integrated}; {time} of one thread")
 }
 
 impl Display for ScenePlan {

@@ -2,7 +2,7 @@
 
 use crate::convolution::plan::Sets;
 use crate::convolution::tuning;
-use crate::cost::{Work, busy};
+use crate::cost::{busy, computed_s};
 use crate::error::ImpactError;
 use crate::excitation::{Excitation, PressureRadius};
 use crate::grid::Wanted;
@@ -203,7 +203,7 @@ pub(crate) fn choose_source(
         KernelChoice::Auto(tables) => {
             let cells = Wanted::of(scene).cells(excitation);
             let count = scene.points();
-            let cost_s = Work::new(scene, excitation, None).computed_s / busy(count);
+            let cost_s = computed_s(scene, excitation) / busy(count);
             let cost =
                 format!("{count} points of {cells:.0} cells take about {cost_s:.1e} s to compute");
             if cost_s <= CHEAP_S {
