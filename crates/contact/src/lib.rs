@@ -60,7 +60,6 @@ pub use energy::work_until_j;
 pub use error::{ContactError, MarchError};
 pub use growing::solve_growing;
 pub use growing::solved::SolvedContact;
-pub use growing::uniform::march_growing;
 pub use growing::waves::{GrowingContact, PunchWaves};
 pub use growing::work::work_on_half_space;
 pub use model::choose::{Family, Groups, Plan, fixed_disc_m};

@@ -5,20 +5,18 @@
 
 use crate::collision::Collision;
 use crate::disc::history::History;
-use crate::disc::refine::{Accuracy, Found, explicit, march_finely, solve_disc, stepped};
+use crate::disc::refine::{Accuracy, Found, explicit, march_finely, solve_disc};
 use crate::disc::response::DiscResponse;
 use crate::disc::stability;
-use crate::energy::{radiated, work};
-use crate::error::{ContactError, MarchError};
+use crate::energy::radiated;
+use crate::error::ContactError;
 use crate::growing::dashpot::solve_springs;
 use crate::growing::equations::March;
 use crate::growing::solve_growing;
 use crate::growing::solved::SolvedContact;
-use crate::growing::uniform::march_growing;
 use crate::growing::waves::PunchWaves;
 use crate::growing::work::work_on_half_space;
 use crate::law::area_dashpot::AreaDashpot;
-use crate::law::hertz;
 use crate::model::choose::{Family, Plan, accuracy, disc_of, plan};
 use crate::model::{Model, Rung, Scheme, Settings};
 use crate::outcome::{Outcomes, Place};
@@ -47,8 +45,7 @@ pub struct Solved {
     ///
     /// Where the contact was marched or followed it comes from the force and the half-space's waves, not from the momentum:
     /// on a disc the work on the mean deflection, in a growing contact that on its punches. Within 1e-3 of itself at a
-    /// tolerance of 1e-4, 2e-5 at 1e-6; only a growing contact with a uniform step has the work of its march, of the
-    /// march's order. A closed form has its loss, a series of outcomes that of its marches.
+    /// tolerance of 1e-4, 2e-5 at 1e-6. A closed form has its loss, a series of outcomes that of its marches.
     pub radiated: f64,
     /// What has flowed; none of a contact that has not yielded.
     pub flow: Option<Flow>,
@@ -237,7 +234,7 @@ impl<'a, S: Responses> Solver<'a, S> {
             ((Rung::QuasiStatic | Rung::Radiation, _), _) => (None, plan.closed_form()?, None),
             ((Rung::AreaDashpot, _), _) => (None, plan.dashpot(&self.dashpot(collision)?)?, None),
             ((Rung::FullMemory, false), _) => {
-                let (found, work) = self.grow(collision, step, asked)?;
+                let (found, work) = self.grow(collision, asked)?;
                 (Some(Scheme::Implicit), found, Some(work))
             }
             ((Rung::FullMemory, true), scheme) => {
@@ -347,40 +344,19 @@ impl<'a, S: Responses> Solver<'a, S> {
         Ok(AreaDashpot::new(&collision.growing_contact(&waves)))
     }
 
-    /// A contact that follows the load: by polynomial pieces, and with a uniform step where one is given or they do not
-    /// serve, with a memory as long as the contact, or a second contact. With it what it radiates.
+    /// A contact that follows the load, and the energy that it radiates.
     fn grow(
         &mut self,
         collision: &Collision,
-        step: Option<f64>,
         asked: Accuracy,
     ) -> Result<(Found, f64), ContactError> {
         let waves = self.waves(collision.target_poisson_ratio)?;
         let contact = collision.growing_contact(&waves);
-        if step.is_none() {
-            match solve_growing(&contact, &asked) {
-                Ok(solved) => {
-                    let found = Found::new(solved.summary, solved.estimates.contact(), None);
-                    let radiated = work_on_half_space(&contact, &solved, asked.tolerance);
-                    self.growing = Some(solved);
-                    return Ok((found, radiated));
-                }
-                // the march has other limits: a memory far shorter than the contact is one to it
-                Err(
-                    MarchError::Overtaken { .. }
-                    | MarchError::StrikesAgain { .. }
-                    | MarchError::NotReached { .. },
-                ) => {}
-                Err(error) => return Err(error.into()),
-            }
-        }
-        let march = |step, room: &mut History| {
-            *room = march_growing(&contact, step)?;
-            Ok(())
-        };
-        let (room, begin) = (&mut self.history, (hertz::CONTACT_TIME, 1.0));
-        let found = stepped(room, step, begin, asked, march)?;
-        Ok((found, work(&room.force, &room.deflection)))
+        let solved = solve_growing(&contact, &asked)?;
+        let found = Found::new(solved.summary, solved.estimates.contact(), None);
+        let radiated = work_on_half_space(&contact, &solved, asked.tolerance);
+        self.growing = Some(solved);
+        Ok((found, radiated))
     }
 }
 

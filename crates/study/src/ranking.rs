@@ -104,7 +104,7 @@ pub(crate) fn why_not(method: &str) -> Option<&'static str> {
             "it knows the loss 1 - e^2 from the momentum alone, to the digits of the restitution and not to its own; what \
              the program's march takes longer at 1e-3 goes into the loss and the instant of separation",
         ),
-        "wave implicit" | "growing" => Some(
+        "wave implicit" => Some(
             "its number of steps is known beforehand; the program does not know how many a tolerance needs, halves the \
              step until the results stand still, and pays for the coarser marches as well",
         ),

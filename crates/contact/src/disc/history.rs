@@ -41,10 +41,6 @@ pub struct History {
     pub(crate) separation: Option<Separation>,
     /// Work left in the half-space where the march finds it itself.
     pub(crate) dissipated: Option<f64>,
-    /// The last instants of a contact whose radius goes to zero, too short for the step: the displacement of the striker
-    /// at the end over the square of its velocity there, and their duration over the velocity; zeros where they are long
-    /// enough.
-    pub(crate) end_layer: Option<[f64; 2]>,
     /// The contact itself where it was solved by pieces; there are no samples then.
     pub pieces: Option<Arc<SolvedContact>>,
     /// Estimated error of the force at any instant, over the largest; infinite where nobody has estimated it.

@@ -18,18 +18,14 @@ use crate::units::INVERSE_MASS;
 const NEEDED: usize = 8;
 
 /// Fraction of the last change of the contact time that is its error, chosen so that the estimates hold
-/// (`tests/estimates.rs`), and what stays of it at any step: of an end found by extrapolation of what is smooth there, and
-/// of a contact whose radius goes to zero, its last instants resolved, where it is of first order.
+/// (`tests/estimates.rs`), and what stays of it at any step: of an end found by extrapolation of what is smooth there.
 const SMOOTH: [f64; 2] = [1.0, 0.0];
-const SINGULAR: [f64; 2] = [1.5, 0.0];
 
-/// That fraction of an end from what the surface keeps of the force, and of one with its last instants in closed form:
-/// what stays is their uncertainty.
+/// That fraction of an end from what the surface keeps of the force: what stays is its uncertainty.
 const KEPT: f64 = 0.5;
-const LAYER: f64 = 1.0 / 3.0;
 
 impl Summary {
-    /// Of a history made by the implicit or the growing march.
+    /// Of a history made by the implicit march.
     ///
     /// # Errors
     /// [`MarchError::StepTooLong`] when the contact has too few samples to interpolate.
@@ -48,18 +44,11 @@ impl Summary {
                 needed: NEEDED,
             });
         }
-        let (mut contact_time, impulse) = end_of_contact(history, end);
-        let mut how = match &history.separation {
+        let (contact_time, impulse) = end_of_contact(history, end);
+        let how = match &history.separation {
             None => SMOOTH,
             Some(found) => [KEPT, found.uncertainty / found.time],
         };
-        if let Some(layer) = history.end_layer {
-            how = SINGULAR;
-            if let Some((time, uncertainty)) = end_of_layer(history, end, layer) {
-                contact_time = time;
-                how = [LAYER, uncertainty / time];
-            }
-        }
         let (place, peak_force) = peak(force);
         // those whose force exceeds 1e-6 of the largest
         let counts = |contact: &&[f64]| contact.iter().any(|p| *p > 1e-6 * peak_force);
@@ -107,31 +96,6 @@ fn departure(velocity: f64, history: &History) -> (f64, f64) {
 pub(crate) fn first_separation(force: &[f64]) -> usize {
     let free = force.iter().skip(1).position(|&p| p <= 0.0);
     free.map_or(force.len(), |i| i + 1)
-}
-
-/// Uncertainty of the time spent in the end layer.
-const LAYER_UNCERTAINTY: f64 = 0.05;
-
-/// End of a contact with a layer that the step does not resolve, and its uncertainty.
-///
-/// The displacement is smooth there, so the place where it reaches the layer's depth is known well.
-fn end_of_layer(history: &History, end: usize, [depth, width]: [f64; 2]) -> Option<(f64, f64)> {
-    let (step, d) = (history.step, &history.displacement);
-    let from = end.checked_sub(3)?;
-    if width == 0.0 || end + 1 >= d.len() {
-        return None;
-    }
-    let velocity = (d[end - 1] - d[end]) / step;
-    if velocity <= 0.0 || 4.0 * step < width * velocity {
-        return None;
-    }
-    let depth = depth * velocity * velocity;
-    let local = Local::<5>::new(std::array::from_fn(|i| d[from + i] - depth));
-    if local.value(0.0) <= 0.0 || local.value(4.0) >= 0.0 {
-        return None;
-    }
-    let time = (from as f64 + local.root(0.0, 4.0)) * step;
-    Some((time, LAYER_UNCERTAINTY * depth / velocity))
 }
 
 /// End of the first contact and the impulse until then; `end` is the first free sample.

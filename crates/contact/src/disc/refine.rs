@@ -196,8 +196,10 @@ impl Found {
     }
 }
 
-/// An impact on a disc by the implicit scheme: with a step that is given, or halved until the results are as accurate
-/// as asked.
+/// An impact on a disc by the implicit scheme: with a step that is given, judged by a march with half of it, or halved until
+/// the results are as accurate as asked.
+///
+/// The history is left as that of the step that counts.
 ///
 /// # Errors
 /// [`MarchError`].
@@ -213,24 +215,8 @@ pub fn solve_disc(
         // the newest force is only just held by the contact law, and errors grow with it
         StaticShare::Dynamic => DYNAMIC_CAUTION,
     };
-    let march = |step, room: &mut History| march_into(room, impact, step);
-    stepped(history, step, (duration, caution), asked, march)
-}
-
-/// A march with a step that is given, judged by one with half of it, or halved until the results are as accurate as asked.
-///
-/// `duration` and `caution`: of the contact, roughly, and how many times the last change counts.
-///
-/// The history is left as that of the step that counts.
-pub(crate) fn stepped(
-    history: &mut History,
-    step: Option<f64>,
-    (duration, caution): (f64, f64),
-    asked: Accuracy,
-    march: impl Fn(f64, &mut History) -> Result<(), MarchError>,
-) -> Result<Found, MarchError> {
     let mut run = |step: f64| {
-        march(step, history)?;
+        march_into(history, impact, step)?;
         Summary::measured(history)
     };
     if let Some(step) = step {

@@ -1,8 +1,17 @@
 //! The contact whose radius follows the load, to any accuracy.
 //!
-//! `uniform` steps the equation of the contact as it stands, with the response of a flat punch.
-//! Here it is turned into another one, whose terms are all smooth.
-//! The relaxation of a flat punch is a superposition of triangles over the slowness of its waves
+//! In Hertz's contact an increment of load is carried by a flat punch of the radius at that moment, and deflects both bodies
+//! by du; the half-space gives its part phi of each increment not at once but as the punch's waves allow:
+//!
+//! ```text
+//! d(t) = u(t) - phi int_0^t V_p((t - t') c1/a(t')) du(t'),     phi = E* (1 - nu^2)/E,     u = a^2
+//! ```
+//!
+//! No radius is free, and no static part is counted twice.
+//! Because du carries phi <= 1 of itself at most, the equation is well posed for every pair of materials; with increments
+//! shaped like Hertz's pressure it would not be for phi > 2/3.
+//!
+//! It is turned into another one, whose terms are all smooth: the relaxation of a flat punch is a superposition of triangles over the slowness of its waves
 //! ([`PunchWaves`](crate::PunchWaves)), V_p(t) = int (1 - t/X)_+ dmu, so that with du = 2 a da the memory integral can be done:
 //!
 //! ```text
@@ -23,6 +32,7 @@
 //! In reading order: `waves`, `equations` of a piece, solved at the `nodes` of its polynomials, and the `arrivals` of its
 //! waves, `march` from piece to piece, `checks` for what was taken for granted, `solved`, `work`; `dashpot` for the models in
 //! closed form.
+//! A contact that the surface strikes again, or whose waves overtake each other, is refused.
 //! Measured against superposition in time of punches by another kernel formula (`tests/reference/growing.csv`).
 
 pub(crate) mod arrivals;
@@ -32,7 +42,6 @@ pub(crate) mod equations;
 pub(crate) mod march;
 pub(crate) mod nodes;
 pub(crate) mod solved;
-pub(crate) mod uniform;
 pub(crate) mod waves;
 pub(crate) mod work;
 
