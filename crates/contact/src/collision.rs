@@ -5,15 +5,15 @@
 use crate::bodies::strength::{Loading, Strength};
 use crate::bodies::{HalfSpace, Striker};
 use crate::disc::FixedDisc;
-use crate::disc::response::DiscResponse;
 use crate::error::ContactError;
-use crate::growing::waves::{GrowingContact, PunchWaves};
+use crate::law::fit::{FITTED, Fit};
 use crate::law::hertz::CONTACT_TIME;
-use crate::model::{Plasticity, Settings, StaticShare};
+use crate::law::yielding::{FlowLaw, Yielding};
 use crate::names::Choice;
-use crate::plastic::branch::{FITTED, Fit};
-use crate::plastic::{FlowLaw, Yielding};
+use crate::settings::{Plasticity, Settings, StaticShare};
 use crate::units::{CollisionUnits, KernelUnits};
+use crate::waves::punch::{GrowingContact, PunchWaves};
+use crate::waves::response::DiscResponse;
 use halfspace::Medium;
 use std::f64::consts::PI;
 

@@ -13,9 +13,9 @@ mod tests {
     use crate::bodies::material::Material;
     use crate::bodies::{HalfSpace, Striker};
     use crate::collision::Collision;
-    use crate::model::{Model, Settings, StaticShare};
-    use crate::responses::Exact;
-    use crate::solver::Solver;
+    use crate::settings::{Model, Settings, StaticShare};
+    use crate::solve::Solver;
+    use crate::waves::cache::Exact;
 
     /// Peak force, contact time and loss of every model, in collision units.
     fn found() -> Vec<[f64; 3]> {

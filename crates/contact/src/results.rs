@@ -3,10 +3,10 @@
 use crate::bodies::strength::Loading;
 use crate::collision::Collision;
 use crate::error::ContactError;
-use crate::model::Settings;
-use crate::model::choose::fixed_disc_m;
-use crate::plastic::Flow;
-use crate::solver::Solved;
+use crate::law::yielding::Flow;
+use crate::settings::Settings;
+use crate::solve::Solved;
+use crate::solve::choose::fixed_disc_m;
 use crate::units::INVERSE_MASS;
 
 /// Estimated relative error from which on results say nothing.

@@ -7,10 +7,10 @@ use crate::bodies::shape::Shape;
 use crate::bodies::{HalfSpace, Striker};
 use crate::collision::Collision;
 use crate::disc::CENTRE_COUPLING;
-use crate::model::choose::{Plan, fixed_disc_m};
-use crate::model::{Model, Settings, StaticShare};
 use crate::names::Choice;
 use crate::results::Results;
+use crate::settings::{Model, Settings, StaticShare};
+use crate::solve::choose::{Plan, fixed_disc_m};
 use halfspace::Deflection;
 use std::f64::consts::PI;
 

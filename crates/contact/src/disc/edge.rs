@@ -12,8 +12,8 @@
 //!
 //! Theory: `docs/theory.md` (T44 to T46).
 
-use crate::disc::response::DiscResponse;
 use crate::numeric::quadrature::{GAUSS_4, gauss};
+use crate::waves::response::DiscResponse;
 
 /// s(y) with G a parabola; time in steps.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -9,13 +9,14 @@
 //! Theory: `docs/theory.md` (T42).
 
 use crate::disc::FixedDisc;
+use crate::disc::bounds::{affordable, memory_cells};
 use crate::disc::edge::{Edge, RESOLVED, Relaxation};
-use crate::disc::history::{History, affordable, memory_cells};
-use crate::disc::response::DiscResponse;
 use crate::disc::striker::{STARTING, StrikerMotion, starting_roots};
 use crate::disc::weights::Weights;
 use crate::error::MarchError;
+use crate::history::History;
 use crate::numeric::cubic::force_root;
+use crate::waves::response::DiscResponse;
 
 /// Marches with a fixed step (collision units).
 ///

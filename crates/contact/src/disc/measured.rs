@@ -6,11 +6,11 @@
 //! the power 3/2 (A is the compliance of the newest sample), so b is extrapolated from the last five
 //! samples in contact and the force of the last cells is integrated from it.
 
-use crate::disc::history::History;
-use crate::energy::work;
 use crate::error::MarchError;
+use crate::history::History;
 use crate::numeric::cubic::force_root;
 use crate::numeric::quadrature::{GAUSS_8, Local, peak};
+use crate::numeric::work::work;
 use crate::summary::{SMALL_LOSS, Summary};
 use crate::units::INVERSE_MASS;
 
@@ -134,7 +134,7 @@ mod tests {
     use super::*;
     use crate::disc::FixedDisc;
     use crate::disc::implicit::march_implicit;
-    use crate::model::StaticShare;
+    use crate::settings::StaticShare;
     use halfspace::{Deflection, Medium, SurfaceResponse};
 
     /// Where the loss is taken from the work, the impulse is still that of the force: the ledger's two sides are two.

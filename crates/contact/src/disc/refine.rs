@@ -1,37 +1,17 @@
 //! Step control: halve the step until the results stand still.
 
+use crate::accuracy::{Accuracy, Found};
 use crate::disc::FixedDisc;
 use crate::disc::explicit::march_explicit;
-use crate::disc::history::History;
 use crate::disc::implicit::{march_implicit, march_into};
-use crate::disc::response::DiscResponse;
 use crate::error::MarchError;
+use crate::history::History;
 use crate::law::quasi_static::expected_contact_time;
-use crate::model::StaticShare;
 use crate::numeric::quadrature::Local;
+use crate::settings::StaticShare;
 use crate::summary::{Summary, relative};
+use crate::waves::response::DiscResponse;
 use halfspace::SurfaceResponse;
-
-/// What the results have to meet.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Accuracy {
-    /// Relative tolerance on peak force, contact time, restitution and largest displacement.
-    pub tolerance: f64,
-    /// Relative tolerance on the loss 1 - e^2, where it is asked for.
-    pub loss: Option<f64>,
-    /// Relative tolerance on the largest deflection, where it is asked for.
-    pub deflection: Option<f64>,
-}
-
-impl From<f64> for Accuracy {
-    /// A tolerance on the contact's results and on the largest deflection.
-    fn from(tolerance: f64) -> Self {
-        Self {
-            deflection: Some(tolerance),
-            ..Self::of_contact(tolerance, None)
-        }
-    }
-}
 
 /// Fraction of the last change of force, restitution and displacement that is taken as the error.
 ///
@@ -45,15 +25,6 @@ const EXTRAPOLATION: f64 = 0.2;
 const LOSS_REST: f64 = 0.35;
 
 impl Accuracy {
-    /// Of the contact's results only: what a sweep asks.
-    pub fn of_contact(tolerance: f64, loss: Option<f64>) -> Self {
-        Self {
-            tolerance,
-            loss,
-            deflection: None,
-        }
-    }
-
     /// Judges the finer of two summaries a halving apart: the estimated error in units of what is allowed, enough where
     /// it is one or less, and that of the contact's results, relative.
     fn judge(
@@ -67,14 +38,6 @@ impl Accuracy {
         let loss = LOSS_REST * change(|summary| summary.loss);
         let deflection = REST * change(|summary| summary.peak_deflection);
         (self.excess(error / self.tolerance, loss, deflection), error)
-    }
-
-    /// The largest error over what is asked: that of the contact's results, which is so already, of the loss and of the
-    /// largest deflection.
-    pub(crate) fn excess(&self, contact: f64, loss: f64, deflection: f64) -> f64 {
-        let loss = self.loss.map_or(0.0, |asked| loss / asked);
-        let deflection = self.deflection.map_or(0.0, |asked| deflection / asked);
-        contact.max(loss).max(deflection)
     }
 
     /// The finer summary with its loss extrapolated from both, where restitution stays far from zero.
@@ -174,27 +137,6 @@ const EXPLICIT_STEPS: f64 = 200.0;
 
 /// Times that the last change over a halving counts for the dynamic share.
 const DYNAMIC_CAUTION: f64 = 3.0;
-
-/// Results of a scheme, in collision units.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Found {
-    /// Results.
-    pub summary: Summary,
-    /// Estimated relative error of peak force, contact time, restitution and displacement.
-    pub error: f64,
-    /// Step of the finest march; none without a march.
-    pub step: Option<f64>,
-}
-
-impl Found {
-    pub(crate) fn new(summary: Summary, error: f64, step: Option<f64>) -> Self {
-        Self {
-            summary,
-            error,
-            step,
-        }
-    }
-}
 
 /// An impact on a disc by the implicit scheme: with a step that is given, judged by a march with half of it, or halved until
 /// the results are as accurate as asked.

@@ -22,15 +22,15 @@
 //! Next to the touch and to the end the integral is that of an [`Edge`].
 //! Between them p' and L are those of the polynomial through five samples, L with the moments of 1 - W,
 //! and the sum over the samples has the weights of Gregory for its ends.
-//! The work of the march's own deflection, [`work`](crate::energy::work), has an error of h^2 log h instead, with
+//! The work of the march's own deflection, [`work`](crate::numeric::work::work), has an error of h^2 log h instead, with
 //! a factor that depends on where in its cell the contact ends.
 //!
 //! Theory: `docs/theory.md` (T45, T46).
 
 use crate::disc::edge::{Edge, RESOLVED, Relaxation};
-use crate::disc::history::{History, Separation};
 use crate::disc::measured::first_separation;
-use crate::growing::nodes::dot;
+use crate::history::{History, Separation};
+use crate::numeric::linear::dot;
 use crate::numeric::quadrature::Local;
 
 /// Search interval for the separation; the last sample in contact is unreliable, and the one before it may be.
@@ -166,9 +166,9 @@ mod tests {
     use super::*;
     use crate::disc::FixedDisc;
     use crate::disc::implicit::march_implicit;
-    use crate::energy::work;
     use crate::law::quasi_static::expected_contact_time;
-    use crate::model::StaticShare;
+    use crate::numeric::work::work;
+    use crate::settings::StaticShare;
     use crate::summary::Summary;
     use halfspace::{Deflection, Medium, SurfaceResponse};
 

@@ -19,13 +19,13 @@
 //! Theory: `docs/theory.md` (T42, T57).
 
 use crate::disc::FixedDisc;
-use crate::disc::history::History;
 use crate::disc::implicit::march_into;
-use crate::disc::response::DiscResponse;
 use crate::error::{ContactError, MarchError};
+use crate::history::History;
 use crate::law::quasi_static::{largest_force, quasi_static};
-use crate::model::StaticShare;
+use crate::settings::StaticShare;
 use crate::summary::Summary;
+use crate::waves::response::DiscResponse;
 use halfspace::Deflection;
 
 /// -C where it is real, at most, for any Poisson's ratio.

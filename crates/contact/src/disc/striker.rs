@@ -11,7 +11,6 @@
 //!
 //! Theory: `docs/theory.md` (T40).
 
-use crate::disc::history::History;
 use crate::numeric::cubic::force_root;
 use crate::units::INVERSE_MASS;
 
@@ -103,42 +102,10 @@ fn missed(step: f64, compliance: f64, roots: &[f64; STARTING]) -> [f64; 2] {
     ]
 }
 
-impl History {
-    /// int_0^{t_k} p dt for a sample k that has two neighbours on both sides, error O(h^4).
-    pub(crate) fn impulse_until(&self, k: usize) -> f64 {
-        let sum: f64 = self.force[..k].iter().sum::<f64>() + 0.5 * self.force[k];
-        self.impulse_from_sum(k, sum)
-    }
-
-    fn impulse_from_sum(&self, k: usize, sum: f64) -> f64 {
-        let at = |i: usize| self.force.get(i).copied().unwrap_or(0.0);
-        // h p' by central differences
-        let slope = match k {
-            0 => return 0.0,
-            1 => 0.5 * (at(2) - at(0)),
-            _ => (8.0 * (at(k + 1) - at(k - 1)) - (at(k + 2) - at(k - 2))) / 12.0,
-        };
-        self.step * (sum - slope / 12.0) + self.start
-    }
-
-    /// Velocity of the striker at every sample.
-    pub fn velocities(&self) -> Vec<f64> {
-        if !self.velocity.is_empty() {
-            return self.velocity.clone();
-        }
-        let mut sum = 0.0;
-        let mut velocity = Vec::with_capacity(self.force.len());
-        for (k, &p) in self.force.iter().enumerate() {
-            velocity.push(1.0 - INVERSE_MASS * self.impulse_from_sum(k, sum + 0.5 * p));
-            sum += p;
-        }
-        velocity
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::history::History;
 
     /// Errors of d and of the impulse at t = 1 for a force p of known integrals int p and int (1 - t) p.
     fn errors(step: f64, compliance: f64, p: impl Fn(f64) -> f64, exact: [f64; 2]) -> [f64; 2] {

@@ -2,8 +2,8 @@
 //! at a time.
 
 use crate::growing::nodes::Polynomial;
+use crate::law::branch::Law;
 use crate::numeric::quadrature::{CLOSE, rising_root};
-use crate::plastic::branch::Law;
 
 /// Time, contact radius, velocity and displacement of the striker over a stretch of the contact, and the law that it follows.
 #[derive(Debug, Clone, Copy)]

@@ -12,7 +12,7 @@
 use crate::error::MarchError;
 use crate::growing::arrivals::Piece;
 use crate::growing::solved::SolvedContact;
-use crate::growing::waves::GrowingContact;
+use crate::waves::punch::GrowingContact;
 
 /// Samples of a piece.
 const SAMPLES: usize = 6;

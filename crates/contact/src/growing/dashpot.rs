@@ -10,7 +10,7 @@
 use crate::error::MarchError;
 use crate::growing::equations::March;
 use crate::growing::solved::SolvedContact;
-use crate::plastic::branch::Branch;
+use crate::law::branch::Branch;
 
 /// Error of a piece: below that of any model in closed form.
 const ACCURACY: f64 = 1e-8;

@@ -13,10 +13,11 @@
 //! g = 2 a and p = a^3.
 
 use crate::growing::arrivals::{Departure, Piece, State, departures};
-use crate::growing::nodes::{Factors, LARGEST, Nodes, Polynomial, SIZE, dot};
-use crate::growing::waves::GrowingContact;
-use crate::plastic::branch::{Law, Local};
+use crate::growing::nodes::{LARGEST, Nodes, Polynomial, SIZE};
+use crate::law::branch::{Law, Local};
+use crate::numeric::linear::{Factors, dot};
 use crate::units::INVERSE_MASS;
+use crate::waves::punch::GrowingContact;
 
 /// A contact on its way.
 #[derive(Debug)]
@@ -215,7 +216,12 @@ impl Equations<'_> {
     }
 
     /// Derivatives of the residuals with respect to what is sought, at the departures of the residual.
-    pub(crate) fn jacobian(&self, motion: &Motion, residual: &Residual<'_>, matrix: &mut Factors) {
+    pub(crate) fn jacobian(
+        &self,
+        motion: &Motion,
+        residual: &Residual<'_>,
+        matrix: &mut Factors<LARGEST>,
+    ) {
         let (nodes, law) = (self.march.nodes, &self.march.law);
         let (n, contact) = (nodes.degree, &self.march.contact);
         let velocity = self.velocity_by_impulse(motion);
@@ -352,7 +358,7 @@ impl Equations<'_> {
     }
 
     /// One more change, by the finer rule.
-    fn corrected(&self, mut sought: [f64; SIZE], matrix: &Factors) -> Option<Solution> {
+    fn corrected(&self, mut sought: [f64; SIZE], matrix: &Factors<LARGEST>) -> Option<Solution> {
         let motion = self.moves(&sought)?;
         let mut residual = self.fresh_residual(self.march.level + 1);
         self.residual(&sought, &motion, &mut residual);

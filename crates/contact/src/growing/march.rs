@@ -4,11 +4,11 @@ use crate::error::MarchError;
 use crate::growing::arrivals::{Piece, State};
 use crate::growing::equations::{Equations, Errors, Independent, March, Solution};
 use crate::growing::nodes::{Nodes, Polynomial, SIZE};
-use crate::growing::waves::{GrowingContact, LEVELS, PunchWaves};
+use crate::law::branch::{Branch, Law};
 use crate::law::hertz::CONTACT_TIME;
 use crate::numeric::quadrature::rising_root;
-use crate::plastic::branch::{Branch, Law};
 use crate::units::INVERSE_MASS;
+use crate::waves::punch::{GrowingContact, LEVELS, PunchWaves};
 use std::sync::LazyLock;
 
 /// What is left of a change by the finer rule over the waves, at most.

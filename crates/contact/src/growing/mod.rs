@@ -41,15 +41,16 @@ pub(crate) mod dashpot;
 pub(crate) mod equations;
 pub(crate) mod march;
 pub(crate) mod nodes;
+pub(crate) mod quick;
 pub(crate) mod solved;
-pub(crate) mod waves;
 pub(crate) mod work;
+pub(crate) mod yielding;
 
-use crate::disc::refine::Accuracy;
+use crate::accuracy::Accuracy;
 use crate::error::MarchError;
 use crate::growing::equations::March;
 use crate::growing::solved::SolvedContact;
-use crate::growing::waves::GrowingContact;
+use crate::waves::punch::GrowingContact;
 use halfspace::check;
 
 /// Least and largest tolerance.

@@ -3,9 +3,10 @@
 use crate::growing::arrivals::Piece;
 use crate::growing::equations::{Errors, March};
 use crate::growing::nodes::{LARGEST, Nodes};
+use crate::law::branch::Branch;
+use crate::law::cut::nested;
+use crate::law::yielding::{Flow, FlowLaw, Yielding};
 use crate::numeric::quadrature::{GAUSS_8, find_root, gauss, rising_root};
-use crate::plastic::branch::{Branch, nested};
-use crate::plastic::{Flow, FlowLaw, Yielding};
 use crate::summary::{Estimates, Instant, SMALL_LOSS, Summary};
 use crate::units::INVERSE_MASS;
 

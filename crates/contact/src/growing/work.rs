@@ -13,10 +13,10 @@
 //!
 //! Theory: `docs/theory.md` (T47, T56).
 
-use crate::energy::work;
 use crate::growing::solved::SolvedContact;
-use crate::growing::waves::GrowingContact;
 use crate::numeric::quadrature::{GAUSS_4, GAUSS_8, Local, gauss};
+use crate::numeric::work::work;
+use crate::waves::punch::GrowingContact;
 use std::f64::consts::PI;
 
 /// Samples of the contact, in the angle in which it is smooth at both ends, and the rule over the waves: for

@@ -21,8 +21,8 @@
 //! the third order, fitted but for its e, which takes phi M_3 tau^3/24 int p'' (p^(5/3))'' dt from the loss; and the contact ends while the
 //! striker is still pressed in by 4 b f(phi) v^2, since the last instants are shorter than any memory.
 
-use crate::growing::waves::GrowingContact;
 use crate::summary::{Estimates, SMALL_LOSS, Summary};
+use crate::waves::punch::GrowingContact;
 use halfspace::chebyshev;
 
 /// The terms of the expansion in the memory, in collision units.
@@ -209,9 +209,9 @@ const BY_B: [[f64; 7]; 7] = [
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::growing::waves::PunchWaves;
     use crate::law::radiation::radiation;
     use crate::law::reference::Course;
+    use crate::waves::punch::PunchWaves;
     use halfspace::Medium;
 
     #[test]

@@ -1,8 +1,8 @@
 //! Contacts that yield: loading until the indentation turns, unloading as a sphere on a dent.
 //!
-//! The laws are branches of a growing contact (`branch`); [`Yielding`] says which follows which.
-//! `march` follows them by the pieces of a contact that does not yield, with the memory of the half-space or with a dashpot
-//! on the contact's area; `quick` has the results of the dashpot without a march.
+//! The laws are branches of a growing contact; [`Yielding`] says which follows which.
+//! `growing/yielding` follows them by the pieces of a contact that does not yield, with the memory of the half-space or with
+//! a dashpot on the contact's area; `growing/quick` has the results of the dashpot without a march.
 //!
 //! ```text
 //! v' = -(5/4) p
@@ -15,13 +15,10 @@
 //!
 //! Theory: `docs/theory.md` (T62 to T67).
 
-pub(crate) mod branch;
-pub(crate) mod infer;
-pub(crate) mod march;
-pub(crate) mod quick;
-
+use crate::law::branch::Branch;
+use crate::law::cut::spread;
+use crate::law::fit::Fit;
 use crate::numeric::quadrature::in_panels;
-use crate::plastic::branch::{Branch, Fit, spread};
 use crate::units::INVERSE_MASS;
 
 /// The law of flow with its numbers.

@@ -1,8 +1,4 @@
-//! What can be chosen about a contact: model, scheme, disc, tolerances.
-//!
-//! [`Model::row`] is the table of models; `choose` says which of them `auto` takes and what each leaves out.
-
-pub(crate) mod choose;
+//! Settings of a contact: model, scheme, disc, tolerances.
 
 use crate::names::choice;
 use halfspace::Deflection;

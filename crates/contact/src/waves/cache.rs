@@ -1,7 +1,7 @@
 //! Surface responses by Poisson's ratio: exact ones, and tabulated ones that all threads share.
 
-use crate::disc::response::{DiscResponse, ResponseTable};
-use crate::growing::waves::PunchWaves;
+use crate::waves::punch::PunchWaves;
+use crate::waves::response::{DiscResponse, ResponseTable};
 use halfspace::{Deflection, DomainError, Medium, SurfaceResponse};
 use std::collections::HashMap;
 use std::sync::{Arc, PoisonError, RwLock};

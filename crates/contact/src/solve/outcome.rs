@@ -18,22 +18,23 @@
 //! alone.
 //! So the numbers of a row depend neither on the order of rows nor on shards, threads and interruptions.
 
+use crate::accuracy::Accuracy;
 use crate::collision::Collision;
-use crate::disc::history::History;
-use crate::disc::refine::{Accuracy, solve_disc};
-use crate::disc::response::DiscResponse;
+use crate::disc::radiated::radiated;
+use crate::disc::refine::solve_disc;
 use crate::disc::{FixedDisc, stability};
-use crate::energy;
+use crate::growing::quick::quick;
 use crate::growing::solve_growing;
-use crate::growing::waves::GrowingContact;
-use crate::model::choose::{Family, Plan, disc_of};
-use crate::model::{Rung, Scheme, Settings, StaticShare};
+use crate::history::History;
+use crate::law::fit::{FITTED, Fit};
+use crate::law::yielding::{FlowLaw, Yielding};
 use crate::numeric::series::Series;
-use crate::plastic::branch::{FITTED, Fit};
-use crate::plastic::quick::quick;
-use crate::plastic::{FlowLaw, Yielding};
-use crate::responses::Responses;
+use crate::settings::{Rung, Scheme, Settings, StaticShare};
+use crate::solve::choose::{Family, Plan, disc_of};
 use crate::summary::{Summary, relative};
+use crate::waves::cache::Responses;
+use crate::waves::punch::GrowingContact;
+use crate::waves::response::DiscResponse;
 use halfspace::Deflection;
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
@@ -291,7 +292,7 @@ impl Cell {
         stability::check(&impact, history).ok()?;
         let found = solve_disc(history, &impact, None, asked).ok()?;
         let summary = found.summary;
-        let radiated = || energy::radiated(&impact, &*of_mean, history, summary.contact_time);
+        let radiated = || radiated(&impact, &*of_mean, history, summary.contact_time);
         (summary.contacts == 1).then(|| (summary, radiated(), found.error))
     }
 }

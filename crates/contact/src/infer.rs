@@ -8,11 +8,11 @@
 
 use crate::collision::Collision;
 use crate::error::ContactError;
-use crate::model::Settings;
 use crate::names::{Choice, choice};
-use crate::responses::Exact;
 use crate::results::Results;
-use crate::solver::Solver;
+use crate::settings::Settings;
+use crate::solve::Solver;
+use crate::waves::cache::Exact;
 use fault::{Class, Culprit, Fault};
 use thiserror::Error;
 

@@ -11,9 +11,10 @@
 
 use crate::growing::equations::March;
 use crate::growing::nodes::Nodes;
+use crate::law::branch::Branch;
+use crate::law::fit::Fit;
+use crate::law::yielding::{Flow, FlowLaw, Yielding};
 use crate::numeric::series::Series;
-use crate::plastic::branch::{Branch, Fit};
-use crate::plastic::{Flow, FlowLaw, Yielding};
 use crate::summary::Summary;
 use crate::units::INVERSE_MASS;
 use std::f64::consts::FRAC_PI_2;

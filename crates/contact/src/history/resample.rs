@@ -1,6 +1,6 @@
 //! A contact read at any time: between samples, within the pieces of a growing contact, after the striker has left.
 
-use crate::disc::history::History;
+use crate::history::History;
 use crate::numeric::quadrature::{Local, find_root, hermite, quintic};
 use crate::summary::Instant;
 use crate::units::INVERSE_MASS;

@@ -28,16 +28,16 @@
 //!
 //! Theory: `docs/theory.md` (T58).
 
+use crate::accuracy::{Accuracy, Found};
 use crate::collision::Collision;
 use crate::disc::FixedDisc;
-use crate::disc::refine::{Accuracy, Found};
-use crate::disc::response::DiscResponse;
 use crate::error::ContactError;
 use crate::law::area_dashpot::{AreaDashpot, left_out};
 use crate::law::quasi_static::{quasi_static, quasi_static_radiation};
 use crate::law::radiation::{LOSS, MOST_LOSS, radiation};
-use crate::model::{Model, Plasticity, Rung, Scheme, Settings, StaticShare};
 use crate::names::Choice;
+use crate::settings::{Model, Plasticity, Rung, Scheme, Settings, StaticShare};
+use crate::waves::response::DiscResponse;
 
 /// The physics that a scene states.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]

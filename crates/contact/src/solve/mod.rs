@@ -1,30 +1,36 @@
 //! One contact: its model chosen, its scheme run. Single impacts, sweeps and charts all come through here.
+//!
+//! In reading order: `choose` the model, `outcome` the series that sweeps share.
 
 // the outer count is a solver's own: threads that count together wait for each other
 #![allow(clippy::redundant_allocation)]
 
+pub(crate) mod choose;
+pub(crate) mod outcome;
+
+use crate::accuracy::{Accuracy, Found};
 use crate::collision::Collision;
-use crate::disc::history::History;
-use crate::disc::refine::{Accuracy, Found, explicit, march_finely, solve_disc};
-use crate::disc::response::DiscResponse;
+use crate::disc::radiated::radiated;
+use crate::disc::refine::{explicit, march_finely, solve_disc};
 use crate::disc::stability;
-use crate::energy::radiated;
 use crate::error::ContactError;
 use crate::growing::dashpot::solve_springs;
 use crate::growing::equations::March;
+use crate::growing::quick::quick;
 use crate::growing::solve_growing;
 use crate::growing::solved::SolvedContact;
-use crate::growing::waves::PunchWaves;
 use crate::growing::work::work_on_half_space;
+use crate::growing::yielding::DAMPED;
+use crate::history::History;
 use crate::law::area_dashpot::AreaDashpot;
-use crate::model::choose::{Family, Plan, accuracy, disc_of, plan};
-use crate::model::{Model, Rung, Scheme, Settings};
-use crate::outcome::{Outcomes, Place};
-use crate::plastic::march::DAMPED;
-use crate::plastic::quick::quick;
-use crate::plastic::{Flow, Yielding};
-use crate::responses::{Exact, Responses};
+use crate::law::yielding::{Flow, Yielding};
+use crate::settings::{Model, Rung, Scheme, Settings};
+use crate::solve::choose::{Family, Plan, accuracy, disc_of, plan};
+use crate::solve::outcome::{Outcomes, Place};
 use crate::summary::Summary;
+use crate::waves::cache::{Exact, Responses};
+use crate::waves::punch::PunchWaves;
+use crate::waves::response::DiscResponse;
 use halfspace::{Deflection, DomainError};
 use std::sync::Arc;
 

@@ -1,8 +1,9 @@
-//! Samples of a march, and the work that it may take.
+//! The history of a contact: samples of a march, or pieces, which `resample` reads at any time.
 
-use crate::error::MarchError;
+pub(crate) mod resample;
+
 use crate::growing::solved::SolvedContact;
-use crate::law::hertz::CONTACT_TIME;
+use crate::units::INVERSE_MASS;
 use std::sync::Arc;
 
 /// The end of the first contact, as the last samples in contact tell it.
@@ -95,43 +96,35 @@ impl History {
             _ => 1.0,
         }
     }
-}
 
-/// A contact lasts at least this part of Hertz's.
-const SHORTEST: f64 = 0.5;
-
-/// Steps of a march, and products of steps and cells of the memory, at most: one takes 1 to 2 ns, a march 2 s at most.
-const STEPS: usize = 400_000;
-const WORK: usize = 1_000_000_000;
-
-/// Cells of a memory at a step, both in collision units.
-///
-/// # Errors
-/// [`MarchError::TooLong`], before a march begins whose work is out of bounds.
-pub(crate) fn memory_cells(memory: f64, step: f64) -> Result<usize, MarchError> {
-    let cells = (memory / step).min(1e9) as usize;
-    affordable(cells, cells, memory)?;
-    affordable(least_steps(step), cells, memory)?;
-    Ok(cells)
-}
-
-/// Steps over a contact at least.
-pub(crate) fn least_steps(step: f64) -> usize {
-    (SHORTEST * CONTACT_TIME / step).min(1e9) as usize
-}
-
-/// Whether so many steps with so many cells of a `memory` each are within bounds.
-///
-/// # Errors
-/// [`MarchError::TooLong`].
-pub(crate) fn affordable(steps: usize, cells: usize, memory: f64) -> Result<(), MarchError> {
-    let work = steps.saturating_mul(cells.min(steps));
-    if steps > STEPS || work > WORK {
-        return Err(MarchError::TooLong {
-            steps,
-            cells,
-            ratio: memory,
-        });
+    /// int_0^{t_k} p dt for a sample k that has two neighbours on both sides, error O(h^4).
+    pub(crate) fn impulse_until(&self, k: usize) -> f64 {
+        let sum: f64 = self.force[..k].iter().sum::<f64>() + 0.5 * self.force[k];
+        self.impulse_from_sum(k, sum)
     }
-    Ok(())
+
+    fn impulse_from_sum(&self, k: usize, sum: f64) -> f64 {
+        let at = |i: usize| self.force.get(i).copied().unwrap_or(0.0);
+        // h p' by central differences
+        let slope = match k {
+            0 => return 0.0,
+            1 => 0.5 * (at(2) - at(0)),
+            _ => (8.0 * (at(k + 1) - at(k - 1)) - (at(k + 2) - at(k - 2))) / 12.0,
+        };
+        self.step * (sum - slope / 12.0) + self.start
+    }
+
+    /// Velocity of the striker at every sample.
+    pub fn velocities(&self) -> Vec<f64> {
+        if !self.velocity.is_empty() {
+            return self.velocity.clone();
+        }
+        let mut sum = 0.0;
+        let mut velocity = Vec::with_capacity(self.force.len());
+        for (k, &p) in self.force.iter().enumerate() {
+            velocity.push(1.0 - INVERSE_MASS * self.impulse_from_sum(k, sum + 0.5 * p));
+            sum += p;
+        }
+        velocity
+    }
 }

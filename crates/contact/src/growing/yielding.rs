@@ -3,18 +3,18 @@
 //!
 //! The lag is that of a dashpot on the contact's area, c F_u^2 u'; with it the force is gone before the radius is.
 
-use crate::disc::refine::Accuracy;
+use crate::accuracy::Accuracy;
 use crate::error::MarchError;
 use crate::growing::arrivals::{Piece, State};
 use crate::growing::checks;
 use crate::growing::equations::{Independent, March, Solution};
 use crate::growing::nodes::{Polynomial, SIZE};
 use crate::growing::solved::SolvedContact;
-use crate::growing::waves::GrowingContact;
+use crate::law::branch::Branch;
+use crate::law::yielding::Yielding;
 use crate::numeric::quadrature::rising_root;
-use crate::plastic::Yielding;
-use crate::plastic::branch::Branch;
 use crate::units::INVERSE_MASS;
+use crate::waves::punch::GrowingContact;
 
 /// Pieces of the flow, and of what opens, at most, tried ones included.
 const MOST: usize = 300;
