@@ -114,7 +114,7 @@ impl Results {
             [flow.contact_radius, flow.disc_radius, flow.contact_radius].map(|one| one * length_m)
         } else {
             let radius_m = collision.contact_radius_m(peak_force_n);
-            let disc_m = fixed_disc_m(solved.plan.model, settings, collision).unwrap_or(radius_m);
+            let disc_m = fixed_disc_m(solved.chosen.model, settings, collision).unwrap_or(radius_m);
             [radius_m, disc_m, disc_m]
         };
         // by two routes that share nothing but the force: what the striker keeps follows from its momentum, what the

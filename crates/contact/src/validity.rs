@@ -10,7 +10,7 @@ use crate::disc::CENTRE_COUPLING;
 use crate::names::Choice;
 use crate::results::Results;
 use crate::settings::{Model, Settings, StaticShare};
-use crate::solve::choose::{Plan, fixed_disc_m};
+use crate::solve::choose::{Chosen, fixed_disc_m};
 use halfspace::Deflection;
 use std::f64::consts::PI;
 
@@ -94,18 +94,18 @@ fn doubt(striker: &Striker) -> Option<String> {
     })
 }
 
-/// What the user should know of the bodies, the settings, the plan and what it gave: sentences with their numbers, none where
+/// What the user should know of the bodies, the settings, the model and its results: sentences with their numbers, none where
 /// all is well.
 pub fn warnings(
     half_space: &HalfSpace,
     striker: &Striker,
     collision: &Collision,
     settings: &Settings,
-    plan: &Plan,
+    chosen: &Chosen,
     results: &Results,
 ) -> Vec<String> {
     let mut found = Vec::new();
-    let disc_radius_m = fixed_disc_m(plan.model, settings, collision);
+    let disc_radius_m = fixed_disc_m(chosen.model, settings, collision);
     let hertz_radius = results.contact_radius_m;
     let radius = disc_radius_m.unwrap_or(hertz_radius);
     let alpha = super_seismic(half_space, collision, radius);
@@ -156,7 +156,7 @@ pub fn warnings(
         ));
     }
     found.extend(doubts(half_space, striker));
-    of_the_model(settings, plan, results, &mut found);
+    of_the_model(settings, chosen, results, &mut found);
     found
 }
 
@@ -218,10 +218,10 @@ fn of_the_flow(
     }
 }
 
-fn of_the_model(settings: &Settings, plan: &Plan, results: &Results, found: &mut Vec<String>) {
-    let chosen = (plan.model, settings.static_share, settings.deflection);
-    let of_centre = chosen == (Model::Wave, StaticShare::Full, Deflection::Centre);
-    let centre = plan.groups.coupling;
+fn of_the_model(settings: &Settings, chosen: &Chosen, results: &Results, found: &mut Vec<String>) {
+    let paper = (chosen.model, settings.static_share, settings.deflection);
+    let of_centre = paper == (Model::Wave, StaticShare::Full, Deflection::Centre);
+    let centre = chosen.regime.coupling;
     if of_centre && centre > CENTRE_COUPLING {
         found.push(format!(
             "the disc gives way {centre:.1} times as much as the contact, more than {CENTRE_COUPLING}: the deflection of its centre is not conjugate to the pressure and may feed energy back; set deflection = \"mean\""

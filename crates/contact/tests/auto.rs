@@ -105,7 +105,7 @@ fn compare(family: Family, index: u64, responses: &Tabulated) -> Option<(Model, 
     let loss = settings
         .loss_tolerance
         .map_or(0.0, |asked| a.loss_distance(b) / asked);
-    Some((found.plan.model, a.distance(b) / settings.tolerance, loss))
+    Some((found.chosen.model, a.distance(b) / settings.tolerance, loss))
 }
 
 fn check(family: Family) {
@@ -178,7 +178,7 @@ fn most_real_impacts_need_no_memory() {
                 let found = collide(&collision, &settings, &responses).unwrap();
                 let exact = collide(&collision, &exactly, &responses).unwrap();
                 let (a, b) = (&found.summary, &exact.summary);
-                (found.plan.model, a.distance(b), a.loss_distance(b))
+                (found.chosen.model, a.distance(b), a.loss_distance(b))
             })
             .collect();
         let count =

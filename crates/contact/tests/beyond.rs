@@ -45,7 +45,14 @@ fn the_fit_is_warned_of_where_it_leaves_its_authors_restitution() {
             let collision = Collision::new(&block, &ball, velocity);
             let solved = Solver::new(&Exact).solve(&collision, &settings).unwrap();
             let results = Results::new(&collision, &settings, &solved);
-            let told = warnings(&block, &ball, &collision, &settings, &solved.plan, &results);
+            let told = warnings(
+                &block,
+                &ball,
+                &collision,
+                &settings,
+                &solved.chosen,
+                &results,
+            );
             let warned = told.iter().any(|one| one.contains("is trusted"));
             let off = results.restitution / of_the_authors(v, strain) - 1.0;
             (off, results.plastic.velocity_over_trusted.unwrap(), warned)

@@ -182,7 +182,7 @@ fn loss_tolerance_is_heeded_by_auto() {
         let mut slow = strike(&ONE, model(Model::Auto)).to_tolerance(1e-2);
         slow.velocity_m_s = 1e-4;
         slow.settings.loss_tolerance = loss_tolerance;
-        slow.solve().unwrap().solved.plan.model
+        slow.solve().unwrap().solved.chosen.model
     };
     assert_eq!(chosen(None), Model::Hertz);
     assert_ne!(chosen(Some(1e-1)), Model::Hertz);

@@ -307,10 +307,12 @@ impl<'a> March<'a> {
             before = now;
             let middle = u + 0.5 * step * rate;
             let depth = middle.max(0.0);
-            let force = if let Branch::Hertzian { .. } = self.law.branch {
-                depth.powf(1.5)
-            } else {
-                self.law.branch.at(depth.sqrt()).force
+            let force = match self.law.branch {
+                Branch::Hertzian { .. } => depth.powf(1.5),
+                Branch::Line { .. }
+                | Branch::Fit(_)
+                | Branch::Truncated { .. }
+                | Branch::OnSpring { .. } => self.law.branch.at(depth.sqrt()).force,
             };
             rate -= step * INVERSE_MASS * force;
             u = (middle + 0.5 * step * rate).max(least);

@@ -46,10 +46,9 @@ pub(crate) fn quick(yielding: &Yielding, lag: f64) -> Option<(Summary, Flow)> {
     let fifth = from.powi(5);
     let ([speed, duration, pulled, stored], by) = match back {
         Branch::Truncated { edge, top } => (fall_of_cut(edge / top, own_lag)?, 1.0),
-        Branch::Hertzian { .. }
-        | Branch::Line { .. }
-        | Branch::Fit(_)
-        | Branch::OnSpring { .. } => (fall(own_lag)?, 1.0 / back.flatter()),
+        Branch::Hertzian { flatter, .. } => (fall(own_lag)?, 1.0 / flatter),
+        // no law unloads along these
+        Branch::Line { .. } | Branch::Fit(_) | Branch::OnSpring { .. } => return None,
     };
     let (v, stored) = (by * speed * fifth.sqrt(), by * by * stored * fifth);
     let spent = lost + flowing + 2.0 * INVERSE_MASS * stored;

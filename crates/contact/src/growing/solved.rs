@@ -126,10 +126,10 @@ impl SolvedContact {
             lost += work_of(piece, 1.0);
         }
         // what a contact without force has not given back goes the way of the dashpot
-        let kept = march.law.branch.given_back(march.state.radius.max(0.0));
+        let kept = march.law.branch.work(march.state.radius.max(0.0));
         lost += 2.0 * INVERSE_MASS * kept;
         let (back, from) = yielding.unloading(top);
-        let flowed = 2.0 * INVERSE_MASS * (yielding.work(top) - back.given_back(from));
+        let flowed = 2.0 * INVERSE_MASS * (yielding.work(top) - back.work(from));
         let summary = Summary {
             peak_force,
             peak_force_time,
@@ -158,7 +158,7 @@ impl SolvedContact {
         let piece = self.pieces.get(index)?;
         let place = place_of(piece, time);
         let radius = piece.radius.value(place).max(0.0);
-        let stored = |branch: Branch, from| 2.0 * INVERSE_MASS * branch.given_back(from);
+        let stored = |branch: Branch, from| 2.0 * INVERSE_MASS * branch.work(from);
         let (stored, flowed) = if self.turned(time) {
             (stored(piece.law.branch, radius), flow.plastic_work)
         } else {
@@ -285,7 +285,13 @@ fn deflected(piece: &Piece, place: f64) -> f64 {
         (None, _) => displacement - here.depth,
         (Some(_), Branch::OnSpring { .. }) => hertz(),
         // a dashpot has no displacement for it: by its force
-        (Some(lag), _) => -lag * here.stiffness * piece.velocity.value(place),
+        (
+            Some(lag),
+            Branch::Line { .. }
+            | Branch::Fit(_)
+            | Branch::Hertzian { .. }
+            | Branch::Truncated { .. },
+        ) => -lag * here.stiffness * piece.velocity.value(place),
     }
 }
 

@@ -74,7 +74,7 @@ impl March<'_> {
         let pull = |one: &Piece, s: f64| one.radius.value(s) * -one.velocity.value(s);
         let pieces = march.pieces.iter();
         let samples = pieces.flat_map(|one| (0..=64).map(move |i| pull(one, f64::from(i) / 64.0)));
-        let (pulled, stored) = (samples.fold(0.0, f64::max), branch.given_back(1.0));
+        let (pulled, stored) = (samples.fold(0.0, f64::max), branch.work(1.0));
         Some([-march.state.velocity, march.state.time, pulled, stored])
     }
 
@@ -105,15 +105,21 @@ impl March<'_> {
 
     /// Pieces from where the striker turned until the force is gone; when the branch has a root.
     fn unload(&mut self) -> Result<Option<f64>, MarchError> {
-        let (mut base, mut crossed) = (self.state.radius, None);
-        if let Branch::Truncated { edge, top } = self.law.branch {
-            // where the pressure was cut the branch has a root
-            let kink = ((top - edge) * (top + edge)).max(0.0).sqrt();
-            if self.open(base, kink, f64::INFINITY)? || self.state.radius > kink {
-                return self.close().map(|()| None);
+        let radius = self.state.radius;
+        let (base, crossed) = match self.law.branch {
+            Branch::Truncated { edge, top } => {
+                // where the pressure was cut the branch has a root
+                let kink = ((top - edge) * (top + edge)).max(0.0).sqrt();
+                if self.open(radius, kink, f64::INFINITY)? || self.state.radius > kink {
+                    return self.close().map(|()| None);
+                }
+                (kink, Some(self.state.time))
             }
-            (base, crossed) = (kink, Some(self.state.time));
-        }
+            Branch::Line { .. }
+            | Branch::Fit(_)
+            | Branch::Hertzian { .. }
+            | Branch::OnSpring { .. } => (radius, None),
+        };
         self.open(base, 0.0, f64::INFINITY)?;
         self.close().map(|()| crossed)
     }

@@ -179,16 +179,24 @@ impl Branch {
         }
     }
 
-    /// R_p/R: what contact's relative curvature has become where an unloading branch ends.
-    pub(crate) fn flatter(&self) -> f64 {
-        2.0 / self.at(0.0).bends[0]
+    /// Work along a branch from a radius of zero, int p du: that of unloading is given back.
+    pub(crate) fn work(&self, a: f64) -> f64 {
+        match *self {
+            Self::Hertzian { flatter, .. } => 0.4 * a.powi(5) / flatter.powi(2),
+            Self::Truncated { edge, top } => self.work_of_cut(edge, top, a),
+            Self::Line { .. } | Self::Fit(_) | Self::OnSpring { .. } => self.work_between(0.0, a),
+        }
     }
 
-    /// Work that an unloading branch gives back from a radius on, int p du.
-    pub(crate) fn given_back(&self, a: f64) -> f64 {
-        let Self::Truncated { edge, top } = *self else {
-            return 0.4 * a.powi(5) / self.flatter().powi(2);
-        };
+    /// Work along a smooth branch between two radii.
+    pub(crate) fn work_between(&self, from: f64, to: f64) -> f64 {
+        in_panels(from, to, |a| {
+            let here = self.at(a);
+            here.force * here.depth_slope
+        })
+    }
+
+    fn work_of_cut(&self, edge: f64, top: f64, a: f64) -> f64 {
         let kink = (top * top - edge * edge).max(0.0).sqrt();
         let part = |turn: f64| {
             // smooth in the turn: roots at the kink, and a steep place of the width of y beside it

@@ -18,7 +18,6 @@
 use crate::law::branch::Branch;
 use crate::law::cut::spread;
 use crate::law::fit::Fit;
-use crate::numeric::quadrature::in_panels;
 use crate::units::INVERSE_MASS;
 
 /// The law of flow with its numbers.
@@ -67,11 +66,13 @@ impl Yielding {
     /// Whether anything is given back of the deepest indentation, without waves: the fit's dent grows faster than the
     /// indentation.
     pub(crate) fn rebounds(&self) -> bool {
-        let FlowLaw::Fit(fit) = self.law else {
-            return true;
-        };
-        let is_trusted = self.trusted_ratio().is_none_or(|ratio| ratio <= 1.0);
-        is_trusted || 2.0 * INVERSE_MASS * self.work(fit.deepest().sqrt()) > 1.0
+        match self.law {
+            FlowLaw::Thornton | FlowLaw::Recovery => true,
+            FlowLaw::Fit(fit) => {
+                let is_trusted = self.trusted_ratio().is_none_or(|ratio| ratio <= 1.0);
+                is_trusted || 2.0 * INVERSE_MASS * self.work(fit.deepest().sqrt()) > 1.0
+            }
+        }
     }
 
     /// Whether an elastic contact would yield.
@@ -95,15 +96,12 @@ impl Yielding {
     /// Work of the loading up to a radius of contact, int p du.
     pub(crate) fn work(&self, radius: f64) -> f64 {
         let edge = self.edge().min(radius);
-        let flow = match self.loading() {
-            Branch::Line { edge: y } => {
-                let [square, low] = [radius * radius, edge * edge];
+        let flow = match self.law {
+            FlowLaw::Thornton | FlowLaw::Recovery => {
+                let (y, [square, low]) = (self.edge(), [radius * radius, edge * edge]);
                 y * (0.75 * (square + low) - 0.5 * y * y) * (square - low)
             }
-            loading => in_panels(edge, radius, |a| {
-                let here = loading.at(a);
-                here.force * here.depth_slope
-            }),
+            FlowLaw::Fit(_) => self.loading().work_between(edge, radius),
         };
         0.4 * edge.powi(5) + flow
     }

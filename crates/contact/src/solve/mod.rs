@@ -24,8 +24,8 @@ use crate::growing::yielding::DAMPED;
 use crate::history::History;
 use crate::law::area_dashpot::AreaDashpot;
 use crate::law::yielding::{Flow, Yielding};
-use crate::settings::{Model, Rung, Scheme, Settings};
-use crate::solve::choose::{Family, Plan, accuracy, disc_of, plan};
+use crate::settings::{Memory, Model, Physics, Scheme, Settings};
+use crate::solve::choose::{Chosen, accuracy, choose, disc_of};
 use crate::solve::outcome::{Outcomes, Place};
 use crate::summary::Summary;
 use crate::waves::cache::{Exact, Responses};
@@ -37,8 +37,8 @@ use std::sync::Arc;
 /// A contact solved, in collision units.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Solved {
-    /// The model and its groups.
-    pub plan: Plan,
+    /// The model.
+    pub chosen: Chosen,
     /// The scheme; none where nothing was marched.
     pub scheme: Option<Scheme>,
     /// Results.
@@ -57,10 +57,10 @@ pub struct Solved {
     pub flow: Option<Flow>,
 }
 
-impl Plan {
+impl Chosen {
     fn solved(self, scheme: Option<Scheme>, found: Found, radiated: f64) -> Solved {
         Solved {
-            plan: self,
+            chosen: self,
             scheme,
             summary: found.summary,
             error: found.error,
@@ -129,11 +129,11 @@ impl<'a, S: Responses> Solver<'a, S> {
         let ratio = collision.target_poisson_ratio;
         let disc = self.disc(ratio, settings.deflection).ok()?;
         let yielding = collision.yielding(settings).ok()?.filter(Yielding::begins);
-        let plan = plan(settings, collision, &**disc, yielding.is_some());
+        let chosen = choose(settings, collision, &**disc, yielding.is_some());
         if let Some(yielding) = yielding {
-            return Place::of_fit(&plan, &yielding, settings);
+            return Place::of_fit(&chosen, &yielding, settings);
         }
-        Place::of(&plan, collision, settings, &**disc)
+        Place::of(&chosen, collision, settings, &**disc)
     }
 
     /// The results of a contact.
@@ -160,9 +160,7 @@ impl<'a, S: Responses> Solver<'a, S> {
         let duration = solved.summary.contact_time;
         let mut history = match (&self.growing, solved.scheme) {
             (Some(growing), _) => History::of_pieces(growing),
-            (None, Some(Scheme::Implicit))
-                if solved.plan.model == Model::Wave && settings.step_s.is_none() =>
-            {
+            (None, Some(Scheme::Implicit)) if settings.step_s.is_none() => {
                 let disc = self.disc(collision.target_poisson_ratio, settings.deflection)?;
                 let impact = disc_of(settings, collision, &**disc);
                 march_finely(&impact, duration, settings.tolerance)
@@ -171,7 +169,7 @@ impl<'a, S: Responses> Solver<'a, S> {
                     .unwrap_or_else(|| self.history.clone())
             }
             (None, Some(_)) => self.history.clone(),
-            (None, None) => self.without_memory(collision, &solved.plan, settings.tolerance)?,
+            (None, None) => self.without_memory(collision, &solved.chosen, settings.tolerance)?,
         };
         if history.error.is_infinite() || solved.flow.is_some() {
             history.error = solved.error;
@@ -183,19 +181,19 @@ impl<'a, S: Responses> Solver<'a, S> {
     fn without_memory(
         &mut self,
         collision: &Collision,
-        plan: &Plan,
+        chosen: &Chosen,
         tolerance: f64,
     ) -> Result<History, ContactError> {
-        match plan.model.row().0 {
+        match chosen.memory() {
             // its expansion has the results of the contact with memory, but not its first and last instants
-            Rung::AreaDashpot => {
+            Memory::Dashpot => {
                 let waves = self.waves(collision.target_poisson_ratio)?;
                 let contact = collision.growing_contact(&waves);
                 let asked = Accuracy::of_contact(tolerance.min(COARSEST), None);
                 Ok(History::of_pieces(&solve_growing(&contact, &asked)?))
             }
-            Rung::QuasiStatic | Rung::Radiation | Rung::FullMemory => {
-                let pieces = solve_springs(plan.coupling(), plan.damping())?;
+            Memory::None | Memory::FirstOrder | Memory::Full => {
+                let pieces = solve_springs(chosen.coupling(), chosen.damping())?;
                 Ok(History {
                     // that of the results
                     error: f64::INFINITY,
@@ -217,35 +215,37 @@ impl<'a, S: Responses> Solver<'a, S> {
         self.growing = None;
         let impact = || disc_of(settings, collision, &**disc);
         if let Some(yielding) = collision.yielding(settings)?.filter(Yielding::begins) {
-            let plan = plan(settings, collision, &**disc, true);
-            if let Some(solved) = self.yielded(collision, settings, &yielding, plan, &asked)? {
+            let chosen = choose(settings, collision, &**disc, true);
+            if let Some(solved) = self.yielded(collision, settings, &yielding, chosen, &asked)? {
                 return Ok(solved);
             }
         }
-        let plan = plan(settings, collision, &**disc, false);
+        let chosen = choose(settings, collision, &**disc, false);
         if let (Some(outcomes), None) = (self.outcomes, asked.deflection)
-            && let Some(place) = Place::of(&plan, collision, settings, &**disc)
+            && let Some(place) = Place::of(&chosen, collision, settings, &**disc)
             && let Some((summary, radiated, error)) = outcomes.at(&place, self.responses)
         {
-            return Ok(plan.solved(None, Found::new(summary, error, None), radiated));
+            return Ok(chosen.solved(None, Found::new(summary, error, None), radiated));
         }
         let in_times = |step_s: f64| step_s / collision.units().time_s;
         let step = settings.step_s.map(in_times);
-        let is_disc = matches!(plan.groups.family, Family::Full | Family::Dynamic);
-        let is_wave = matches!(settings.model, Model::Wave | Model::Auto);
-        if is_disc && is_wave && settings.scheme == Scheme::Implicit {
+        let is_disc = match chosen.regime.physics {
+            Physics::Disc(_) => true,
+            Physics::Growing | Physics::Yielding => false,
+        };
+        if is_disc && settings.model.has_schemes() && settings.scheme == Scheme::Implicit {
             stability::check(&impact(), &mut self.history)?;
         }
-        let (scheme, found, work) = match (plan.model.row(), settings.scheme) {
-            ((Rung::QuasiStatic | Rung::Radiation, _), _) => (None, plan.closed_form()?, None),
-            ((Rung::AreaDashpot, _), _) => (None, plan.dashpot(&self.dashpot(collision)?)?, None),
-            ((Rung::FullMemory, false), _) => {
+        let (scheme, found, work) = match (chosen.memory(), chosen.regime.physics) {
+            (Memory::None | Memory::FirstOrder, _) => (None, chosen.closed_form()?, None),
+            (Memory::Dashpot, _) => (None, chosen.dashpot(&self.dashpot(collision)?)?, None),
+            (Memory::Full, Physics::Growing | Physics::Yielding) => {
                 let (found, work) = self.grow(collision, asked)?;
                 (Some(Scheme::Implicit), found, Some(work))
             }
-            ((Rung::FullMemory, true), scheme) => {
+            (Memory::Full, Physics::Disc(_)) => {
                 let room = &mut self.history;
-                let found = match scheme {
+                let found = match settings.scheme {
                     Scheme::Implicit => solve_disc(room, &impact(), step, asked)?,
                     Scheme::Explicit => {
                         let response = Exact.disc(ratio, settings.deflection)?;
@@ -255,11 +255,11 @@ impl<'a, S: Responses> Solver<'a, S> {
                 let mean = self.responses.disc(ratio, Deflection::Mean)?;
                 let duration = found.summary.contact_time;
                 let work = radiated(&impact(), &*mean, &self.history, duration);
-                (Some(scheme), found, Some(work))
+                (Some(settings.scheme), found, Some(work))
             }
         };
         let radiated = work.unwrap_or(found.summary.loss);
-        Ok(plan.solved(scheme, found, radiated))
+        Ok(chosen.solved(scheme, found, radiated))
     }
 
     /// A contact that yields; nothing where waves keep it from doing so.
@@ -268,7 +268,7 @@ impl<'a, S: Responses> Solver<'a, S> {
         collision: &Collision,
         settings: &Settings,
         yielding: &Yielding,
-        mut plan: Plan,
+        mut chosen: Chosen,
         asked: &Accuracy,
     ) -> Result<Option<Solved>, ContactError> {
         if let Some(over) = yielding.trusted_ratio().filter(|_| !yielding.rebounds()) {
@@ -279,26 +279,30 @@ impl<'a, S: Responses> Solver<'a, S> {
                 trusted_m_s,
             });
         }
-        if plan.model.row().0 == Rung::FullMemory {
+        let follows_memory = match chosen.memory() {
+            Memory::None | Memory::FirstOrder | Memory::Dashpot => false,
+            Memory::Full => true,
+        };
+        if follows_memory {
             let waves = self.waves(collision.target_poisson_ratio)?;
             let contact = collision.growing_contact(&waves);
             match yielding.remembered(&contact, asked) {
                 Ok(found) => self.growing = found,
-                Err(_) if plan.chosen.is_some() => plan.model = Model::AreaDashpot,
+                Err(_) if chosen.by_auto.is_some() => chosen.model = Model::AreaDashpot,
                 Err(error) => return Err(error.into()),
             }
         }
-        let (_, [left_out, _]) = plan.groups.without_memory();
-        let (rung, _) = plan.model.row();
-        let memory = rung == Rung::FullMemory;
-        let lag = match rung {
-            Rung::QuasiStatic => 0.0,
-            Rung::Radiation | Rung::AreaDashpot | Rung::FullMemory => plan.groups.lag,
+        let (_, [left_out, _]) = chosen.regime.without_memory();
+        let first_order_loss = chosen.regime.first_order_loss();
+        let (lag, memory) = match chosen.memory() {
+            Memory::None => (0.0, false),
+            Memory::FirstOrder | Memory::Dashpot => (chosen.regime.lag, false),
+            Memory::Full => (chosen.regime.lag, true),
         };
         // the history of a single impact has its results too
         let alone = !memory && asked.deflection.is_none();
         let series = || {
-            let place = Place::of_fit(&plan, yielding, settings)?;
+            let place = Place::of_fit(&chosen, yielding, settings)?;
             let (summary, radiated, error) = self.outcomes?.at(&place, self.responses)?;
             let works = [summary.loss - radiated, radiated];
             let flow = Flow::new(yielding, summary.peak_displacement.sqrt(), works);
@@ -315,16 +319,16 @@ impl<'a, S: Responses> Solver<'a, S> {
         let Some((summary, flow, of_series)) = results.or(pieces) else {
             return Ok(None);
         };
-        let error = match rung {
-            Rung::QuasiStatic => plan.groups.first_order_loss() + left_out,
-            Rung::Radiation | Rung::AreaDashpot => left_out + of_series,
-            Rung::FullMemory => YIELDS * followed.map_or(0.0, |one| one.estimates.contact()),
+        let error = match chosen.memory() {
+            Memory::None => first_order_loss + left_out,
+            Memory::FirstOrder | Memory::Dashpot => left_out + of_series,
+            Memory::Full => YIELDS * followed.map_or(0.0, |one| one.estimates.contact()),
         };
         let found = Found::new(summary, error.min(1.0), None);
         let scheme = memory.then_some(Scheme::Implicit);
         Ok(Some(Solved {
             flow: Some(flow),
-            ..plan.solved(scheme, found, flow.radiated)
+            ..chosen.solved(scheme, found, flow.radiated)
         }))
     }
 

@@ -29,8 +29,8 @@ use crate::history::History;
 use crate::law::fit::{FITTED, Fit};
 use crate::law::yielding::{FlowLaw, Yielding};
 use crate::numeric::series::Series;
-use crate::settings::{Rung, Scheme, Settings, StaticShare};
-use crate::solve::choose::{Family, Plan, disc_of};
+use crate::settings::{Memory, Physics, Scheme, Settings, StaticShare};
+use crate::solve::choose::{Chosen, disc_of};
 use crate::summary::{Summary, relative};
 use crate::waves::cache::Responses;
 use crate::waves::punch::GrowingContact;
@@ -39,12 +39,12 @@ use halfspace::Deflection;
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
-/// A cell: an octave of each free group of a family of contacts, at given others.
+/// A cell: an octave of each free group of contacts of one physics, at given others.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct Cell {
     /// Logarithms to the base of two of the free groups, rounded down.
     octaves: [i32; 2],
-    family: Family,
+    physics: Physics,
     /// That of a fixed disc.
     deflection: Deflection,
     /// Poisson's ratio and, of a contact that follows the load, phi; C and e_y of the fit; in bits.
@@ -93,48 +93,60 @@ const LEFT_OUT: f64 = 5e-2;
 impl Place {
     /// Of a contact that would be marched with full memory, and its disc's response.
     pub(crate) fn of(
-        plan: &Plan,
+        chosen: &Chosen,
         collision: &Collision,
         settings: &Settings,
         response: &impl DiscResponse,
     ) -> Option<Self> {
-        let (rung, on_disc) = plan.model.row();
+        let is_marched = match chosen.memory() {
+            Memory::None | Memory::FirstOrder | Memory::Dashpot => false,
+            Memory::Full => true,
+        };
         let is_refined = settings.step_s.is_none() && settings.scheme == Scheme::Implicit;
-        if rung != Rung::FullMemory || !is_refined {
+        if !is_marched || !is_refined {
             return None;
         }
-        let (nu, memory) = (collision.target_poisson_ratio, plan.groups.memory);
-        let (fixed, groups) = if on_disc {
-            let disc = disc_of(settings, collision, response);
-            ([nu, 0.0], [memory / response.disc().memory, disc.coupling])
-        } else {
-            let fixed = [nu, collision.target_share()];
-            (fixed, [memory / response.punch_memory(), 1.0])
+        let (nu, memory) = (collision.target_poisson_ratio, chosen.regime.memory);
+        let physics = chosen.regime.physics;
+        let (fixed, groups) = match physics {
+            Physics::Disc(StaticShare::Full | StaticShare::Dynamic) => {
+                let disc = disc_of(settings, collision, response);
+                ([nu, 0.0], [memory / response.disc().memory, disc.coupling])
+            }
+            Physics::Growing | Physics::Yielding => {
+                let fixed = [nu, collision.target_share()];
+                (fixed, [memory / response.punch_memory(), 1.0])
+            }
         };
-        Some(Self::new(settings, plan.groups.family, fixed, groups))
+        Some(Self::new(settings, physics, fixed, groups))
     }
 
     /// Of a contact on Jackson and Green's fit with a dashpot.
-    pub(crate) fn of_fit(plan: &Plan, yielding: &Yielding, settings: &Settings) -> Option<Self> {
+    pub(crate) fn of_fit(
+        chosen: &Chosen,
+        yielding: &Yielding,
+        settings: &Settings,
+    ) -> Option<Self> {
         let fit = match yielding.law {
             FlowLaw::Fit(fit) => fit,
             // in closed form
             FlowLaw::Thornton | FlowLaw::Recovery => return None,
         };
-        if plan.model.row().0 != Rung::AreaDashpot {
-            return None;
+        match chosen.memory() {
+            Memory::Dashpot => {}
+            Memory::None | Memory::FirstOrder | Memory::Full => return None,
         }
-        let groups = [(yielding.edge().powi(-5) - 1.0).sqrt(), plan.groups.lag];
+        let groups = [(yielding.edge().powi(-5) - 1.0).sqrt(), chosen.regime.lag];
         let fixed = [fit.shape, fit.strain];
-        Some(Self::new(settings, Family::Yielding, fixed, groups))
+        Some(Self::new(settings, Physics::Yielding, fixed, groups))
     }
 
-    fn new(settings: &Settings, family: Family, fixed: [f64; 2], groups: [f64; 2]) -> Self {
+    fn new(settings: &Settings, physics: Physics, fixed: [f64; 2], groups: [f64; 2]) -> Self {
         let octaves = groups.map(octave);
         let tolerances = [settings.tolerance, settings.loss_tolerance.unwrap_or(0.0)];
         let cell = Cell {
             octaves: octaves.map(|(octave, _)| octave),
-            family,
+            physics,
             deflection: settings.deflection,
             fixed: fixed.map(f64::to_bits),
             tolerances: tolerances.map(f64::to_bits),
@@ -196,18 +208,20 @@ impl Cell {
     /// Nodes along each group, and marches between them.
     fn nodes(&self) -> ([usize; 2], usize) {
         let fine = usize::from(f64::from_bits(self.tolerances[0]) < COARSE);
-        match self.family {
-            Family::Growing => ([NODES[fine], 1], PROBES[0]),
-            Family::Full | Family::Dynamic => ([NODES[fine]; 2], PROBES[1]),
-            Family::Yielding => ([NODES[2]; 2], PROBES[2]),
+        match self.physics {
+            Physics::Growing => ([NODES[fine], 1], PROBES[0]),
+            Physics::Disc(_) => ([NODES[fine]; 2], PROBES[1]),
+            Physics::Yielding => ([NODES[2]; 2], PROBES[2]),
         }
     }
 
     /// The groups at a place in it.
     fn groups(&self, inside: [f64; 2]) -> [f64; 2] {
         let group = |k: usize| (f64::from(self.octaves[k]) + 0.5 * (inside[k] + 1.0)).exp2();
-        let one = self.family == Family::Growing;
-        [group(0), if one { 1.0 } else { group(1) }]
+        match self.physics {
+            Physics::Growing => [group(0), 1.0],
+            Physics::Disc(_) | Physics::Yielding => [group(0), group(1)],
+        }
     }
 
     /// The series with its certificate, where that meets the tolerance.
@@ -255,8 +269,8 @@ impl Cell {
         history: &mut History,
     ) -> Option<(Summary, f64, f64)> {
         let fixed = self.fixed.map(f64::from_bits);
-        let share = match self.family {
-            Family::Growing => {
+        let share = match self.physics {
+            Physics::Growing => {
                 let waves = responses.waves(fixed[0]).ok()?;
                 let contact = GrowingContact {
                     waves: &waves,
@@ -267,7 +281,7 @@ impl Cell {
                 let summary = solved.summary;
                 return Some((summary, summary.loss, solved.estimates.contact()));
             }
-            Family::Yielding => {
+            Physics::Yielding => {
                 let depth = (1.0 + first * first).powf(-0.4);
                 let [shape, strain] = fixed;
                 let yielding = Yielding {
@@ -278,8 +292,7 @@ impl Cell {
                 let (summary, flow) = quick(&yielding, second)?;
                 return Some((summary, flow.radiated, 0.0));
             }
-            Family::Full => StaticShare::Full,
-            Family::Dynamic => StaticShare::Dynamic,
+            Physics::Disc(share) => share,
         };
         let of_mean = responses.disc(fixed[0], Deflection::Mean).ok()?;
         let response = responses.disc(fixed[0], self.deflection).ok()?;

@@ -1,4 +1,4 @@
-//! Which model a scene needs: the plane of the two dimensionless groups.
+//! Which model a scene needs: the plane of the two dimensionless regime.
 //!
 //! Static deflection over indentation is the half-space's part phi of the contact's compliance for a contact
 //! that follows the load, and the coupling of a fixed disc, the paper's, whose whole deflection is added to Hertz's
@@ -15,7 +15,7 @@ use contact::law::hertz::CONTACT_TIME;
 use contact::law::quasi_static::{quasi_static, quasi_static_radiation};
 use contact::law::radiation::{MOST_LOSS, radiation};
 use contact::{Accuracy, FixedDisc, GrowingContact, Library, MarchError, Material, PunchWaves};
-use contact::{Family, Groups, Rung};
+use contact::{Memory, Physics, Regime};
 use contact::{StaticShare, Summary, march_implicit, refine, solve_growing};
 use fault::AnyError;
 use figure::{Interval, Layer, Style};
@@ -64,19 +64,19 @@ fn error(is_allowed: bool, found: &Summary, exact: &Summary) -> f64 {
     if is_allowed { error } else { f64::INFINITY }
 }
 
-/// The plane of a family at one Poisson ratio: of contacts that follow the load ([`Family::Growing`]), or of the paper's
-/// disc with other groups ([`Family::Full`]).
+/// The plane of one physics at one Poisson ratio: of contacts that follow the load ([`Physics::Growing`]), or of the paper's
+/// disc with other groups ([`Physics::Disc`] with the full share).
 pub(super) struct Plane {
-    family: Family,
+    physics: Physics,
     centre: SurfaceResponse,
     waves: PunchWaves,
 }
 
 impl Plane {
-    pub(super) fn new(family: Family, poisson_ratio: f64) -> Result<Self, AnyError> {
+    pub(super) fn new(physics: Physics, poisson_ratio: f64) -> Result<Self, AnyError> {
         let medium = Medium::new(poisson_ratio)?;
         Ok(Self {
-            family,
+            physics,
             waves: PunchWaves::new(&medium),
             centre: SurfaceResponse::new(&medium, Deflection::Centre),
         })
@@ -102,16 +102,16 @@ impl Plane {
     }
 
     /// What `auto` chooses by, as it forms them.
-    fn groups(&self, deflection: f64, memory: f64) -> Groups {
-        let (wave_time, memory) = if self.family == Family::Full {
+    fn regime(&self, deflection: f64, memory: f64) -> Regime {
+        let (wave_time, memory) = if self.physics == Physics::Disc(StaticShare::Full) {
             let disc = self.disc(deflection, memory);
             (disc.wave_time, disc.memory())
         } else {
             let wave_time = self.growing(deflection, memory).wave_time;
             (wave_time, memory * CONTACT_TIME)
         };
-        Groups {
-            family: self.family,
+        Regime {
+            physics: self.physics,
             coupling: deflection,
             lag: deflection * wave_time * self.centre.disc.relaxation_time,
             memory,
@@ -119,32 +119,32 @@ impl Plane {
     }
 
     /// What `auto` chooses at a place.
-    pub(super) fn chosen(&self, deflection: f64, memory: f64, tolerance: f64) -> Rung {
+    pub(super) fn chosen(&self, deflection: f64, memory: f64, tolerance: f64) -> Memory {
         let asked = Accuracy::of_contact(tolerance, None);
-        self.groups(deflection, memory).choose(&asked).0
+        self.regime(deflection, memory).choose(&asked).0
     }
 
-    /// Largest memory, up to 1e3, at which `auto` has not yet left a rung for the next.
-    pub(super) fn boundary(&self, deflection: f64, tolerance: f64, leaves: Rung) -> f64 {
-        let low: f64 = if self.family == Family::Full {
+    /// Largest memory, up to 1e3, at which `auto` has not yet left a memory for the next.
+    pub(super) fn boundary(&self, deflection: f64, tolerance: f64, leaves: Memory) -> f64 {
+        let low: f64 = if self.physics == Physics::Disc(StaticShare::Full) {
             1e-12
         } else {
             1e-9
         };
         let stays = |memory: f64| match self.chosen(deflection, memory.exp(), tolerance) {
-            Rung::QuasiStatic => true,
-            Rung::Radiation | Rung::AreaDashpot => leaves != Rung::QuasiStatic,
-            Rung::FullMemory => false,
+            Memory::None => true,
+            Memory::FirstOrder | Memory::Dashpot => leaves != Memory::None,
+            Memory::Full => false,
         };
         bisected(low.ln(), 1e3_f64.ln(), stays).exp()
     }
 
     /// Errors of the cheaper models: against the growing contact, or against the implicit march of a disc.
     pub(super) fn errors(&self, deflection: f64, memory: f64) -> Result<ModelErrors, MarchError> {
-        let is_disc = self.family == Family::Full;
+        let is_disc = self.physics == Physics::Disc(StaticShare::Full);
         let deflection = deflection.min(if is_disc { f64::INFINITY } else { MOST_SHARE });
-        let groups = self.groups(deflection, memory);
-        let lag_is_allowed = groups.first_order_loss() <= MOST_LOSS;
+        let regime = self.regime(deflection, memory);
+        let lag_is_allowed = regime.first_order_loss() <= MOST_LOSS;
         if is_disc {
             let disc = self.disc(deflection, memory);
             let accuracy = Accuracy::of_contact(ACCURACY, None);
@@ -153,7 +153,7 @@ impl Plane {
             let with_loss = |lag| quasi_static_radiation(deflection, lag);
             return Ok(ModelErrors {
                 quasi_static: error(true, &with_loss(0.0), &exact),
-                radiation: error(lag_is_allowed, &with_loss(groups.lag), &exact),
+                radiation: error(lag_is_allowed, &with_loss(regime.lag), &exact),
                 dashpot: f64::INFINITY,
                 memory: ACCURACY,
             });
@@ -178,10 +178,10 @@ impl Plane {
         };
         let exact = solved.summary;
         let dashpot = AreaDashpot::new(&growing);
-        let is_allowed = left_out(dashpot.lag, groups.memory).contact() < 1.0;
+        let is_allowed = left_out(dashpot.lag, regime.memory).contact() < 1.0;
         Ok(ModelErrors {
             quasi_static: error(true, &radiation(0.0), &exact),
-            radiation: error(lag_is_allowed, &radiation(groups.lag), &exact),
+            radiation: error(lag_is_allowed, &radiation(regime.lag), &exact),
             dashpot: error(is_allowed, &dashpot.summary(), &exact),
             memory: solved.estimates.contact(),
         })
@@ -196,13 +196,13 @@ impl Plane {
         advance: &dyn Fn(),
         add: impl Fn(&mut Picture, f64) -> Result<(), AnyError>,
     ) -> Result<Vec<Picture>, AnyError> {
-        let (what, points, leaves) = if self.family == Family::Full {
-            let loss = ("auto leaves the first-order loss", Rung::Radiation);
-            let leaves = [("auto leaves two springs", Rung::QuasiStatic), loss];
+        let (what, points, leaves) = if self.physics == Physics::Disc(StaticShare::Full) {
+            let loss = ("auto leaves the first-order loss", Memory::FirstOrder);
+            let leaves = [("auto leaves two springs", Memory::None), loss];
             ("Cheapest model of the paper's fixed disc", 60, leaves)
         } else {
-            let dashpot = ("auto leaves the area dashpot", Rung::AreaDashpot);
-            let leaves = [("auto leaves hertz", Rung::QuasiStatic), dashpot];
+            let dashpot = ("auto leaves the area dashpot", Memory::Dashpot);
+            let leaves = [("auto leaves hertz", Memory::None), dashpot];
             ("Cheapest model", 40, leaves)
         };
         let mut errors = Vec::new();
@@ -218,8 +218,8 @@ impl Plane {
             let class = |cell: usize, _| errors[cell].cheapest(tolerance).min(last);
             let mut figure = map.picture(name, &title, class);
             let styles = [Style::Heavy, Style::HeavyDashed];
-            for ((label, rung), style) in leaves.into_iter().zip(styles) {
-                let memory = |x| self.boundary(x, tolerance, rung);
+            for ((label, left), style) in leaves.into_iter().zip(styles) {
+                let memory = |x| self.boundary(x, tolerance, left);
                 figure.line(label, style, map.line(points, memory));
             }
             add(&mut figure, tolerance)?;
@@ -257,7 +257,7 @@ pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Picture>
 }
 
 fn growing_figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Picture>, AnyError> {
-    let plane = Plane::new(Family::Growing, 0.3)?;
+    let plane = Plane::new(Physics::Growing, 0.3)?;
     let shape = effort.pick([12, 14], [32, 40]);
     let [x, y] = [(0.01, 1.15), (1e-4, 3.0)].map(|(low, high)| Interval::logarithmic(low, high));
     let share = "static deflection of the half-space over indentation";
@@ -272,7 +272,7 @@ fn growing_figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Picture>, A
     let [i, k] = shape.map(|cells| cells / 2);
     let (share, memory) = (x.cells(shape[0])[i], y.cells(shape[1])[k]);
     let any = Accuracy::of_contact(f64::INFINITY, None);
-    let (_, estimate) = plane.groups(share, memory).choose(&any);
+    let (_, estimate) = plane.regime(share, memory).choose(&any);
     let ratio = estimate / plane.errors(share, memory)?.quasi_static;
     let names = ["models-1e-2", "models-1e-3", "models-1e-4"];
     plane.pictures(&map, names, advance, |figure, tolerance| {
@@ -293,7 +293,7 @@ fn growing_figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Picture>, A
 }
 
 fn disc_figures(effort: Effort) -> Result<Vec<Picture>, AnyError> {
-    let plane = Plane::new(Family::Full, 0.3)?;
+    let plane = Plane::new(Physics::Disc(StaticShare::Full), 0.3)?;
     let response = &plane.centre;
     let paper = paper_disc(TABLE_1_PA, response)?;
     let map = Map {
