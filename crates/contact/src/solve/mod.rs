@@ -1,18 +1,17 @@
 //! One contact: its model chosen, its scheme run. Single impacts, sweeps and charts all come through here.
 //!
-//! In reading order: `choose` the model, `outcome` the series that sweeps share.
-
-// the outer count is a solver's own: threads that count together wait for each other
-#![allow(clippy::redundant_allocation)]
+//! In reading order: `choose` the model, `outcome` the series that sweeps share, `prepared` the half-space of the latest
+//! contact; a [`Solver`] makes a `Task` of each.
 
 pub(crate) mod choose;
 pub(crate) mod outcome;
+mod prepared;
 
 use crate::accuracy::{Accuracy, Found};
 use crate::collision::Collision;
 use crate::disc::radiated::radiated;
 use crate::disc::refine::{explicit, march_finely, solve_disc};
-use crate::disc::stability;
+use crate::disc::{FixedDisc, stability};
 use crate::error::ContactError;
 use crate::growing::dashpot::solve_springs;
 use crate::growing::equations::March;
@@ -27,12 +26,11 @@ use crate::law::yielding::{Flow, Yielding};
 use crate::settings::{Memory, Model, Physics, Scheme, Settings};
 use crate::solve::choose::{Chosen, accuracy, choose, disc_of};
 use crate::solve::outcome::{Outcomes, Place};
+use crate::solve::prepared::Prepared;
 use crate::summary::Summary;
 use crate::waves::cache::{Exact, Responses};
-use crate::waves::punch::PunchWaves;
-use crate::waves::response::DiscResponse;
-use halfspace::{Deflection, DomainError};
-use std::sync::Arc;
+use crate::waves::punch::GrowingContact;
+use halfspace::Deflection;
 
 /// A contact solved, in collision units.
 #[derive(Debug, Clone, PartialEq)]
@@ -69,6 +67,25 @@ impl Chosen {
             flow: None,
         }
     }
+
+    /// Without a march: the loss is radiated.
+    fn in_closed_form(self, found: Found) -> Solved {
+        self.solved(None, found, found.summary.loss)
+    }
+
+    /// With what has flowed.
+    fn yielded(
+        self,
+        scheme: Option<Scheme>,
+        (summary, flow): (Summary, Flow),
+        error: f64,
+    ) -> Solved {
+        let found = Found::new(summary, error.min(1.0), None);
+        Solved {
+            flow: Some(flow),
+            ..self.solved(scheme, found, flow.radiated)
+        }
+    }
 }
 
 /// Solves contacts one after the other with responses from a cache; one for each thread.
@@ -76,20 +93,30 @@ impl Chosen {
 pub struct Solver<'a, S: Responses> {
     responses: &'a S,
     outcomes: Option<&'a Outcomes>,
-    /// Of the latest march.
-    history: History,
-    /// What was made last, with the bits of its Poisson's ratio.
-    disc: Option<(u64, Arc<Arc<S::Disc>>)>,
-    waves: Option<(u64, Arc<Arc<PunchWaves>>)>,
-    /// The contact solved last, where it was one that follows the load and was not marched.
-    growing: Option<SolvedContact>,
+    prepared: Option<Prepared<S::Disc>>,
+    /// Room for the samples of a march; those of the latest.
+    room: History,
 }
+
+/// One contact to be solved.
+struct Task<'t, S: Responses> {
+    collision: &'t Collision,
+    settings: &'t Settings,
+    asked: Accuracy,
+    responses: &'t S,
+    outcomes: Option<&'t Outcomes>,
+    prepared: &'t Prepared<S::Disc>,
+}
+
+/// A contact solved, with its pieces where it was followed by pieces.
+type Followed = (Solved, Option<SolvedContact>);
 
 /// Largest tolerance to which the history of an area dashpot is solved: its deflection, which is 1e-3 to 1e-1 of the
 /// indentation, is within 1e-2 then, and its work within 1e-3 (`tests/history.rs`).
 const COARSEST: f64 = 1e-4;
 
-/// Error of a contact with memory that yields over the estimate of one that does not: 1.3 at most on 80 random pairs of metals.
+/// Error of a contact with memory that yields over the estimate of one that does not: 1.3 at most on 80 random pairs of
+/// metals.
 const YIELDS: f64 = 2.0;
 
 impl<'a, S: Responses> Solver<'a, S> {
@@ -98,10 +125,8 @@ impl<'a, S: Responses> Solver<'a, S> {
         Self {
             responses,
             outcomes: None,
-            history: History::default(),
-            disc: None,
-            waves: None,
-            growing: None,
+            prepared: None,
+            room: History::default(),
         }
     }
 
@@ -119,21 +144,11 @@ impl<'a, S: Responses> Solver<'a, S> {
         contacts: usize,
         some: impl Iterator<Item = (Collision, Settings)>,
     ) -> Outcomes {
-        let places = some.map(|(collision, settings)| self.place(&collision, &settings));
+        let places = some.map(|(collision, settings)| {
+            let (task, _) = self.task(&collision, &settings, accuracy(&settings)).ok()?;
+            task.place()
+        });
         Outcomes::of(contacts, places)
-    }
-
-    /// Where a contact lies among those that have series.
-    fn place(&mut self, collision: &Collision, settings: &Settings) -> Option<Place> {
-        collision.check().ok()?;
-        let ratio = collision.target_poisson_ratio;
-        let disc = self.disc(ratio, settings.deflection).ok()?;
-        let yielding = collision.yielding(settings).ok()?.filter(Yielding::begins);
-        let chosen = choose(settings, collision, &**disc, yielding.is_some());
-        if let Some(yielding) = yielding {
-            return Place::of_fit(&chosen, &yielding, settings);
-        }
-        Place::of(&chosen, collision, settings, &**disc)
     }
 
     /// The results of a contact.
@@ -142,7 +157,8 @@ impl<'a, S: Responses> Solver<'a, S> {
         collision: &Collision,
         settings: &Settings,
     ) -> Result<Solved, ContactError> {
-        self.solve_to(collision, settings, accuracy(settings))
+        let (task, room) = self.task(collision, settings, accuracy(settings))?;
+        task.solve(room).map(|(solved, _)| solved)
     }
 
     /// The results and the history of a contact: the deflection to the tolerance too, and the force at each instant with an
@@ -156,41 +172,167 @@ impl<'a, S: Responses> Solver<'a, S> {
             deflection: Some(settings.tolerance),
             ..accuracy(settings)
         };
-        let solved = self.solve_to(collision, settings, asked)?;
-        let duration = solved.summary.contact_time;
-        let mut history = match (&self.growing, solved.scheme) {
-            (Some(growing), _) => History::of_pieces(growing),
-            (None, Some(Scheme::Implicit)) if settings.step_s.is_none() => {
-                let disc = self.disc(collision.target_poisson_ratio, settings.deflection)?;
-                let impact = disc_of(settings, collision, &**disc);
-                march_finely(&impact, duration, settings.tolerance)
-                    .ok()
-                    .filter(|fine| fine.error <= solved.error.max(settings.tolerance))
-                    .unwrap_or_else(|| self.history.clone())
+        let (task, room) = self.task(collision, settings, asked)?;
+        let followed = task.solve(room)?;
+        let history = task.history(&followed, room)?;
+        Ok((followed.0, history))
+    }
+
+    /// A contact with what it needs of its half-space, and the room for its march.
+    fn task<'t>(
+        &'t mut self,
+        collision: &'t Collision,
+        settings: &'t Settings,
+        asked: Accuracy,
+    ) -> Result<(Task<'t, S>, &'t mut History), ContactError> {
+        collision.check()?;
+        let (ratio, deflection) = (collision.target_poisson_ratio, settings.deflection);
+        let prepared = Prepared::of(&mut self.prepared, self.responses, ratio, deflection)?;
+        let task = Task {
+            collision,
+            settings,
+            asked,
+            responses: self.responses,
+            outcomes: self.outcomes,
+            prepared,
+        };
+        Ok((task, &mut self.room))
+    }
+}
+
+impl<S: Responses> Task<'_, S> {
+    /// Where the contact lies among those that have series.
+    fn place(&self) -> Option<Place> {
+        let yielding = self.collision.yielding(self.settings).ok()?;
+        match yielding.filter(Yielding::begins) {
+            Some(yielding) => Place::of_fit(&self.choose(true), &yielding, self.settings),
+            None => self.elastic_place(&self.choose(false)),
+        }
+    }
+
+    fn elastic_place(&self, chosen: &Chosen) -> Option<Place> {
+        Place::of(chosen, self.collision, self.settings, &*self.prepared.disc)
+    }
+
+    fn choose(&self, yields: bool) -> Chosen {
+        choose(self.settings, self.collision, &*self.prepared.disc, yields)
+    }
+
+    /// The impact on the disc of the settings.
+    fn disc(&self) -> FixedDisc<'_, S::Disc> {
+        disc_of(self.settings, self.collision, &*self.prepared.disc)
+    }
+
+    /// The contact that follows the load.
+    fn growing(&self) -> Result<GrowingContact<'_>, ContactError> {
+        let waves = self.prepared.waves(self.responses)?;
+        Ok(self.collision.growing_contact(waves))
+    }
+
+    fn solve(&self, room: &mut History) -> Result<Followed, ContactError> {
+        let yielding = self.collision.yielding(self.settings)?;
+        if let Some(yielding) = yielding.filter(Yielding::begins)
+            && let Some(followed) = self.yielded(&yielding)?
+        {
+            return Ok(followed);
+        }
+        self.elastic(room)
+    }
+
+    /// A contact that does not yield.
+    fn elastic(&self, room: &mut History) -> Result<Followed, ContactError> {
+        let (chosen, settings) = (self.choose(false), self.settings);
+        if let (Some(outcomes), None) = (self.outcomes, self.asked.deflection)
+            && let Some(place) = self.elastic_place(&chosen)
+            && let Some((summary, radiated, error)) = outcomes.at(&place, self.responses)
+        {
+            let found = Found::new(summary, error, None);
+            return Ok((chosen.solved(None, found, radiated), None));
+        }
+        let is_disc = match chosen.regime.physics {
+            Physics::Disc(_) => true,
+            Physics::Growing | Physics::Yielding => false,
+        };
+        if is_disc && settings.model.has_schemes() && settings.scheme == Scheme::Implicit {
+            stability::check(&self.disc(), room)?;
+        }
+        match (chosen.memory(), chosen.regime.physics) {
+            (Memory::None | Memory::FirstOrder, _) => {
+                let found = chosen.closed_form()?;
+                Ok((chosen.in_closed_form(found), None))
             }
-            (None, Some(_)) => self.history.clone(),
-            (None, None) => self.without_memory(collision, &solved.chosen, settings.tolerance)?,
+            (Memory::Dashpot, _) => {
+                let found = chosen.dashpot(&AreaDashpot::new(&self.growing()?))?;
+                Ok((chosen.in_closed_form(found), None))
+            }
+            (Memory::Full, Physics::Growing | Physics::Yielding) => {
+                let contact = self.growing()?;
+                let pieces = solve_growing(&contact, &self.asked)?;
+                let found = Found::new(pieces.summary, pieces.estimates.contact(), None);
+                let radiated = work_on_half_space(&contact, &pieces, self.asked.tolerance);
+                let solved = chosen.solved(Some(Scheme::Implicit), found, radiated);
+                Ok((solved, Some(pieces)))
+            }
+            (Memory::Full, Physics::Disc(_)) => {
+                let (found, radiated) = self.march(room)?;
+                Ok((chosen.solved(Some(settings.scheme), found, radiated), None))
+            }
+        }
+    }
+
+    /// A march on a fixed disc, and the energy that it radiates.
+    fn march(&self, room: &mut History) -> Result<(Found, f64), ContactError> {
+        let (collision, settings) = (self.collision, self.settings);
+        let ratio = collision.target_poisson_ratio;
+        let in_times = |step_s: f64| step_s / collision.units().time_s;
+        let step = settings.step_s.map(in_times);
+        let found = match settings.scheme {
+            Scheme::Implicit => solve_disc(room, &self.disc(), step, self.asked)?,
+            Scheme::Explicit => {
+                let response = Exact.disc(ratio, settings.deflection)?;
+                explicit(room, &disc_of(settings, collision, &*response), step)?
+            }
+        };
+        let mean = self.responses.disc(ratio, Deflection::Mean)?;
+        let radiated = radiated(&self.disc(), &*mean, room, found.summary.contact_time);
+        Ok((found, radiated))
+    }
+
+    /// The history of the contact solved, whose march has left its samples in `room`.
+    fn history(
+        &self,
+        (solved, pieces): &Followed,
+        room: &History,
+    ) -> Result<History, ContactError> {
+        let tolerance = self.settings.tolerance;
+        let mut history = match (pieces, solved.scheme) {
+            (Some(pieces), _) => History::of_pieces(pieces),
+            (None, Some(Scheme::Implicit)) if self.settings.step_s.is_none() => {
+                march_finely(&self.disc(), solved.summary.contact_time, tolerance)
+                    .ok()
+                    .filter(|fine| fine.error <= solved.error.max(tolerance))
+                    .unwrap_or_else(|| room.clone())
+            }
+            (None, Some(Scheme::Implicit | Scheme::Explicit)) => room.clone(),
+            (None, None) => self.history_without_memory(&solved.chosen)?,
         };
         if history.error.is_infinite() || solved.flow.is_some() {
             history.error = solved.error;
         }
-        Ok((solved, history))
+        Ok(history)
     }
 
-    /// The history of an elastic contact on a half-space that answers at once.
-    fn without_memory(
-        &mut self,
-        collision: &Collision,
-        chosen: &Chosen,
-        tolerance: f64,
-    ) -> Result<History, ContactError> {
+    /// The history of an elastic contact whose model has no memory.
+    fn history_without_memory(&self, chosen: &Chosen) -> Result<History, ContactError> {
         match chosen.memory() {
             // its expansion has the results of the contact with memory, but not its first and last instants
             Memory::Dashpot => {
-                let waves = self.waves(collision.target_poisson_ratio)?;
-                let contact = collision.growing_contact(&waves);
-                let asked = Accuracy::of_contact(tolerance.min(COARSEST), None);
-                Ok(History::of_pieces(&solve_growing(&contact, &asked)?))
+                let tolerance = self.settings.tolerance.min(COARSEST);
+                let asked = Accuracy::of_contact(tolerance, None);
+                Ok(History::of_pieces(&solve_growing(
+                    &self.growing()?,
+                    &asked,
+                )?))
             }
             Memory::None | Memory::FirstOrder | Memory::Full => {
                 let pieces = solve_springs(chosen.coupling(), chosen.damping())?;
@@ -203,184 +345,75 @@ impl<'a, S: Responses> Solver<'a, S> {
         }
     }
 
-    fn solve_to(
-        &mut self,
-        collision: &Collision,
-        settings: &Settings,
-        asked: Accuracy,
-    ) -> Result<Solved, ContactError> {
-        collision.check()?;
-        let ratio = collision.target_poisson_ratio;
-        let disc = self.disc(ratio, settings.deflection)?;
-        self.growing = None;
-        let impact = || disc_of(settings, collision, &**disc);
-        if let Some(yielding) = collision.yielding(settings)?.filter(Yielding::begins) {
-            let chosen = choose(settings, collision, &**disc, true);
-            if let Some(solved) = self.yielded(collision, settings, &yielding, chosen, &asked)? {
-                return Ok(solved);
-            }
-        }
-        let chosen = choose(settings, collision, &**disc, false);
-        if let (Some(outcomes), None) = (self.outcomes, asked.deflection)
-            && let Some(place) = Place::of(&chosen, collision, settings, &**disc)
-            && let Some((summary, radiated, error)) = outcomes.at(&place, self.responses)
-        {
-            return Ok(chosen.solved(None, Found::new(summary, error, None), radiated));
-        }
-        let in_times = |step_s: f64| step_s / collision.units().time_s;
-        let step = settings.step_s.map(in_times);
-        let is_disc = match chosen.regime.physics {
-            Physics::Disc(_) => true,
-            Physics::Growing | Physics::Yielding => false,
-        };
-        if is_disc && settings.model.has_schemes() && settings.scheme == Scheme::Implicit {
-            stability::check(&impact(), &mut self.history)?;
-        }
-        let (scheme, found, work) = match (chosen.memory(), chosen.regime.physics) {
-            (Memory::None | Memory::FirstOrder, _) => (None, chosen.closed_form()?, None),
-            (Memory::Dashpot, _) => (None, chosen.dashpot(&self.dashpot(collision)?)?, None),
-            (Memory::Full, Physics::Growing | Physics::Yielding) => {
-                let (found, work) = self.grow(collision, asked)?;
-                (Some(Scheme::Implicit), found, Some(work))
-            }
-            (Memory::Full, Physics::Disc(_)) => {
-                let room = &mut self.history;
-                let found = match settings.scheme {
-                    Scheme::Implicit => solve_disc(room, &impact(), step, asked)?,
-                    Scheme::Explicit => {
-                        let response = Exact.disc(ratio, settings.deflection)?;
-                        explicit(room, &disc_of(settings, collision, &*response), step)?
-                    }
-                };
-                let mean = self.responses.disc(ratio, Deflection::Mean)?;
-                let duration = found.summary.contact_time;
-                let work = radiated(&impact(), &*mean, &self.history, duration);
-                (Some(settings.scheme), found, Some(work))
-            }
-        };
-        let radiated = work.unwrap_or(found.summary.loss);
-        Ok(chosen.solved(scheme, found, radiated))
-    }
-
     /// A contact that yields; nothing where waves keep it from doing so.
-    fn yielded(
-        &mut self,
-        collision: &Collision,
-        settings: &Settings,
-        yielding: &Yielding,
-        mut chosen: Chosen,
-        asked: &Accuracy,
-    ) -> Result<Option<Solved>, ContactError> {
+    fn yielded(&self, yielding: &Yielding) -> Result<Option<Followed>, ContactError> {
         if let Some(over) = yielding.trusted_ratio().filter(|_| !yielding.rebounds()) {
-            let velocity_m_s = collision.velocity_m_s;
+            let velocity_m_s = self.collision.velocity_m_s;
             let trusted_m_s = velocity_m_s / over;
             return Err(ContactError::NoRebound {
                 velocity_m_s,
                 trusted_m_s,
             });
         }
-        let follows_memory = match chosen.memory() {
-            Memory::None | Memory::FirstOrder | Memory::Dashpot => false,
-            Memory::Full => true,
-        };
-        if follows_memory {
-            let waves = self.waves(collision.target_poisson_ratio)?;
-            let contact = collision.growing_contact(&waves);
-            match yielding.remembered(&contact, asked) {
-                Ok(found) => self.growing = found,
-                Err(_) if chosen.by_auto.is_some() => chosen.model = Model::AreaDashpot,
-                Err(error) => return Err(error.into()),
+        let mut chosen = self.choose(true);
+        match chosen.memory() {
+            Memory::None => self.yielded_at_once(yielding, chosen, 0.0),
+            Memory::FirstOrder | Memory::Dashpot => {
+                let lag = chosen.regime.lag;
+                self.yielded_at_once(yielding, chosen, lag)
             }
+            Memory::Full => match yielding.remembered(&self.growing()?, &self.asked) {
+                Ok(pieces) => Ok(pieces.and_then(|pieces| {
+                    let error = YIELDS * pieces.estimates.contact();
+                    let scheme = Some(Scheme::Implicit);
+                    let solved = chosen.yielded(scheme, (pieces.summary, pieces.flow?), error);
+                    Some((solved, Some(pieces)))
+                })),
+                Err(_) if chosen.by_auto.is_some() => {
+                    chosen.model = Model::AreaDashpot;
+                    let lag = chosen.regime.lag;
+                    self.yielded_at_once(yielding, chosen, lag)
+                }
+                Err(error) => Err(error.into()),
+            },
         }
-        let (_, [left_out, _]) = chosen.regime.without_memory();
-        let first_order_loss = chosen.regime.first_order_loss();
-        let (lag, memory) = match chosen.memory() {
-            Memory::None => (0.0, false),
-            Memory::FirstOrder | Memory::Dashpot => (chosen.regime.lag, false),
-            Memory::Full => (chosen.regime.lag, true),
-        };
-        // the history of a single impact has its results too
-        let alone = !memory && asked.deflection.is_none();
+    }
+
+    /// A contact that yields on a half-space that answers at once, with a lag.
+    fn yielded_at_once(
+        &self,
+        yielding: &Yielding,
+        chosen: Chosen,
+        lag: f64,
+    ) -> Result<Option<Followed>, ContactError> {
         let series = || {
-            let place = Place::of_fit(&chosen, yielding, settings)?;
+            let place = Place::of_fit(&chosen, yielding, self.settings)?;
             let (summary, radiated, error) = self.outcomes?.at(&place, self.responses)?;
             let works = [summary.loss - radiated, radiated];
             let flow = Flow::new(yielding, summary.peak_displacement.sqrt(), works);
-            Some((summary, flow, error))
+            Some(((summary, flow), error))
         };
-        let quickly = || quick(yielding, lag).map(|(summary, flow)| (summary, flow, 0.0));
-        let results = alone.then(|| series().or_else(quickly)).flatten();
-        if !memory && results.is_none() {
-            let lost = |_| ContactError::NotFollowed;
-            self.growing = March::damped(lag, DAMPED).follow(yielding).map_err(lost)?;
-        }
-        let followed = self.growing.as_ref();
-        let pieces = followed.and_then(|one| Some((one.summary, one.flow?, 0.0)));
-        let Some((summary, flow, of_series)) = results.or(pieces) else {
-            return Ok(None);
+        let quickly = || quick(yielding, lag).map(|found| (found, 0.0));
+        // the history of a single impact has its results too
+        let alone = self.asked.deflection.is_none();
+        let (found, of_series, pieces) = match alone.then(|| series().or_else(quickly)).flatten() {
+            Some((found, error)) => (found, error, None),
+            None => {
+                let followed = March::damped(lag, DAMPED).follow(yielding);
+                let followed = followed.map_err(|_| ContactError::NotFollowed)?;
+                let Some((pieces, flow)) =
+                    followed.and_then(|one| one.flow.map(|flow| (one, flow)))
+                else {
+                    return Ok(None);
+                };
+                ((pieces.summary, flow), 0.0, Some(pieces))
+            }
         };
+        let (_, [left_out, _]) = chosen.regime.without_memory();
         let error = match chosen.memory() {
-            Memory::None => first_order_loss + left_out,
-            Memory::FirstOrder | Memory::Dashpot => left_out + of_series,
-            Memory::Full => YIELDS * followed.map_or(0.0, |one| one.estimates.contact()),
+            Memory::None => chosen.regime.first_order_loss() + left_out,
+            Memory::FirstOrder | Memory::Dashpot | Memory::Full => left_out + of_series,
         };
-        let found = Found::new(summary, error.min(1.0), None);
-        let scheme = memory.then_some(Scheme::Implicit);
-        Ok(Some(Solved {
-            flow: Some(flow),
-            ..chosen.solved(scheme, found, flow.radiated)
-        }))
-    }
-
-    fn disc(
-        &mut self,
-        ratio: f64,
-        deflection: Deflection,
-    ) -> Result<Arc<Arc<S::Disc>>, DomainError> {
-        self.disc
-            .take_if(|(_, disc)| disc.disc().deflection != deflection);
-        remembered(&mut self.disc, ratio, || {
-            self.responses.disc(ratio, deflection)
-        })
-    }
-
-    fn waves(&mut self, ratio: f64) -> Result<Arc<Arc<PunchWaves>>, DomainError> {
-        remembered(&mut self.waves, ratio, || self.responses.waves(ratio))
-    }
-
-    /// The terms of the expansion in the memory of a contact that follows the load.
-    fn dashpot(&mut self, collision: &Collision) -> Result<AreaDashpot, DomainError> {
-        let waves = self.waves(collision.target_poisson_ratio)?;
-        Ok(AreaDashpot::new(&collision.growing_contact(&waves)))
-    }
-
-    /// A contact that follows the load, and the energy that it radiates.
-    fn grow(
-        &mut self,
-        collision: &Collision,
-        asked: Accuracy,
-    ) -> Result<(Found, f64), ContactError> {
-        let waves = self.waves(collision.target_poisson_ratio)?;
-        let contact = collision.growing_contact(&waves);
-        let solved = solve_growing(&contact, &asked)?;
-        let found = Found::new(solved.summary, solved.estimates.contact(), None);
-        let radiated = work_on_half_space(&contact, &solved, asked.tolerance);
-        self.growing = Some(solved);
-        Ok((found, radiated))
-    }
-}
-
-/// What belongs to a Poisson's ratio, made where the latest is another's.
-fn remembered<T>(
-    latest: &mut Option<(u64, Arc<T>)>,
-    ratio: f64,
-    make: impl FnOnce() -> Result<T, DomainError>,
-) -> Result<Arc<T>, DomainError> {
-    match latest {
-        Some((bits, made)) if *bits == ratio.to_bits() => Ok(Arc::clone(made)),
-        Some(_) | None => {
-            let (_, made) = latest.insert((ratio.to_bits(), Arc::new(make()?)));
-            Ok(Arc::clone(made))
-        }
+        Ok(Some((chosen.yielded(None, found, error), pieces)))
     }
 }
