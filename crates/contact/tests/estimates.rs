@@ -6,13 +6,12 @@
 
 #[path = "support/solids.rs"]
 mod solids;
-mod support;
 
 use contact::{Collision, HalfSpace, Model, Settings, Solver, StaticShare, Striker, Tabulated};
 use halfspace::Deflection;
+use halfspace::random::Stream;
 use rayon::prelude::*;
 use solids::material;
-use support::Draws;
 
 /// Scenes of each kind; among the next forty is one beside the area dashpot whose reference takes minutes.
 /// `HERTZLAMB_SCENES=1000` draws as many as one case in a hundred needs, and takes more than ten.
@@ -28,7 +27,7 @@ fn allowed(count: usize) -> usize {
 
 /// A ball on a block, the radius of a disc of 0.7 to 4 contact radii, and a tolerance of 1e-6 to 1e-3.
 fn random_scene(index: u64) -> (Collision, f64, f64) {
-    let mut draws = Draws(index * 1000 + 23);
+    let mut draws = Stream::new(index * 1000 + 23);
     let (tip, density) = (draws.log(1e-4, 0.1), draws.log(1000.0, 10_000.0));
     let mass = 4.19 * tip.powi(3) * draws.log(1000.0, 20_000.0);
     let (first, second) = (draws.log(1e9, 4e11), draws.log(1e9, 4e11));

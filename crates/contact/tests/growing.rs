@@ -4,17 +4,15 @@
 
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 
-mod support;
-
 use contact::law::area_dashpot::{AreaDashpot, left_out};
 use contact::{
     Accuracy, GrowingContact, History, MarchError, PunchWaves, Resampler, SolvedContact,
     solve_growing, work_on_half_space,
 };
 use halfspace::Medium;
+use halfspace::random::Stream;
 use rayon::prelude::*;
 use std::path::Path;
-use support::Draws;
 
 /// Poisson's ratio, phi and tau of a contact.
 #[derive(Debug, Clone, Copy)]
@@ -57,7 +55,7 @@ fn results(solved: &SolvedContact) -> [f64; 8] {
 /// A ball of a third to ten times its mass on a half-space, both of moduli of 1 MPa to 400 GPa, at 1e-4 to
 /// 5e-2 of the half-space's shear wave speed.
 fn random_scene(index: u64) -> Case {
-    let mut draws = Draws(index * 7919 + 29);
+    let mut draws = Stream::new(index * 7919 + 29);
     let (density, striker_density) = (draws.log(900.0, 1e4), draws.log(900.0, 2e4));
     let (striker, target) = (draws.log(1e6, 4e11), draws.log(1e6, 4e11));
     let (other, ratio) = (0.49 * draws.next(), 0.4995 * draws.next());

@@ -1,6 +1,8 @@
 //! Gauss-Legendre rules on [0, 1] and local polynomials on equidistant nodes.
 
 /// Node and weight pairs of the 4-point rule on [0, 1]; exact to degree 7.
+///
+/// Constants, not `halfspace::gauss`, whose rules are made when they are asked for: sums over them are inlined.
 pub(crate) const GAUSS_4: [(f64, f64); 4] = [
     (0.069_431_844_202_973_71, 0.173_927_422_568_726_93),
     (0.330_009_478_207_571_87, 0.326_072_577_431_273_07),
@@ -196,6 +198,17 @@ pub(crate) fn peak(samples: &[f64]) -> (f64, f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use halfspace::gauss::rule;
+
+    #[test]
+    fn the_constants_are_the_rules_of_gauss_and_legendre() {
+        for constants in [&GAUSS_4[..], &GAUSS_8[..]] {
+            let exact = rule(constants.len()).on(0.0, 1.0);
+            for (&(x, weight), (node, of_node)) in constants.iter().zip(exact) {
+                assert!((x - node).abs() < 1e-15 && (weight - of_node).abs() < 1e-15);
+            }
+        }
+    }
 
     #[test]
     fn rules_integrate_their_degree() {
