@@ -41,8 +41,11 @@ const LATEST: f64 = 5.0;
 const ITERATIONS: usize = 4;
 const ENOUGH: f64 = 1e-3;
 
-/// Empirical overestimate of the residual deflection for steps longer than the memory, relative to the coupling and
-/// the root of the memory; uncertain by half.
+/// Overestimate of the residual deflection for steps longer than the memory, relative to the coupling and the root of the
+/// memory, and its uncertainty, relative to itself.
+///
+/// Measured by `the_end_is_known_at_steps_longer_than_the_memory` below, on couplings of 1 to 10 and memories of 1e-4 to 1e-3
+/// of the contact: it fails at 0.2 and at 0.5, and at an uncertainty of 0.25.
 const UNSEEN: f64 = 1.0 / 3.0;
 const UNCERTAIN: f64 = 0.5;
 

@@ -29,7 +29,11 @@ pub struct SolvedContact {
     radiated: Vec<f64>,
 }
 
-/// Factors from the sums of the pieces' errors to those of the results, where they are not one.
+/// Factors from the sums of the pieces' errors to the estimated errors of the results, where they are not one.
+///
+/// Measured on random scenes at tolerances of 1e-4 to 1e-8: with these, 98 of 100 errors are below 0.2 (peak force), 0.7
+/// (contact time), 0.2 (restitution), 0.25 (loss), 1.1 (displacement) and 1.1 (force at any time) of their estimates.
+/// `cargo test -p hertzlamb-contact --test growing random -- --nocapture` prints them; it fails at a tenth of any factor.
 const PEAK_FORCE: f64 = 0.4;
 const CONTACT_TIME: f64 = 24.0;
 const RESTITUTION: f64 = 0.2;
