@@ -24,7 +24,7 @@ pub const CONSTRAINT: f64 = 2.8;
 const PHYSICAL: [f64; 2] = [1e-30, 1e30];
 
 /// Steps of a march over Hertz's contact at most and at least, from where it cannot be one.
-const STEPS: [f64; 2] = [1e-3, 1e9];
+const STEPS_OF_MARCH: [f64; 2] = [1e-3, 1e9];
 
 /// A striker with a spherical tip that meets an elastic half-space, in SI units.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -117,7 +117,7 @@ impl Collision {
         };
         self.check()?;
         let hertz_s = CONTACT_TIME * self.units().time_s;
-        if (STEPS[0]..=STEPS[1]).contains(&(hertz_s / step_s)) {
+        if (STEPS_OF_MARCH[0]..=STEPS_OF_MARCH[1]).contains(&(hertz_s / step_s)) {
             return Ok(());
         }
         Err(ContactError::Step { step_s, hertz_s })

@@ -143,13 +143,13 @@ impl Fault for InferError {
 /// Velocity of approach over that of yield, at most: the restitution of `thornton` is 0.006 there.
 ///
 /// `tests/beyond.rs` (`every_rebound_is_inferred_that_an_impact_gives`) goes near it.
-const MOST: f64 = 1e9;
+const MOST_OVER_YIELD: f64 = 1e9;
 
 /// Bisections of the logarithm of that ratio, where the law ends before it: to a thousandth.
 const BISECTIONS: usize = 15;
 
 /// Halvings of the bracket: to 2e-11 of the unknown.
-const HALVINGS: usize = 40;
+const HALVINGS_OF_BRACKET: usize = 40;
 
 /// A contact that varies with one unknown.
 struct Varied<'a> {
@@ -179,10 +179,10 @@ impl Varied<'_> {
 
     /// The largest velocity over that of yield: where the law, or a velocity that any contact law serves, ends.
     fn most(&self, by_ratio: impl Fn(f64) -> f64) -> f64 {
-        if self.at(by_ratio(MOST)).is_ok() {
-            return MOST;
+        if self.at(by_ratio(MOST_OVER_YIELD)).is_ok() {
+            return MOST_OVER_YIELD;
         }
-        let [mut near, mut far] = [0.0, MOST.ln()];
+        let [mut near, mut far] = [0.0, MOST_OVER_YIELD.ln()];
         for _ in 0..BISECTIONS {
             let middle = 0.5 * (near + far);
             match self.at(by_ratio(middle.exp())) {
@@ -255,7 +255,7 @@ pub fn infer(
             return Ok(None);
         }
         let [mut near, mut far] = bracket.map(f64::ln);
-        for _ in 0..HALVINGS {
+        for _ in 0..HALVINGS_OF_BRACKET {
             let middle = 0.5 * (near + far);
             if (at(middle.exp())?.1 > value) == (ends[0] > ends[1]) {
                 near = middle;

@@ -4,11 +4,11 @@ use crate::error::MarchError;
 use crate::law::hertz::CONTACT_TIME;
 
 /// A contact lasts at least this part of Hertz's.
-const SHORTEST: f64 = 0.5;
+const SHORTEST_CONTACT: f64 = 0.5;
 
 /// Steps of a march, and products of steps and cells of the memory, at most: one takes 1 to 2 ns, a march 2 s at most.
-const STEPS: usize = 400_000;
-const WORK: usize = 1_000_000_000;
+const MOST_STEPS: usize = 400_000;
+const MOST_WORK: usize = 1_000_000_000;
 
 /// Cells of a memory at a step, both in collision units.
 ///
@@ -23,7 +23,7 @@ pub(crate) fn memory_cells(memory: f64, step: f64) -> Result<usize, MarchError> 
 
 /// Steps over a contact at least.
 pub(crate) fn least_steps(step: f64) -> usize {
-    (SHORTEST * CONTACT_TIME / step).min(1e9) as usize
+    (SHORTEST_CONTACT * CONTACT_TIME / step).min(1e9) as usize
 }
 
 /// Whether so many steps with so many cells of a `memory` each are within bounds.
@@ -32,7 +32,7 @@ pub(crate) fn least_steps(step: f64) -> usize {
 /// [`MarchError::TooLong`].
 pub(crate) fn affordable(steps: usize, cells: usize, memory: f64) -> Result<(), MarchError> {
     let work = steps.saturating_mul(cells.min(steps));
-    if steps > STEPS || work > WORK {
+    if steps > MOST_STEPS || work > MOST_WORK {
         return Err(MarchError::TooLong {
             steps,
             cells,

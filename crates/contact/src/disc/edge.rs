@@ -23,7 +23,7 @@ pub(crate) struct Edge {
 }
 
 /// Newton's iterations at most; the function is convex and its bounds need not be sharp.
-const ITERATIONS: usize = 8;
+const MOST_ITERATIONS: usize = 8;
 
 impl Edge {
     /// Through three roots y of the force, each at its time from the end, on a surface that gives way by `compliance`.
@@ -85,7 +85,7 @@ impl Edge {
     /// y at the time s, sought from `y`.
     #[inline]
     fn root(&self, s: f64, mut y: f64) -> f64 {
-        for _ in 0..ITERATIONS {
+        for _ in 0..MOST_ITERATIONS {
             let change = (self.time(y) - s) / (y * self.rate(y)[0]);
             let next = y - change;
             if next <= 0.0 || next.is_nan() {
@@ -127,7 +127,7 @@ pub(crate) struct Relaxation<F> {
 }
 
 /// Steps of memory up to which only its zeroth moment counts.
-const SHORT: f64 = 0.1;
+const SHORT_MEMORY: f64 = 0.1;
 
 /// Steps of memory beyond which the samples resolve what happens at the touch and at the end.
 pub(crate) const RESOLVED: f64 = 3.0;
@@ -221,7 +221,7 @@ impl<F: Fn(f64) -> f64> Relaxation<F> {
     /// What the first moment adds to the work is zero, since p' is zero at both ends of a contact; the second adds a
     /// fraction of (m/T)^2 log(T/m) in a contact of duration T.
     pub(crate) fn is_short(&self) -> bool {
-        self.memory < SHORT
+        self.memory < SHORT_MEMORY
     }
 }
 

@@ -9,20 +9,20 @@
 use crate::error::MarchError;
 use crate::history::History;
 use crate::numeric::cubic::force_root;
-use crate::numeric::quadrature::{GAUSS_8, Local, peak};
+use crate::numeric::quadrature::{GAUSS_8, LocalPolynomial, peak};
 use crate::numeric::work::work;
 use crate::summary::{SMALL_LOSS, Summary};
 use crate::units::INVERSE_MASS;
 
 /// Samples in contact that the interpolation needs.
-const NEEDED: usize = 8;
+const NEEDED_SAMPLES: usize = 8;
 
 /// Fraction of the last change of the contact time that is its error, chosen so that the estimates hold
 /// (`tests/estimates.rs`), and what stays of it at any step: of an end found by extrapolation of what is smooth there.
-const SMOOTH: [f64; 2] = [1.0, 0.0];
+const SMOOTH_END: [f64; 2] = [1.0, 0.0];
 
 /// That fraction of an end from what the surface keeps of the force: what stays is its uncertainty.
-const KEPT: f64 = 0.5;
+const KEPT_END: f64 = 0.5;
 
 impl Summary {
     /// Of a history made by the implicit march.
@@ -38,16 +38,16 @@ impl Summary {
         let step = history.step;
         let force = &history.force;
         let end = first_separation(force);
-        if end < NEEDED {
+        if end < NEEDED_SAMPLES {
             return Err(MarchError::StepTooLong {
                 samples: end,
-                needed: NEEDED,
+                needed: NEEDED_SAMPLES,
             });
         }
         let (contact_time, impulse) = end_of_contact(history, end);
         let how = match &history.separation {
-            None => SMOOTH,
-            Some(found) => [KEPT, found.uncertainty / found.time],
+            None => SMOOTH_END,
+            Some(found) => [KEPT_END, found.uncertainty / found.time],
         };
         let (place, peak_force) = peak(force);
         // those whose force exceeds 1e-6 of the largest
@@ -108,7 +108,7 @@ fn end_of_contact(history: &History, end: usize) -> (f64, f64) {
     let a = history.compliance;
     let b = |i: usize| history.displacement[i] - history.deflection[i] + a * history.force[i];
     let from = end - 5;
-    let local = Local::<5>::new(std::array::from_fn(|i| b(from + i)));
+    let local = LocalPolynomial::<5>::new(std::array::from_fn(|i| b(from + i)));
     // Place of zero in steps from `from`: beyond the fifth sample and before the first free one.
     let place = if local.value(4.0) > 0.0 && local.value(5.0) <= 0.0 {
         local.root(4.0, 5.0)

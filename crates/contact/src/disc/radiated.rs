@@ -15,7 +15,7 @@ use halfspace::Deflection;
 use std::borrow::Cow;
 
 /// Samples over a contact with which the work on a memory of several steps is taken.
-const SAMPLES: f64 = 256.0;
+const SAMPLES_OF_WORK: f64 = 256.0;
 
 /// Work left in the half-space by a force on a fixed disc: int p dw with the pressure-weighted mean of w.
 ///
@@ -43,7 +43,7 @@ pub(crate) fn radiated<R: DiscResponse>(
     {
         return work;
     }
-    let step = history.step.min(duration / SAMPLES);
+    let step = history.step.min(duration / SAMPLES_OF_WORK);
     let mut force = Cow::from(&history.force);
     if step < history.step {
         let samples = Resampler::new(history.clone());

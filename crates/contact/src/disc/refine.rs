@@ -7,7 +7,7 @@ use crate::disc::implicit::{march_implicit, march_into};
 use crate::error::MarchError;
 use crate::history::History;
 use crate::law::quasi_static::expected_contact_time;
-use crate::numeric::quadrature::Local;
+use crate::numeric::quadrature::LocalPolynomial;
 use crate::settings::StaticShare;
 use crate::summary::{Summary, relative};
 use crate::waves::response::DiscResponse;
@@ -15,14 +15,14 @@ use halfspace::SurfaceResponse;
 
 /// Fraction of the last change of force, restitution and displacement that is taken as the error by which the step is
 /// judged: 1/(2^p - 1) for an order p of 1.3, the least that is seen. `tests/estimates.rs` fails at half of it.
-const REST: f64 = 0.7;
+const LEFT_AFTER_HALVING: f64 = 0.7;
 
 /// Fraction of the last change that is added to the loss: 1/(2^p - 1) for an order p of 2.6. `tests/disc.rs` fails
 /// at 0.6.
-const EXTRAPOLATION: f64 = 0.2;
+const EXTRAPOLATED_LOSS: f64 = 0.2;
 
 /// Fraction of the last change that is taken as the error of the loss so extrapolated.
-const LOSS_REST: f64 = 0.35;
+const LEFT_OF_LOSS: f64 = 0.35;
 
 impl Accuracy {
     /// Judges the finer of two summaries a halving apart: the estimated error in units of what is allowed, enough where
@@ -33,16 +33,16 @@ impl Accuracy {
         (fine, [fraction, stays]): (&Summary, [f64; 2]),
     ) -> (f64, f64) {
         let change = |of: fn(&Summary) -> f64| relative(of(fine), of(coarse));
-        let error = (REST * fine.motion_distance(coarse))
+        let error = (LEFT_AFTER_HALVING * fine.motion_distance(coarse))
             .max(fraction * change(|summary| summary.contact_time) + stays);
-        let loss = LOSS_REST * change(|summary| summary.loss);
-        let deflection = REST * change(|summary| summary.peak_deflection);
+        let loss = LEFT_OF_LOSS * change(|summary| summary.loss);
+        let deflection = LEFT_AFTER_HALVING * change(|summary| summary.peak_deflection);
         (self.excess(error / self.tolerance, loss, deflection), error)
     }
 
     /// The finer summary with its loss extrapolated from both, where restitution stays far from zero.
     fn extrapolated(coarse: &Summary, fine: &Summary) -> Summary {
-        let loss = fine.loss + EXTRAPOLATION * (fine.loss - coarse.loss);
+        let loss = fine.loss + EXTRAPOLATED_LOSS * (fine.loss - coarse.loss);
         if fine.restitution < 0.5 || !(0.0..1.0).contains(&loss) {
             return *fine;
         }
@@ -63,7 +63,7 @@ impl Accuracy {
 }
 
 /// Steps are halved at most so often.
-const HALVINGS: usize = 14;
+const MOST_HALVINGS: usize = 14;
 
 /// Marches with `step`, halves it until the change over the last halving is within `accuracy`.
 ///
@@ -97,7 +97,7 @@ fn halve(
 ) -> Result<Found, MarchError> {
     let mut coarse: Option<Summary> = None;
     let (mut error, mut ratio, mut last) = (f64::INFINITY, f64::INFINITY, step);
-    for attempt in 0..HALVINGS {
+    for attempt in 0..MOST_HALVINGS {
         match march(step) {
             // strongly coupled discs: the scheme itself feeds energy at some steps of a fraction of the memory
             Ok((summary, _)) if summary.restitution > 1.0 => {}
@@ -187,12 +187,12 @@ pub(crate) fn explicit(
 }
 
 /// Steps over the contact of the first march, and of the last at most, where the force at each instant is asked for.
-const FIRST: f64 = 200.0;
-const MOST: f64 = 30_000.0;
+const FIRST_STEPS: f64 = 200.0;
+const MOST_STEPS: f64 = 30_000.0;
 
 /// Error of the force over the tolerance: that of its rate is up to a thousand times as large next to the touch.
 /// `tests/history.rs` fails at 0.1.
-const ENOUGH: f64 = 3e-3;
+const ENOUGH_FOR_RATES: f64 = 3e-3;
 
 /// A march over a contact of about this `duration` with its error at any instant: the change over the last halving,
 /// of which a third to a fifth is left, but for what stands beside a front.
@@ -208,13 +208,13 @@ pub(crate) fn march_finely(
     duration: f64,
     tolerance: f64,
 ) -> Result<History, MarchError> {
-    let mut step = duration / FIRST;
+    let mut step = duration / FIRST_STEPS;
     let mut coarse = march_implicit(impact, step)?;
     loop {
         step *= 0.5;
         let mut fine = march_implicit(impact, step)?;
         fine.error = distance(&coarse, &fine);
-        if fine.error <= ENOUGH * tolerance || duration > 0.5 * MOST * step {
+        if fine.error <= ENOUGH_FOR_RATES * tolerance || duration > 0.5 * MOST_STEPS * step {
             return Ok(fine);
         }
         coarse = fine;
@@ -224,19 +224,19 @@ pub(crate) fn march_finely(
 /// Largest difference of the force at the samples of the finer of two histories a halving apart, relative; in the middle
 /// between samples the indentation of the coarser is the polynomial through the six around.
 fn distance(coarse: &History, fine: &History) -> f64 {
-    const MIDDLE: [f64; 6] = [3.0, -25.0, 150.0, 150.0, -25.0, 3.0];
+    const WEIGHTS_OF_MIDDLE: [f64; 6] = [3.0, -25.0, 150.0, 150.0, -25.0, 3.0];
     let parts = coarse.displacement.iter().zip(&coarse.deflection);
     let indentation: Vec<f64> = parts.map(|(d, w)| d - w).collect();
-    let Some(last) = indentation.len().checked_sub(MIDDLE.len()) else {
+    let Some(last) = indentation.len().checked_sub(WEIGHTS_OF_MIDDLE.len()) else {
         return f64::INFINITY;
     };
     let middle = |cell: usize| {
         let from = cell.saturating_sub(2).min(last);
         let u = if from + 2 == cell {
-            let around = indentation[from..].iter().zip(MIDDLE);
+            let around = indentation[from..].iter().zip(WEIGHTS_OF_MIDDLE);
             around.map(|(u, weight)| weight * u).sum::<f64>() / 256.0
         } else {
-            Local::<6>::at(&indentation, from).value((cell - from) as f64 + 0.5)
+            LocalPolynomial::<6>::at(&indentation, from).value((cell - from) as f64 + 0.5)
         };
         u.max(0.0) * u.max(0.0).sqrt()
     };

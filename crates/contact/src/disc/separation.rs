@@ -31,15 +31,15 @@ use crate::disc::edge::{Edge, RESOLVED, Relaxation};
 use crate::disc::measured::first_separation;
 use crate::history::{History, Separation};
 use crate::numeric::linear::dot;
-use crate::numeric::quadrature::Local;
+use crate::numeric::quadrature::LocalPolynomial;
 
 /// Search interval for the separation; the last sample in contact is unreliable, and the one before it may be.
 const EARLIEST: f64 = 2.5;
 const LATEST: f64 = 5.0;
 
 /// Improvements of a first guess at most, and the last one's size in steps; each gains more than a digit.
-const ITERATIONS: usize = 4;
-const ENOUGH: f64 = 1e-3;
+const MOST_ITERATIONS: usize = 4;
+const LAST_IMPROVEMENT: f64 = 1e-3;
 
 /// Overestimate of the residual deflection for steps longer than the memory, relative to the coupling and the root of the
 /// memory, and its uncertainty, relative to itself.
@@ -58,7 +58,7 @@ fn separation(
     if end < 5 || end + 1 > history.displacement.len() || relaxation.memory > RESOLVED {
         return None;
     }
-    let displacement = Local::<5>::at(&history.displacement, end - 4);
+    let displacement = LocalPolynomial::<5>::at(&history.displacement, end - 4);
     if displacement.value(EARLIEST) <= 0.0 || displacement.value(LATEST) >= 0.0 {
         return None;
     }
@@ -71,7 +71,7 @@ fn separation(
         * (relaxation.memory * step).sqrt()
         * (1.0 - relaxation.memory.sqrt()).max(0.0);
     let mut correction = 0.0;
-    for _ in 0..ITERATIONS {
+    for _ in 0..MOST_ITERATIONS {
         let edge = at(place)?;
         let [value, slope, _] = displacement.jet(place);
         if slope >= 0.0 {
@@ -82,7 +82,7 @@ fn separation(
         let next = (place - (value - kept) / slope - correction).clamp(EARLIEST, LATEST);
         let change = (next - place).abs();
         place = next;
-        if change < ENOUGH {
+        if change < LAST_IMPROVEMENT {
             break;
         }
     }
@@ -95,11 +95,11 @@ fn separation(
 }
 
 /// First sample of the sum.
-const FIRST: usize = 3;
+const FIRST_SAMPLE: usize = 3;
 
 /// Gregory's weights of the first and last samples, exact for cubics, and the samples that they need.
 const GREGORY: [f64; 3] = [3.0 / 8.0, 7.0 / 6.0, 23.0 / 24.0];
-const NEEDED: usize = 6;
+const NEEDED_SAMPLES: usize = 6;
 
 /// First to fourth derivative in the middle of five samples.
 const DERIVATIVES: [[f64; 5]; 4] = [
@@ -138,7 +138,7 @@ impl History {
         let (first, [r0, r1, r2]) = (roots(1)?, roots(last)?);
         let touch = Edge::new(elastic, first, [1.0, 2.0, 3.0])?;
         let leave = Edge::new(elastic, [r2, r1, r0], [rest - 2.0, rest - 1.0, rest])?;
-        if last + 1 < FIRST + NEEDED {
+        if last + 1 < FIRST_SAMPLE + NEEDED_SAMPLES {
             return None;
         }
         let edges = relaxation.taken(&touch, first[2], false) + relaxation.taken(&leave, r0, true);
@@ -147,9 +147,10 @@ impl History {
             let samples = &p[n - 2..n + 3];
             dot(samples, &DERIVATIVES[0]) * dot(samples, &delayed)
         };
-        let end = |(i, weight): (usize, &f64)| (1.0 - weight) * (rate(FIRST + i) + rate(last - i));
+        let end =
+            |(i, weight): (usize, &f64)| (1.0 - weight) * (rate(FIRST_SAMPLE + i) + rate(last - i));
         let ends: f64 = GREGORY.iter().enumerate().map(end).sum();
-        let middle = (FIRST..=last).map(rate).sum::<f64>() - ends;
+        let middle = (FIRST_SAMPLE..=last).map(rate).sum::<f64>() - ends;
         Some(2.5 * relaxation.coupling * (edges + middle))
     }
 }

@@ -7,7 +7,7 @@ use crate::numeric::quadrature::{CLOSE, rising_root};
 
 /// Time, contact radius, velocity and displacement of the striker over a stretch of the contact, and the law that it follows.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Piece {
+pub(crate) struct ContactPiece {
     pub(crate) law: Law,
     pub(crate) time: Polynomial,
     pub(crate) radius: Polynomial,
@@ -41,7 +41,7 @@ impl State {
     };
 }
 
-impl Piece {
+impl ContactPiece {
     /// Force and its first two slopes in the place.
     pub(crate) fn force(&self, place: f64) -> [f64; 3] {
         match &self.force {
@@ -70,7 +70,7 @@ impl Piece {
 /// `own` has the time and the radius of that piece, which starts at `start`; `found` holds departures of a nearby
 /// contact as first guesses, or of no piece at all.
 pub(crate) fn departures(
-    pieces: &[Piece],
+    pieces: &[ContactPiece],
     own: [&Polynomial; 2],
     start: &State,
     [place, arrival]: [f64; 2],

@@ -59,14 +59,14 @@ const TOLERANCES: [f64; 2] = [1e-11, 1e-2];
 /// Error of a piece over the tolerance on the results, from a tolerance of 1e-5 on and below.
 ///
 /// Where pieces are few a second attempt costs more than smaller errors.
-const PIECE: [f64; 2] = [0.1, 0.3];
-const COARSE: f64 = 1e-5;
+const ERROR_OF_PIECE: [f64; 2] = [0.1, 0.3];
+const COARSE_TOLERANCE: f64 = 1e-5;
 
 /// Times that error where the first attempt has no end.
-const COARSER: f64 = 3.0;
+const COARSER_PIECES: f64 = 3.0;
 
 /// Least error of a piece.
-const FINEST: f64 = 1e-11;
+const FINEST_PIECE: f64 = 1e-11;
 
 /// Times that the pieces are made finer where the estimate exceeds what is asked.
 const ATTEMPTS: usize = 4;
@@ -111,7 +111,8 @@ pub fn solve_growing(
     let [least, largest] = TOLERANCES;
     let parts = [Some(accuracy.tolerance), accuracy.loss, accuracy.deflection];
     let asked = parts.into_iter().flatten().fold(largest, f64::min);
-    let mut piece = (PIECE[usize::from(asked < COARSE)] * asked.max(least)).max(FINEST);
+    let mut piece = (ERROR_OF_PIECE[usize::from(asked < COARSE_TOLERANCE)] * asked.max(least))
+        .max(FINEST_PIECE);
     let (mut best, mut before) = (None, f64::INFINITY);
     for attempt in 0..ATTEMPTS {
         let mut march = March::new(*contact, piece);
@@ -126,17 +127,17 @@ pub fn solve_growing(
                     return Ok(solved);
                 }
                 // finer pieces that hardly help cost seconds
-                let stuck = piece <= FINEST || excess > STUCK * before;
+                let stuck = piece <= FINEST_PIECE || excess > STUCK * before;
                 if excess < before {
                     (best, before) = (Some(solved), excess);
                 }
                 if stuck {
                     break;
                 }
-                piece = (piece * (0.3 / excess).max(0.1)).max(FINEST);
+                piece = (piece * (0.3 / excess).max(0.1)).max(FINEST_PIECE);
             }
             // pieces that are finer than the last instants allow
-            (Err(MarchError::NotFollowed { .. }), None) if attempt == 0 => piece *= COARSER,
+            (Err(MarchError::NotFollowed { .. }), None) if attempt == 0 => piece *= COARSER_PIECES,
             (Err(error), None) => return Err(error),
             // finer pieces than the last instants of a stiff striker allow
             (Err(_), Some(_)) => break,

@@ -75,16 +75,16 @@ impl Polynomial {
 }
 
 /// Largest degree of a piece.
-pub(crate) const LARGEST: usize = 16;
+pub(crate) const LARGEST_DEGREE: usize = 16;
 
 /// Values at 0 and the nodes of such a piece.
-pub(crate) const SIZE: usize = LARGEST + 1;
+pub(crate) const SIZE: usize = LARGEST_DEGREE + 1;
 
 /// Matrices of the polynomials of degree n through 0 and the n nodes of Radau's rule on (0, 1], or of those of a degree more
 /// that have no slope at 0.
 #[derive(Debug)]
-pub(crate) struct Nodes {
-    /// Nodes n; the degree is [`Self::order`].
+pub(crate) struct RadauNodes {
+    /// Number of nodes n; the degree is [`Self::order`].
     pub(crate) degree: usize,
     /// Whether they have no slope at 0.
     flat: bool,
@@ -102,11 +102,12 @@ pub(crate) struct Nodes {
     barycentric: Vec<f64>,
 }
 
-impl Nodes {
-    /// The nodes of a degree in [2, `LARGEST`], of polynomials that have no slope at 0 or may have one.
+impl RadauNodes {
+    /// The nodes of a degree in [2, `LARGEST_DEGREE`], of polynomials that have no slope at 0 or may have one.
     pub(crate) fn of(degree: usize, flat: bool) -> &'static Self {
-        static ALL: [[OnceLock<Nodes>; SIZE]; 2] = [const { [const { OnceLock::new() }; SIZE] }; 2];
-        let degree = degree.clamp(2, LARGEST - usize::from(flat));
+        static ALL: [[OnceLock<RadauNodes>; SIZE]; 2] =
+            [const { [const { OnceLock::new() }; SIZE] }; 2];
+        let degree = degree.clamp(2, LARGEST_DEGREE - usize::from(flat));
         ALL[usize::from(flat)][degree].get_or_init(|| Self::new(degree, flat))
     }
 
@@ -245,8 +246,8 @@ mod tests {
 
     #[test]
     fn a_polynomial_is_met_with_its_slope_and_integral() {
-        for n in 2..=LARGEST {
-            let nodes = Nodes::of(n, false);
+        for n in 2..=LARGEST_DEGREE {
+            let nodes = RadauNodes::of(n, false);
             let f = |s: f64| 1.0 / (2.0 + s);
             let values: Vec<f64> = nodes.places.iter().map(|&s| f(s)).collect();
             let found = nodes.polynomial(&values);
@@ -276,8 +277,8 @@ mod tests {
 
     #[test]
     fn a_polynomial_without_a_slope_at_its_start_is_met() {
-        for n in 3..LARGEST {
-            let nodes = Nodes::of(n, true);
+        for n in 3..LARGEST_DEGREE {
+            let nodes = RadauNodes::of(n, true);
             let f = |s: f64| 1.0 / (2.0 + s * s);
             let values: Vec<f64> = nodes.places.iter().map(|&s| f(s)).collect();
             let found = nodes.polynomial(&values);

@@ -1,8 +1,8 @@
 //! A contact that has been solved: its results, their errors, and its history at any time.
 
-use crate::growing::arrivals::Piece;
+use crate::growing::arrivals::ContactPiece;
 use crate::growing::equations::{Errors, March};
-use crate::growing::nodes::{LARGEST, Nodes};
+use crate::growing::nodes::{LARGEST_DEGREE, RadauNodes};
 use crate::law::branch::Branch;
 use crate::law::cut::nested;
 use crate::law::yielding::{Flow, FlowLaw, Yielding};
@@ -13,7 +13,7 @@ use crate::units::INVERSE_MASS;
 /// A contact whose radius follows the load, in collision units.
 #[derive(Debug, Clone)]
 pub struct SolvedContact {
-    pub(crate) pieces: Vec<Piece>,
+    pub(crate) pieces: Vec<ContactPiece>,
     /// When each piece ends.
     pub ends: Vec<f64>,
     /// The results.
@@ -73,7 +73,7 @@ impl SolvedContact {
     }
 
     /// With the difference of two routes to the loss.
-    fn of(pieces: Vec<Piece>, summary: Summary, errors: &Errors, energy: f64) -> Self {
+    fn of(pieces: Vec<ContactPiece>, summary: Summary, errors: &Errors, energy: f64) -> Self {
         let estimates = Estimates {
             peak_force: PEAK_FORCE * (errors.force + errors.momentum) / summary.peak_force,
             peak_force_time: errors.force + errors.momentum,
@@ -100,7 +100,7 @@ impl SolvedContact {
     pub(crate) fn with_dashpot(march: March<'_>) -> Self {
         let (mut pieces, contact_time) = (march.pieces, march.state.time);
         pieces.iter_mut().for_each(press);
-        let (peak_force, peak_force_time) = largest(&pieces, Piece::force);
+        let (peak_force, peak_force_time) = largest(&pieces, ContactPiece::force);
         let (peak_displacement, _) = largest(&pieces, |p, s| p.displacement.jet(s));
         let summary = Summary {
             peak_force,
@@ -122,7 +122,7 @@ impl SolvedContact {
     ) -> Self {
         let (mut pieces, contact_time) = (march.pieces, march.state.time);
         pieces.iter_mut().for_each(press);
-        let (peak_force, peak_force_time) = largest(&pieces, Piece::force);
+        let (peak_force, peak_force_time) = largest(&pieces, ContactPiece::force);
         let (peak_displacement, _) = largest(&pieces, |p, s| p.displacement.jet(s));
         let (mut radiated, mut lost) = (Vec::new(), 0.0);
         for piece in &pieces {
@@ -223,7 +223,7 @@ impl SolvedContact {
     }
 
     /// The piece that holds a time, and the place in it.
-    fn place(&self, time: f64) -> Option<(&Piece, f64)> {
+    fn place(&self, time: f64) -> Option<(&ContactPiece, f64)> {
         let piece = self.pieces.get(self.index(time))?;
         Some((piece, place_of(piece, time)))
     }
@@ -269,19 +269,20 @@ impl SolvedContact {
 }
 
 /// Places of a piece among which the largest deflection of a contact that yields is.
-const SAMPLES: u32 = 16;
+const SAMPLES_OF_DEFLECTION: u32 = 16;
 
 /// The largest deflection of the surface, among samples of the pieces.
-fn largest_deflection(pieces: &[Piece]) -> f64 {
+fn largest_deflection(pieces: &[ContactPiece]) -> f64 {
     let deflections = pieces.iter().flat_map(|piece| {
-        let places = (0..=SAMPLES).map(|i| f64::from(i) / f64::from(SAMPLES));
+        let places =
+            (0..=SAMPLES_OF_DEFLECTION).map(|i| f64::from(i) / f64::from(SAMPLES_OF_DEFLECTION));
         places.map(|place| deflected(piece, place))
     });
     deflections.fold(0.0, f64::max)
 }
 
 /// Deflection of the surface, which the indentation of the law does not contain.
-fn deflected(piece: &Piece, place: f64) -> f64 {
+fn deflected(piece: &ContactPiece, place: f64) -> f64 {
     let here = piece.law.branch.at(piece.radius.value(place).max(0.0));
     let displacement = piece.displacement.value(place);
     let hertz = || displacement - piece.force(place)[0].max(0.0).cbrt().powi(2);
@@ -300,8 +301,8 @@ fn deflected(piece: &Piece, place: f64) -> f64 {
 }
 
 /// Makes the force of a piece, which is not the cube of its radius, a polynomial.
-fn press(piece: &mut Piece) {
-    let nodes = Nodes::of(LARGEST, false);
+fn press(piece: &mut ContactPiece) {
+    let nodes = RadauNodes::of(LARGEST_DEGREE, false);
     let force = |&s: &f64| {
         let radius = piece.radius.value(s).max(0.0);
         let here = piece.law.branch.at(radius);
@@ -312,14 +313,14 @@ fn press(piece: &mut Piece) {
 }
 
 /// Work on the waves from the start of a piece to a place, over the kinetic energy before the contact.
-fn work_of(piece: &Piece, place: f64) -> f64 {
+fn work_of(piece: &ContactPiece, place: f64) -> f64 {
     let half = 0.5 * place;
     let losing = |from| gauss(&GAUSS_8, from, from + half, |s| piece.losing(s));
     2.0 * INVERSE_MASS * (losing(0.0) + losing(half))
 }
 
 /// The place of a time in a piece: its time rises.
-pub(crate) fn place_of(piece: &Piece, time: f64) -> f64 {
+pub(crate) fn place_of(piece: &ContactPiece, time: f64) -> f64 {
     if piece.time.degree == 2 {
         let [middle, slope, half] = [0, 1, 2].map(|k| piece.time.powers[k]);
         let away = time - middle;
@@ -336,12 +337,12 @@ pub(crate) fn place_of(piece: &Piece, time: f64) -> f64 {
 }
 
 /// Parts of a piece in which an extremum is looked for.
-const PARTS: usize = 4;
+const PARTS_OF_PIECE: usize = 4;
 
 /// The largest of a quantity over pieces and its time: from its value, slope and curvature at a place of a piece.
-fn largest(pieces: &[Piece], curve: impl Fn(&Piece, f64) -> [f64; 3]) -> (f64, f64) {
+fn largest(pieces: &[ContactPiece], curve: impl Fn(&ContactPiece, f64) -> [f64; 3]) -> (f64, f64) {
     let mut best = (0.0, 0.0);
-    let mut candidate = |piece: &Piece, place: f64| {
+    let mut candidate = |piece: &ContactPiece, place: f64| {
         let [found, ..] = curve(piece, place);
         if found > best.0 {
             best = (found, piece.time.value(place));
@@ -349,10 +350,10 @@ fn largest(pieces: &[Piece], curve: impl Fn(&Piece, f64) -> [f64; 3]) -> (f64, f
     };
     for piece in pieces {
         candidate(piece, 1.0);
-        let rises = |part: usize| curve(piece, part as f64 / PARTS as f64)[1] > 0.0;
-        for part in 1..=PARTS {
+        let rises = |part: usize| curve(piece, part as f64 / PARTS_OF_PIECE as f64)[1] > 0.0;
+        for part in 1..=PARTS_OF_PIECE {
             if rises(part - 1) && !rises(part) {
-                let [from, to] = [part - 1, part].map(|part| part as f64 / PARTS as f64);
+                let [from, to] = [part - 1, part].map(|part| part as f64 / PARTS_OF_PIECE as f64);
                 let slope = |place: f64| {
                     let [_, slope, bend] = curve(piece, place);
                     [slope, bend]

@@ -67,7 +67,7 @@ impl Law {
     }
 
     /// What the dashpot adds to the force over the velocity.
-    pub(crate) fn damping(&self, here: &Local) -> f64 {
+    pub(crate) fn damping(&self, here: &AtRadius) -> f64 {
         self.lag.unwrap_or(0.0) * here.stiffness * here.stiffness
     }
 
@@ -89,7 +89,7 @@ impl Law {
 
 /// A branch at a radius of contact.
 #[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Local {
+pub(crate) struct AtRadius {
     /// Indentation.
     pub(crate) depth: f64,
     /// Its slope in the radius.
@@ -114,8 +114,8 @@ impl Branch {
     };
 
     /// At a radius.
-    pub(crate) fn at(&self, a: f64) -> Local {
-        let of = |depth, depth_slope, bend, force| Local {
+    pub(crate) fn at(&self, a: f64) -> AtRadius {
+        let of = |depth, depth_slope, bend, force| AtRadius {
             depth,
             depth_slope,
             punch_slope: depth_slope,
@@ -127,7 +127,7 @@ impl Branch {
         match *self {
             Self::Line { edge } => {
                 let force = edge * (1.5 * a * a - 0.5 * edge * edge);
-                Local {
+                AtRadius {
                     punch_slope: 2.0 * edge,
                     bends: [2.0, 0.0],
                     stiffness: 1.5 * edge,
@@ -137,7 +137,7 @@ impl Branch {
             }
             Self::Fit(fit) => {
                 let [force, stiffness] = fit.force(a * a);
-                Local {
+                AtRadius {
                     stiffness,
                     braking: INVERSE_MASS * stiffness * 2.0 * a,
                     ..of(a * a, 2.0 * a, 2.0, force)
@@ -146,7 +146,7 @@ impl Branch {
             Self::OnSpring { coupling } => {
                 let y = force_root(coupling, a * a, a).unwrap_or(0.0);
                 let stiffness = 3.0 * y / (2.0 + 3.0 * coupling * y);
-                Local {
+                AtRadius {
                     stiffness,
                     braking: INVERSE_MASS * stiffness * 2.0 * a,
                     ..of(a * a, 2.0 * a, 2.0, y * y * y)

@@ -14,9 +14,9 @@ pub(crate) fn spread(edge: f64, top: f64) -> f64 {
 /// cut pressure from the radius `top` without the punches outside `a`, which is the radius of the first.
 pub(crate) fn nested(edge: f64, top: f64, a: f64) -> [[f64; 2]; 2] {
     /// Part of the radius below which moments lose digits, and the rest of the inner one is a power.
-    const SMALL: f64 = 0.1;
+    const SMALL_RADIUS: f64 = 0.1;
     let edge = edge.min(top);
-    let from = a.max(SMALL * top);
+    let from = a.max(SMALL_RADIUS * top);
     let [whole, second, fourth] = Cut::new(edge, top, from).moments();
     let square = from * from;
     let [more, most] = [second / square, fourth / (square * square)].map(|x| x / whole - 1.0);

@@ -19,13 +19,13 @@ use crate::growing::quick::quick;
 use crate::growing::solve_growing;
 use crate::growing::solved::SolvedContact;
 use crate::growing::work::work_on_half_space;
-use crate::growing::yielding::DAMPED;
+use crate::growing::yielding::ERROR_WITH_DASHPOT;
 use crate::history::History;
 use crate::law::area_dashpot::AreaDashpot;
 use crate::law::yielding::{Flow, Yielding};
 use crate::settings::{Memory, Model, Physics, Scheme, Settings};
 use crate::solve::choose::{Chosen, accuracy, choose, disc_of};
-use crate::solve::outcome::{Outcomes, Place};
+use crate::solve::outcome::{CellPlace, Outcomes};
 use crate::solve::prepared::Prepared;
 use crate::summary::Summary;
 use crate::waves::cache::{Exact, Responses};
@@ -113,11 +113,11 @@ type Followed = (Solved, Option<SolvedContact>);
 
 /// Largest tolerance to which the history of an area dashpot is solved: its deflection, which is 1e-3 to 1e-1 of the
 /// indentation, is within 1e-2 then, and its work within 1e-3 (`tests/history.rs`).
-const COARSEST: f64 = 1e-4;
+const COARSEST_HISTORY: f64 = 1e-4;
 
 /// Estimated error of a contact with memory that yields over that of the pieces: 1.3 at most on 80 random pairs of metals.
 /// `tests/plastic.rs` (`estimates_of_contacts_that_yield_hold`) fails at 0.5.
-const YIELDS: f64 = 2.0;
+const ERROR_OF_YIELDING: f64 = 2.0;
 
 impl<'a, S: Responses> Solver<'a, S> {
     /// With a cache of responses.
@@ -202,16 +202,16 @@ impl<'a, S: Responses> Solver<'a, S> {
 
 impl<S: Responses> Task<'_, S> {
     /// Where the contact lies among those that have series.
-    fn place(&self) -> Option<Place> {
+    fn place(&self) -> Option<CellPlace> {
         let yielding = self.collision.yielding(self.settings).ok()?;
         match yielding.filter(Yielding::begins) {
-            Some(yielding) => Place::of_fit(&self.choose(true), &yielding, self.settings),
+            Some(yielding) => CellPlace::of_fit(&self.choose(true), &yielding, self.settings),
             None => self.elastic_place(&self.choose(false)),
         }
     }
 
-    fn elastic_place(&self, chosen: &Chosen) -> Option<Place> {
-        Place::of(chosen, self.collision, self.settings, &*self.prepared.disc)
+    fn elastic_place(&self, chosen: &Chosen) -> Option<CellPlace> {
+        CellPlace::of(chosen, self.collision, self.settings, &*self.prepared.disc)
     }
 
     fn choose(&self, yields: bool) -> Chosen {
@@ -327,7 +327,7 @@ impl<S: Responses> Task<'_, S> {
         match chosen.memory() {
             // its expansion has the results of the contact with memory, but not its first and last instants
             Memory::Dashpot => {
-                let tolerance = self.settings.tolerance.min(COARSEST);
+                let tolerance = self.settings.tolerance.min(COARSEST_HISTORY);
                 let asked = Accuracy::of_contact(tolerance, None);
                 Ok(History::of_pieces(&solve_growing(
                     &self.growing()?,
@@ -364,7 +364,7 @@ impl<S: Responses> Task<'_, S> {
             }
             Memory::Full => match yielding.remembered(&self.growing()?, &self.asked) {
                 Ok(pieces) => Ok(pieces.and_then(|pieces| {
-                    let error = YIELDS * pieces.estimates.contact();
+                    let error = ERROR_OF_YIELDING * pieces.estimates.contact();
                     let scheme = Some(Scheme::Implicit);
                     let solved = chosen.yielded(scheme, (pieces.summary, pieces.flow?), error);
                     Some((solved, Some(pieces)))
@@ -387,7 +387,7 @@ impl<S: Responses> Task<'_, S> {
         lag: f64,
     ) -> Result<Option<Followed>, ContactError> {
         let series = || {
-            let place = Place::of_fit(&chosen, yielding, self.settings)?;
+            let place = CellPlace::of_fit(&chosen, yielding, self.settings)?;
             let (summary, radiated, error) = self.outcomes?.at(&place, self.responses)?;
             let works = [summary.loss - radiated, radiated];
             let flow = Flow::new(yielding, summary.peak_displacement.sqrt(), works);
@@ -399,7 +399,7 @@ impl<S: Responses> Task<'_, S> {
         let (found, of_series, pieces) = match alone.then(|| series().or_else(quickly)).flatten() {
             Some((found, error)) => (found, error, None),
             None => {
-                let followed = March::damped(lag, DAMPED).follow(yielding);
+                let followed = March::damped(lag, ERROR_WITH_DASHPOT).follow(yielding);
                 let followed = followed.map_err(|_| ContactError::NotFollowed)?;
                 let Some((pieces, flow)) =
                     followed.and_then(|one| one.flow.map(|flow| (one, flow)))

@@ -6,7 +6,7 @@
 //! that on a fixed disc, for a given Poisson's ratio, on theta = r0/c1 and the coupling, and that on the fit, for a given
 //! material, on the lag and on sqrt(s^2 - 1), s the velocity over that at which the fit leaves Hertz's law.
 //! Over an octave of each it is nearly a polynomial of low degree in their logarithms, so the plane of these is cut into
-//! cells of an octave, each with a Chebyshev [`Series`] through marches at its nodes.
+//! cells of an octave, each with a Chebyshev [`PlaneSeries`] through marches at its nodes.
 //! The power that a result has to first order is divided out.
 //!
 //! A series serves where its certificate meets the tolerance: three times the largest difference from marches between
@@ -28,7 +28,7 @@ use crate::growing::solve_growing;
 use crate::history::History;
 use crate::law::fit::{FITTED, Fit};
 use crate::law::yielding::{FlowLaw, Yielding};
-use crate::numeric::series::Series;
+use crate::numeric::series::PlaneSeries;
 use crate::settings::{Memory, Physics, Scheme, Settings, StaticShare};
 use crate::solve::choose::{Chosen, disc_of};
 use crate::summary::{Summary, relative};
@@ -55,7 +55,7 @@ struct Cell {
 
 /// Where a contact lies: its cell, its free groups, and their place in it between -1 and 1.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Place {
+pub(crate) struct CellPlace {
     cell: Cell,
     groups: [f64; 2],
     inside: [f64; 2],
@@ -64,37 +64,37 @@ pub(crate) struct Place {
 /// The series that the contacts of a sweep share, each with its certificate, made when it is first asked for.
 #[derive(Debug, Default)]
 pub struct Outcomes {
-    cells: BTreeMap<Cell, OnceLock<Option<(Series<8>, f64)>>>,
+    cells: BTreeMap<Cell, OnceLock<Option<(PlaneSeries<8>, f64)>>>,
 }
 
 /// Rows in a cell over the marches of its series from which on it pays: a march at a node, to a tenth of the tolerance, takes as
 /// long as two or three rows. `benches/impacts.rs` prints the time of rows with and without series.
-const PAYS: f64 = 4.0;
+const ROWS_PER_MARCH: f64 = 4.0;
 
 /// Tolerance of the marches over that of the rows; `tests/outcome.rs` fails at 0.5.
-const FINER: f64 = 0.1;
+const FINER_MARCHES: f64 = 0.1;
 
 /// Tolerance from which on the lower degree serves, and the nodes along a group: of it, below, and of the fit.
-const COARSE: f64 = 1e-5;
-const NODES: [usize; 3] = [5, 7, 8];
+const COARSE_TOLERANCE: f64 = 1e-5;
+const NODES_OF_SERIES: [usize; 3] = [5, 7, 8];
 
 /// Marches between the nodes, of one free group, of two and of the fit; they are equidistributed, with these steps.
-const PROBES: [usize; 3] = [4, 8, 16];
-const STEPS: [f64; 2] = [0.754_877_666, 0.569_840_291];
+const MARCHES_BETWEEN: [usize; 3] = [4, 8, 16];
+const STEPS_OF_SEQUENCE: [f64; 2] = [0.754_877_666, 0.569_840_291];
 
 /// Certificate over the largest difference from the marches between the nodes: there are few of them. `tests/outcome.rs`
 /// fails at 1, for the series of the fit.
-const CAUTION: f64 = 3.0;
+const CAUTION_OF_CERTIFICATE: f64 = 3.0;
 
 /// Allowed error, over the tolerance, of the results on which none is asked: loss, deflection, radiated energy. A choice, not a
 /// measurement: they are relative to small numbers.
-const BESIDE: f64 = 10.0;
+const ALLOWED_UNASKED: f64 = 10.0;
 
 /// Coefficients left out of a series, over the tolerance. The certificate contains their effect, so that this sets the cost
 /// only.
-const LEFT_OUT: f64 = 5e-2;
+const COEFFICIENTS_LEFT_OUT: f64 = 5e-2;
 
-impl Place {
+impl CellPlace {
     /// Of a contact that would be marched with full memory, and its disc's response.
     pub(crate) fn of(
         chosen: &Chosen,
@@ -176,7 +176,7 @@ fn octave(number: f64) -> (i32, f64) {
 impl Outcomes {
     /// Those that pay for so many rows, of which these are a sample; rows that are not marched with full memory have no
     /// place.
-    pub(crate) fn of(rows: usize, sample: impl Iterator<Item = Option<Place>>) -> Self {
+    pub(crate) fn of(rows: usize, sample: impl Iterator<Item = Option<CellPlace>>) -> Self {
         let (mut counts, mut sampled) = (BTreeMap::new(), 0.0);
         for place in sample {
             sampled += 1.0;
@@ -186,7 +186,7 @@ impl Outcomes {
         }
         counts.retain(|cell: &Cell, count| {
             let ([across, along], probes) = cell.nodes();
-            *count * rows as f64 / sampled >= PAYS * (across * along + probes) as f64
+            *count * rows as f64 / sampled >= ROWS_PER_MARCH * (across * along + probes) as f64
         });
         let paying = counts.into_keys();
         Self {
@@ -197,7 +197,7 @@ impl Outcomes {
     /// The outcome at a place, what it radiates over its kinetic energy, and its error; nothing where it has to be marched.
     pub(crate) fn at(
         &self,
-        place: &Place,
+        place: &CellPlace,
         responses: &impl Responses,
     ) -> Option<(Summary, f64, f64)> {
         let series = self.cells.get(&place.cell)?;
@@ -211,11 +211,11 @@ impl Outcomes {
 impl Cell {
     /// Nodes along each group, and marches between them.
     fn nodes(&self) -> ([usize; 2], usize) {
-        let fine = usize::from(f64::from_bits(self.tolerances[0]) < COARSE);
+        let fine = usize::from(f64::from_bits(self.tolerances[0]) < COARSE_TOLERANCE);
         match self.physics {
-            Physics::Growing => ([NODES[fine], 1], PROBES[0]),
-            Physics::Disc(_) => ([NODES[fine]; 2], PROBES[1]),
-            Physics::Yielding => ([NODES[2]; 2], PROBES[2]),
+            Physics::Growing => ([NODES_OF_SERIES[fine], 1], MARCHES_BETWEEN[0]),
+            Physics::Disc(_) => ([NODES_OF_SERIES[fine]; 2], MARCHES_BETWEEN[1]),
+            Physics::Yielding => ([NODES_OF_SERIES[2]; 2], MARCHES_BETWEEN[2]),
         }
     }
 
@@ -229,10 +229,13 @@ impl Cell {
     }
 
     /// The series with its certificate, where that meets the tolerance.
-    fn contract(&self, responses: &impl Responses) -> Option<(Series<8>, f64)> {
+    fn contract(&self, responses: &impl Responses) -> Option<(PlaneSeries<8>, f64)> {
         let [tolerance, of_loss] = self.tolerances.map(f64::from_bits);
         let of_loss = Some(of_loss).filter(|&asked| asked > 0.0);
-        let asked = Accuracy::of_contact(FINER * tolerance, of_loss.map(|asked| FINER * asked));
+        let asked = Accuracy::of_contact(
+            FINER_MARCHES * tolerance,
+            of_loss.map(|asked| FINER_MARCHES * asked),
+        );
         let (mut history, mut left) = (History::default(), 0.0_f64);
         let mut march = |inside: [f64; 2]| {
             let groups = self.groups(inside);
@@ -245,10 +248,10 @@ impl Cell {
             Some(lanes(&summary, radiated, groups))
         };
         let (nodes, probes) = self.nodes();
-        let series = Series::through(nodes, LEFT_OUT * tolerance, values)?;
+        let series = PlaneSeries::through(nodes, COEFFICIENTS_LEFT_OUT * tolerance, values)?;
         let mut missed = 0.0_f64;
         for k in 1..=probes {
-            let inside = STEPS.map(|step| 2.0 * (k as f64 * step).fract() - 1.0);
+            let inside = STEPS_OF_SEQUENCE.map(|step| 2.0 * (k as f64 * step).fract() - 1.0);
             let (exact, work, groups) = march(inside)?;
             let (found, radiated) = outcome(&series.at(inside), groups);
             let late = (found.peak_force_time - exact.peak_force_time).abs() / exact.contact_time;
@@ -257,10 +260,10 @@ impl Cell {
                 .max(relative(exact.peak_deflection, found.peak_deflection))
                 .max(relative(work, radiated));
             let loss = of_loss.map_or(0.0, |asked| exact.loss_distance(&found) / asked * tolerance);
-            let all = [exact.distance(&found), late, beside / BESIDE, loss];
+            let all = [exact.distance(&found), late, beside / ALLOWED_UNASKED, loss];
             missed = all.into_iter().fold(missed, f64::max);
         }
-        let error = CAUTION * missed + left;
+        let error = CAUTION_OF_CERTIFICATE * missed + left;
         (error <= tolerance).then_some((series, error))
     }
 

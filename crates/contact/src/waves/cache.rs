@@ -58,7 +58,7 @@ pub struct Tabulated {
 const LATTICE: f64 = 4096.0;
 
 /// Lattice points next to nu = 1/2 that are not used: the memory grows like 1/sqrt(1/2 - nu) there.
-const FIRST: f64 = 512.0;
+const FIRST_OF_LATTICE: f64 = 512.0;
 
 impl Tabulated {
     /// For any number of Poisson's ratios, as random draws have: responses of a lattice, linear between two of them.
@@ -77,7 +77,7 @@ impl Tabulated {
         let place = (0.5 - ratio).max(0.0).sqrt() * LATTICE;
         let below = place.floor();
         let at = |i: f64| 0.5 - (i / LATTICE).powi(2);
-        let inside = below >= FIRST && at(below + 1.0) > -1.0;
+        let inside = below >= FIRST_OF_LATTICE && at(below + 1.0) > -1.0;
         (self.lattice && inside).then(|| (at(below), at(below + 1.0), place - below))
     }
 
