@@ -1,15 +1,15 @@
-//! The accuracy that results have to meet, and results with their error.
+//! Tolerances of the results of a contact, and results with their error.
 
 use crate::summary::Summary;
 
-/// What the results have to meet.
+/// Tolerances of the results.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Accuracy {
     /// Relative tolerance on peak force, contact time, restitution and largest displacement.
     pub tolerance: f64,
-    /// Relative tolerance on the loss 1 - e^2, where it is asked for.
+    /// Relative tolerance on the loss 1 - e^2, if it has one.
     pub loss: Option<f64>,
-    /// Relative tolerance on the largest deflection, where it is asked for.
+    /// Relative tolerance on the largest deflection, if it has one.
     pub deflection: Option<f64>,
 }
 
@@ -24,7 +24,7 @@ impl From<f64> for Accuracy {
 }
 
 impl Accuracy {
-    /// Of the contact's results only: what a sweep asks.
+    /// On the results of the contact only, as in sweeps.
     pub fn of_contact(tolerance: f64, loss: Option<f64>) -> Self {
         Self {
             tolerance,
@@ -33,8 +33,8 @@ impl Accuracy {
         }
     }
 
-    /// The largest error over what is asked: that of the contact's results, which is so already, of the loss and of the
-    /// largest deflection.
+    /// The largest error over its tolerance: that of the contact's results, given so, of the loss and of the largest
+    /// deflection.
     pub(crate) fn excess(&self, contact: f64, loss: f64, deflection: f64) -> f64 {
         let loss = self.loss.map_or(0.0, |asked| loss / asked);
         let deflection = self.deflection.map_or(0.0, |asked| deflection / asked);

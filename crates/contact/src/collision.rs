@@ -45,7 +45,7 @@ pub struct Collision {
     pub target_longitudinal_speed_m_s: f64,
     /// Poisson's ratio of the half-space.
     pub target_poisson_ratio: f64,
-    /// What the striker and the half-space bear.
+    /// Strengths of the striker and the half-space.
     pub strengths: [Strength; 2],
 }
 
@@ -200,7 +200,7 @@ impl Collision {
         (0.75 * force_n * self.tip_radius_m / self.effective_modulus_pa).cbrt()
     }
 
-    /// How near a largest force in N on a disc of a radius in m comes to what the bodies bear.
+    /// Loading of the bodies by a largest force in N on a disc of a radius in m, over their strengths.
     pub(crate) fn loading(&self, force_n: f64, disc_radius_m: f64) -> Loading {
         let pressure = force_n / (PI * disc_radius_m * disc_radius_m);
         let contact = [self.tip_radius_m, self.effective_modulus_pa];

@@ -1,4 +1,4 @@
-//! Yield pressure or velocity from what was measured of a contact that yields.
+//! Yield pressure or velocity from a measured restitution, contact time or peak force of a contact that yields.
 //!
 //! The unknown is bracketed between the onset of yield and as far beyond as the law goes, and the bracket halved in its
 //! logarithm.
@@ -17,7 +17,7 @@ use fault::{Class, Culprit, Fault};
 use thiserror::Error;
 
 choice! {
-    /// What was measured.
+    /// Measured quantity.
     #[derive(Debug, Clone, Copy, PartialEq)]
     pub enum Measure {
         /// Velocity of departure over that of approach.
@@ -30,7 +30,7 @@ choice! {
 }
 
 choice! {
-    /// What is to be found.
+    /// Unknown quantity.
     #[derive(Debug, Clone, Copy, PartialEq, Eq)]
     pub enum Unknown {
         /// Mean pressure of the flow in Pa.
@@ -49,7 +49,7 @@ impl Unknown {
         }
     }
 
-    /// What it is in words.
+    /// Name in words.
     pub fn words(self) -> &'static str {
         match self {
             Self::YieldPressure => "yield pressure",
@@ -58,7 +58,7 @@ impl Unknown {
     }
 }
 
-/// What was found.
+/// An unknown that was found.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Inferred {
     /// The unknown.
@@ -90,7 +90,7 @@ pub enum InferError {
     NoLaw {
         /// Name of the law.
         law: &'static str,
-        /// What was sought.
+        /// Name of the unknown.
         unknown: &'static str,
     },
     /// A measure that no contact has that yields.
@@ -98,7 +98,7 @@ pub enum InferError {
         "{measure} = {} is outside [{:.4e}, {:.4e}], the range of contacts that yield by this law, {}", fault::number(*value), limits[0], limits[1], reach(*most)
     )]
     Outside {
-        /// What was measured.
+        /// Name of the measure.
         measure: &'static str,
         /// Its value.
         value: f64,
@@ -217,7 +217,7 @@ impl Varied<'_> {
 
 /// The yield pressure or the velocity of a contact that gives a measured value, with the interval of its absolute error.
 ///
-/// What is not sought is that of the collision and its settings.
+/// All other numbers are those of the collision and its settings.
 ///
 /// # Errors
 /// [`InferError`].

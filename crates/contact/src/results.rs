@@ -44,9 +44,9 @@ pub struct Results {
     pub contact_radius_m: f64,
     /// Radius of the disc that loads the half-space in m: that of the settings, or the largest contact radius.
     pub disc_radius_m: f64,
-    /// How near the contact comes to what the bodies bear.
+    /// Loading of the bodies over their strengths.
     pub loading: Loading,
-    /// What flows.
+    /// Plastic flow.
     pub plastic: Plastic,
     /// Number of contacts.
     pub contacts: usize,
@@ -58,7 +58,7 @@ pub struct Results {
     pub relative_error_estimate: f64,
 }
 
-/// What flows in a contact, in SI units; all none where no law of flow is asked for.
+/// Plastic flow of a contact in SI units; all none without a law of flow.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Plastic {

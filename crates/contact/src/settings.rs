@@ -4,7 +4,7 @@ use crate::names::choice;
 use halfspace::Deflection;
 
 choice! {
-    /// The contact model asked for.
+    /// Contact model.
     #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
     pub enum Model {
         /// Closed form, no waves.
@@ -180,12 +180,12 @@ impl Plasticity {
 }
 
 choice! {
-    /// Which part of the half-space's deflection is added to Hertz's indentation.
+    /// Part of the half-space's deflection that is added to Hertz's indentation.
     #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
     pub enum StaticShare {
         /// All of it: the paper, whose K already holds the static compliance of the half-space.
         Full = "full",
-        /// Only what differs from the static deflection: nothing is counted twice.
+        /// Only the difference from the static deflection: nothing is counted twice.
         Dynamic = "dynamic",
     }
 }
@@ -219,7 +219,7 @@ pub struct Settings {
     pub deflection: Deflection,
     /// Relative tolerance on the results.
     pub tolerance: f64,
-    /// Relative tolerance on the loss 1 - e^2, if it is asked for.
+    /// Relative tolerance on the loss 1 - e^2, if there is one.
     pub loss_tolerance: Option<f64>,
     /// Fixed step in s.
     pub step_s: Option<f64>,

@@ -1,4 +1,4 @@
-//! Where the model leaves what it was made for: warnings with their numbers.
+//! Warnings, with their numbers, where a scene leaves the range of its model.
 //!
 //! Theory: `docs/theory.md` (T57).
 
@@ -23,7 +23,7 @@ pub fn super_seismic(half_space: &HalfSpace, collision: &Collision, radius_m: f6
 /// Mass over that of a ball of the tip's radius below which the two hint at a slip in a unit.
 const LIGHT: f64 = 1e-3;
 
-/// What bodies have: field, least and most, unit, and a unit that is often taken for it with its size.
+/// Usual ranges of the numbers of bodies: field, least and most, unit, and a unit that is often taken for it with its size.
 const USUAL: [(&str, [f64; 2], &str, &str, f64); 8] = [
     ("youngs_modulus_pa", [1e3, 2e12], "Pa", "GPa", 1e9),
     ("density_kg_m3", [10.0, 3e4], "kg/m3", "g/cm3", 1e3),
@@ -35,7 +35,7 @@ const USUAL: [(&str, [f64; 2], &str, &str, f64); 8] = [
     ("mass_kg", [1e-20, 1e5], "kg", "g", 1e-3),
 ];
 
-/// What hints at slips in the numbers of two bodies, by field.
+/// Doubts about the numbers of two bodies, by field.
 pub fn doubts(half_space: &HalfSpace, striker: &Striker) -> Vec<String> {
     let target = half_space.material();
     let of_material = |body, material: &Material| {
@@ -75,7 +75,7 @@ pub fn doubts(half_space: &HalfSpace, striker: &Striker) -> Vec<String> {
     unusual.chain(doubt(striker)).collect()
 }
 
-/// What hints at a slip: a mass that no body with such a tip has, or that of a ball of half the radius.
+/// A doubt about the mass: one that no body with such a tip has, or that of a ball of half the radius.
 fn doubt(striker: &Striker) -> Option<String> {
     let (mass_kg, radius_m) = (striker.mass_kg, striker.tip_radius_m);
     let ball_kg = 4.0 / 3.0 * PI * radius_m.powi(3) * striker.material.density_kg_m3?;
@@ -94,7 +94,7 @@ fn doubt(striker: &Striker) -> Option<String> {
     })
 }
 
-/// What the user should know of the bodies, the settings, the model and its results: sentences with their numbers, none where
+/// Warnings about the bodies, the settings, the model and its results: sentences with their numbers, none where
 /// all is well.
 pub fn warnings(
     half_space: &HalfSpace,

@@ -91,7 +91,7 @@ pub(crate) fn march_into(
     Ok(())
 }
 
-/// What the weights miss of the delayed deflection at the first samples.
+/// Error of the weights in the delayed deflection at the first samples.
 ///
 /// They follow a parabola through the samples, the force at the touch has the roots of `edge`.
 fn missed(

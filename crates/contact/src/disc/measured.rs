@@ -1,4 +1,4 @@
-//! What is asked of the samples of a march: peaks, the end of contact, the rebound.
+//! Results of the samples of a march: peaks, the end of contact, the rebound.
 //!
 //! None of them lies on a sample.
 //! Peaks are interpolated through five samples.
@@ -21,7 +21,7 @@ const NEEDED_SAMPLES: usize = 8;
 /// (`tests/estimates.rs`), and what stays of it at any step: of an end found by extrapolation of what is smooth there.
 const SMOOTH_END: [f64; 2] = [1.0, 0.0];
 
-/// That fraction of an end from what the surface keeps of the force: what stays is its uncertainty.
+/// The same fraction of an end that comes from the residual deflection; its uncertainty stays at any step.
 const KEPT_END: f64 = 0.5;
 
 impl Summary {
@@ -33,7 +33,8 @@ impl Summary {
         Self::measured(history).map(|(summary, _)| summary)
     }
 
-    /// The same, with the fraction of the last change of the contact time that is its error, and what stays at any step.
+    /// The same, with the fraction of the last change of the contact time that is its error, and the error that stays at any
+    /// step.
     pub(crate) fn measured(history: &History) -> Result<(Self, [f64; 2]), MarchError> {
         let step = history.step;
         let force = &history.force;

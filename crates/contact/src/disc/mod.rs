@@ -34,7 +34,7 @@ pub struct FixedDisc<'a, R = SurfaceResponse> {
     pub coupling: f64,
     /// r0/c1 in collision times.
     pub wave_time: f64,
-    /// Which part of the deflection enters.
+    /// Part of the static deflection that enters.
     pub share: StaticShare,
 }
 

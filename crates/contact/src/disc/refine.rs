@@ -25,7 +25,7 @@ const EXTRAPOLATED_LOSS: f64 = 0.2;
 const LEFT_OF_LOSS: f64 = 0.35;
 
 impl Accuracy {
-    /// Judges the finer of two summaries a halving apart: the estimated error in units of what is allowed, enough where
+    /// Judges the finer of two summaries a halving apart: the estimated error in units of the allowed one, enough where
     /// it is one or less, and that of the contact's results, relative.
     fn judge(
         &self,
@@ -78,9 +78,9 @@ pub fn refine(
     halve(measured, step, &accuracy.into(), 1.0)
 }
 
-/// Error over what is allowed up to which the last march counts where a finer one needs too much work.
+/// Error, over the allowed one, up to which the last march counts if a finer one needs too much work.
 ///
-/// A memory that is very short beside the contact asks for steps of its own length before the end of contact is known
+/// A memory that is very short compared with the contact needs steps of its own length before the end of contact is known
 /// to the last digits.
 const LENIENT: f64 = 100.0;
 
@@ -139,7 +139,7 @@ const EXPLICIT_STEPS: f64 = 200.0;
 const DYNAMIC_CAUTION: f64 = 3.0;
 
 /// An impact on a disc by the implicit scheme: with a step that is given, judged by a march with half of it, or halved until
-/// the results are as accurate as asked.
+/// the results meet the tolerances.
 ///
 /// The history is left as that of the step that counts.
 ///
@@ -186,7 +186,7 @@ pub(crate) fn explicit(
     Ok(Found::new(summary, error, Some(step)))
 }
 
-/// Steps over the contact of the first march, and of the last at most, where the force at each instant is asked for.
+/// Steps over the contact for a history: of the first march, and of the last at most.
 const FIRST_STEPS: f64 = 200.0;
 const MOST_STEPS: f64 = 30_000.0;
 
@@ -195,7 +195,7 @@ const MOST_STEPS: f64 = 30_000.0;
 const ENOUGH_FOR_RATES: f64 = 3e-3;
 
 /// A march over a contact of about this `duration` with its error at any instant: the change over the last halving,
-/// of which a third to a fifth is left, but for what stands beside a front.
+/// of which a third to a fifth is left, except next to a front.
 ///
 /// Results converge faster than the history they are taken from: steps that give the largest force to 1e-4 miss
 /// the force by twice that in the first percents of the contact.

@@ -5,7 +5,7 @@
 //!      = t - (5/4) { h^2 [ sum_{j<n} (n - j) p_j + p_n/12 ] + E_0 t - E_1 } + O(h^4)
 //! ```
 //!
-//! E_0 and E_1 are what the sums of p and t p miss at the touch, where the force starts with the power 3/2 as
+//! E_0 and E_1 are the errors of the sums of p and t p at the touch, where the force starts with the power 3/2 as
 //! y^2 + sigma y^3 = t, p = y^3, on a surface of compliance sigma; without them the error would be of order 5/2.
 //! Everything is in collision units.
 //!
@@ -35,7 +35,7 @@ pub(crate) struct StrikerMotion {
     sum: f64,
     /// sum over the samples so far of (n - j) p_j, n the next sample.
     double_sum: f64,
-    /// What the trapezoidal rule misses at the touch of int p dt and of int t p dt.
+    /// Error of the trapezoidal rule at the touch in int p dt and in int t p dt.
     pub(crate) missed: [f64; 2],
 }
 
@@ -60,7 +60,7 @@ impl StrikerMotion {
         t - INVERSE_MASS * (h * h * self.double_sum + start)
     }
 
-    /// What a unit force at the next sample takes from d.
+    /// Decrease of d by a unit force at the next sample.
     pub(crate) fn newest_weight(&self) -> f64 {
         INVERSE_MASS * self.step * self.step / 12.0
     }
@@ -73,7 +73,7 @@ impl StrikerMotion {
     }
 }
 
-/// What the trapezoidal rule misses at the touch of int p dt and of int t p dt: the constants of Euler and Maclaurin.
+/// Error of the trapezoidal rule at the touch in int p dt and in int t p dt: the constants of Euler and Maclaurin.
 ///
 /// t = y^2 + sigma y^3 makes both integrals and the derivatives at the upper end elementary.
 fn missed(step: f64, compliance: f64, roots: &[f64; STARTING]) -> [f64; 2] {

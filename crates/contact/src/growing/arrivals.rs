@@ -19,7 +19,7 @@ pub(crate) struct ContactPiece {
     pub(crate) end: State,
 }
 
-/// What is known where a piece starts or ends.
+/// State of the striker and the contact where a piece starts or ends.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct State {
     pub(crate) time: f64,

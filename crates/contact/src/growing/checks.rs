@@ -1,7 +1,7 @@
-//! What the solution takes for granted: that waves which left one after the other arrive so, and that the
-//! surface does not come back to the striker.
+//! Checks of two assumptions of the solution: waves arrive in the order in which they left, and the surface does not come
+//! back to the striker.
 //!
-//! After the end t_e nothing presses, and what is left of the deflection relaxes as
+//! After the end t_e the force is zero, and the residual deflection relaxes as
 //!
 //! ```text
 //! w'(t) = -phi sum_k (m_k/X_k) (g_1 - g_2),    T + X_k a = t at two times, T_1 < T_2 < t_e
@@ -23,14 +23,14 @@ const TIMES_OF_GAP: usize = 8;
 /// Level of the rule over the waves for the gap.
 const LEVEL_OF_GAP: usize = 1;
 
-/// Depth of a second contact that is not told from the error of the gap.
+/// Depth of a second contact that cannot be distinguished from the error of the gap.
 const NOISE_OF_GAP: f64 = 1e-6;
 
 /// Part of the largest radius below which departures are not looked at: the last instants are known to
 /// the accuracy only.
 const SMALL_RADIUS: f64 = 1e-2;
 
-/// A contact of which that holds.
+/// The contact, if both assumptions hold.
 pub(crate) fn passed(
     solved: SolvedContact,
     contact: &GrowingContact<'_>,

@@ -52,7 +52,7 @@ pub(crate) struct Errors {
     pub(crate) work: f64,
 }
 
-/// What a piece is a function of.
+/// Independent variable of a piece.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Independent {
     /// The radius is sought as a function of time.
@@ -66,11 +66,11 @@ pub(crate) enum Independent {
 pub(crate) struct Equations<'a> {
     pub(crate) march: &'a March<'a>,
     pub(crate) known: Independent,
-    /// What is known: the time or the radius.
+    /// The known one of time and radius.
     pub(crate) given: Polynomial,
 }
 
-/// Time, radius and what follows from them at 0 and the nodes.
+/// Time, radius and the velocity and law that follow from them, at 0 and the nodes.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct PieceMotion {
     pub(crate) time: [f64; SIZE],
@@ -83,7 +83,7 @@ pub(crate) struct PieceMotion {
     pub(crate) local: [AtRadius; LARGEST_DEGREE],
 }
 
-/// Residuals and what drives the radius at the nodes, with the departures of all waves to them.
+/// Residuals and the drive of the radius at the nodes, with the departures of all waves to them.
 #[derive(Debug, Default)]
 pub(crate) struct Residual<'a> {
     /// The rule over the waves.
@@ -102,11 +102,11 @@ pub(crate) struct Solution {
     pub(crate) widest: f64,
     /// int p (v - u') dt over the piece.
     pub(crate) dissipated: f64,
-    /// Size of the last of the polynomial's terms in what was sought.
+    /// Size of the last term of the polynomial of the unknown.
     pub(crate) truncated: f64,
-    /// Change of what was sought by the finer rule over the waves.
+    /// Change of the unknown by the finer rule over the waves.
     pub(crate) waves: f64,
-    /// What was sought, at 0 and the nodes.
+    /// Values of the unknown at 0 and the nodes.
     pub(crate) sought: [f64; SIZE],
 }
 
@@ -123,7 +123,7 @@ const SLACK: f64 = 0.3;
 const CLOSED: f64 = 1e-14;
 
 impl Equations<'_> {
-    /// Polynomials of time and radius through values of what is sought.
+    /// Polynomials of time and radius through values of the unknown.
     pub(crate) fn polynomials(&self, sought: &[f64; SIZE]) -> (Polynomial, Polynomial) {
         let sought = self.march.nodes.polynomial(sought);
         match self.known {
@@ -132,7 +132,7 @@ impl Equations<'_> {
         }
     }
 
-    /// What follows from values of what is sought.
+    /// The motion that follows from values of the unknown.
     pub(crate) fn motion(&self, sought: &[f64; SIZE]) -> PieceMotion {
         let (nodes, law) = (self.march.nodes, &self.march.law);
         let n = nodes.degree;
@@ -215,7 +215,7 @@ impl Equations<'_> {
         piece.map_or(&self.march.law, |piece| &piece.law)
     }
 
-    /// Derivatives of the residuals with respect to what is sought, at the departures of the residual.
+    /// Derivatives of the residuals with respect to the unknown, at the departures of the residual.
     pub(crate) fn jacobian(
         &self,
         motion: &PieceMotion,
@@ -260,7 +260,7 @@ impl Equations<'_> {
         }
     }
 
-    /// Row j: what is sought in the impulse -(5/4) p T' of node j.
+    /// Row j: derivatives of the impulse -(5/4) p T' of node j with respect to the unknown.
     fn velocity_by_impulse(&self, motion: &PieceMotion) -> [[f64; LARGEST_DEGREE]; LARGEST_DEGREE] {
         let nodes = self.march.nodes;
         let mut rows = [[0.0; LARGEST_DEGREE]; LARGEST_DEGREE];
@@ -278,8 +278,8 @@ impl Equations<'_> {
         rows
     }
 
-    /// Derivatives of S times the wave time at the node i: with respect to what is sought at each node (with
-    /// the sign turned) and, beside it, at the node itself, where g has a slope.
+    /// Derivatives of S times the wave time at the node i: with respect to the unknown at each node (with
+    /// the sign turned) and, separately, at the node itself, where g has a slope.
     fn tension_row(&self, residual: &Residual<'_>, i: usize, slope: f64) -> ([f64; SIZE], f64) {
         let nodes = self.march.nodes;
         let [mut sums, mut basis] = [[0.0; SIZE]; 2];
@@ -374,7 +374,7 @@ impl Equations<'_> {
             .then(|| self.solution(&sought, &motion, waves))
     }
 
-    /// Size of what is sought.
+    /// Size of the unknown.
     fn scale(&self, sought: &[f64; SIZE]) -> f64 {
         let n = self.march.nodes.degree;
         match self.known {
@@ -459,7 +459,7 @@ impl Equations<'_> {
     }
 }
 
-/// Takes a part of a change from what is sought beyond the start; the size of the change.
+/// Subtracts a part of a change from the unknown beyond the start, and returns the size of the change.
 fn changed(sought: &mut [f64; SIZE], factor: f64, change: &[f64]) -> f64 {
     for (value, change) in sought[1..].iter_mut().zip(change) {
         *value -= factor * change;

@@ -11,7 +11,7 @@ use crate::units::INVERSE_MASS;
 use crate::waves::punch::{GrowingContact, LEVELS, PunchWaves};
 use std::sync::LazyLock;
 
-/// What is left of a change by the finer rule over the waves, at most.
+/// Largest error after a change by the finer rule over the waves, over that change.
 const LEFT_BY_FINER_RULE: f64 = 0.3;
 
 /// Error at the end of a smooth piece over that inside.
@@ -110,7 +110,7 @@ impl<'a> March<'a> {
         }
     }
 
-    /// Why it cannot go on.
+    /// The error of a march that cannot go on.
     pub(crate) fn lost(&self) -> MarchError {
         MarchError::NotFollowed {
             time: self.state.time,
@@ -120,7 +120,7 @@ impl<'a> March<'a> {
         }
     }
 
-    /// Takes a piece.
+    /// Appends a piece.
     pub(crate) fn accept(&mut self, known: Independent, solution: &Solution) {
         let end = solution.piece.end;
         let duration = end.time - self.state.time;
@@ -217,10 +217,10 @@ impl<'a> March<'a> {
         Ok(())
     }
 
-    /// `most` pieces, tried ones included, of a length that is told, until there is none or something happens in one: whether
+    /// At most `most` pieces, tried ones included, from a first `length`, until there is none or an event in one: whether
     /// it has.
     ///
-    /// `piece` gives what is known over a length, a guess of the rest, and whether it is the last; `event` the place in a
+    /// `piece` returns the known variable over a length, a guess of the unknown, and whether it is the last; `event` the place in a
     /// solution, with its error over the allowed one, where the piece is to end when it is tried once more.
     ///
     /// # Errors

@@ -30,7 +30,7 @@
 //! The integral over the waves is Gauss's rule of their measure, of 3 to 220 nodes as each piece needs.
 //!
 //! In reading order: `waves`, `equations` of a piece, solved at the `nodes` of its polynomials, and the `arrivals` of its
-//! waves, `march` from piece to piece, `checks` for what was taken for granted, `solved`, `work`; `dashpot` for the models in
+//! waves, `march` from piece to piece, `checks` of the assumptions, `solved`, `work`; `dashpot` for the models in
 //! closed form.
 //! A contact that the surface strikes again, or whose waves overtake each other, is refused.
 //! Measured against superposition in time of punches by another kernel formula (`tests/reference/growing.csv`).
@@ -68,7 +68,7 @@ const COARSER_PIECES: f64 = 3.0;
 /// Least error of a piece.
 const FINEST_PIECE: f64 = 1e-11;
 
-/// Times that the pieces are made finer where the estimate exceeds what is asked.
+/// Attempts with finer pieces while the estimate exceeds the tolerance.
 const ATTEMPTS: usize = 4;
 
 /// Fraction of the estimate before above which a further attempt is not worth while.
@@ -83,9 +83,9 @@ const LENIENT: f64 = 100.0;
 /// Solves the impact of a striker on a contact whose radius follows the load.
 ///
 /// Force, contact time, restitution and displacement meet `accuracy.tolerance` by their estimates; so do loss
-/// and deflection where they are asked for.
+/// and deflection, if they have a tolerance.
 /// Near the limits of double precision (phi within 1e-3 of one and tolerances of 1e-8 and below) the estimates
-/// may be up to a hundred times what was asked.
+/// may be up to a hundred times the tolerance.
 /// Valid for target shares in (0, 1] and wave times up to a few collision times; all scenes of
 /// `tests/growing.rs` are solved at 1e-4 to 1e-10.
 ///

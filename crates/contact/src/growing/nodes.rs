@@ -1,5 +1,4 @@
-//! Polynomials on a piece and collocation at Radau's nodes: what a piece of degree n needs, made once for each n, and its
-//! small linear systems.
+//! Polynomials on a piece and collocation at Radau's nodes: the matrices of a degree n, made once for each n.
 
 use crate::numeric::gauss::radau;
 use crate::numeric::linear::dot;
@@ -58,7 +57,7 @@ impl Polynomial {
         self.jets(&[s]).map(|[one]| one)
     }
 
-    /// The same at some places together; inlined, so that what is not taken of it costs nothing.
+    /// The same at several places together; inlined, so that unused slopes cost nothing.
     #[inline]
     pub(crate) fn jets<const N: usize>(&self, places: &[f64; N]) -> [[f64; N]; 3] {
         let x = places.map(|s| 2.0 * s - 1.0);
@@ -226,7 +225,7 @@ fn matrix([rows, columns]: [usize; 2], entry: impl Fn(usize, usize) -> f64) -> V
     (0..rows).map(row).collect()
 }
 
-/// Row k: what the Legendre polynomials of degree 0 to n > 0 hold of x^k.
+/// Row k: coefficients of x^k in the Legendre polynomials of degree 0 to n > 0.
 fn powers(n: usize) -> Vec<Vec<f64>> {
     let mut rows = vec![vec![0.0; n + 1]; n + 1];
     (rows[0][0], rows[1][1]) = (1.0, 1.0);

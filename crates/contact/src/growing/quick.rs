@@ -69,7 +69,7 @@ pub(crate) fn quick(yielding: &Yielding, lag: f64) -> Option<(Summary, Flow)> {
     ))
 }
 
-/// What the flow on Thornton's line has come to where the indentation turns, from a velocity at its beginning: indentation,
+/// State of the flow on Thornton's line where the indentation turns, from a velocity at its beginning: indentation,
 /// time since then and energy radiated meanwhile, and the largest force with its time; nothing where the force falls at
 /// once.
 fn turned_on_line(edge: f64, lag: f64, v0: f64) -> Option<([f64; 3], [f64; 2])> {
@@ -225,8 +225,8 @@ const LARGEST_LAG_OF_CUT: f64 = 0.1;
 /// Part of a result below which the last coefficients are left out.
 const LEAST_COEFFICIENT: f64 = 1e-12;
 
-/// Velocity, duration and the largest radius times velocity of Hertz's contact from rest at radius one, and what it gives
-/// back without a lag.
+/// Velocity, duration and the largest radius times velocity of Hertz's contact from rest at radius one, and the work that
+/// it gives back without a lag.
 fn fall(lag: f64) -> Option<[f64; 4]> {
     static MADE: OnceLock<Option<PlaneSeries<4>>> = OnceLock::new();
     let made = MADE.get_or_init(|| {

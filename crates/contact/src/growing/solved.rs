@@ -14,16 +14,16 @@ use crate::units::INVERSE_MASS;
 #[derive(Debug, Clone)]
 pub struct SolvedContact {
     pub(crate) pieces: Vec<ContactPiece>,
-    /// When each piece ends.
+    /// Time at which each piece ends.
     pub ends: Vec<f64>,
     /// The results.
     pub summary: Summary,
     /// Their estimated errors.
     pub estimates: Estimates,
-    /// What has flowed, where the contact has yielded.
+    /// The plastic flow, if the contact has yielded.
     pub flow: Option<Flow>,
-    /// When the rate of the force jumps within the contact, or has a root: the onset of yield and the turning point of one
-    /// that yields, and where what is left of a cut pressure begins to open.
+    /// Times within the contact at which the rate of the force jumps or has a root: the onset of yield, the turning point, and
+    /// the instant at which the rest of a cut pressure begins to open.
     pub kinks: Vec<f64>,
     /// Work on the waves until each piece, over the kinetic energy.
     radiated: Vec<f64>,

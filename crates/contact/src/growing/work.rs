@@ -28,7 +28,7 @@ const COARSE_TOLERANCE: f64 = 1e-5;
 /// Work of a contact that was solved on the half-space, relative to the kinetic energy before, by superposition of the
 /// punches that carry its load: independent of the striker's momentum.
 ///
-/// Within 1e-3 of itself for tolerances down to 1e-5, within 2e-5 below, beside the error of the force; for memories up
+/// Relative error: 1e-3 for tolerances down to 1e-5, 2e-5 below, in addition to the error of the force; for memories up
 /// to the length of the contact.
 pub fn work_on_half_space(
     contact: &GrowingContact<'_>,

@@ -16,7 +16,7 @@ use crate::numeric::quadrature::rising_root;
 use crate::units::INVERSE_MASS;
 use crate::waves::punch::GrowingContact;
 
-/// Pieces of the flow, and of what opens, at most, tried ones included.
+/// Pieces of the flow and of the unloading at most, tried ones included.
 const MOST_PIECES: usize = 300;
 
 /// First piece of the flow over the time until the striker turns: waves from before the yield arrive with another slope.
@@ -60,7 +60,7 @@ impl Yielding {
 
 impl March<'_> {
     /// Velocity, duration and the largest product of radius and velocity of a contact with a dashpot that opens along a
-    /// branch from rest at radius one, and what it gives back without a lag.
+    /// branch from rest at radius one, and the work that it gives back without a lag.
     pub(crate) fn from_rest(branch: Branch, lag: f64) -> Option<[f64; 4]> {
         let mut march = Self::damped(lag, ERROR_WITH_DASHPOT);
         march.law.branch = branch;

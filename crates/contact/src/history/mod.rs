@@ -30,21 +30,21 @@ pub struct History {
     pub displacement: Vec<f64>,
     /// Deflection of the half-space that enters the contact law.
     pub deflection: Vec<f64>,
-    /// What the trapezoidal rule misses of the impulse at the touch.
+    /// Error of the trapezoidal rule in the impulse at the touch.
     pub(crate) start: f64,
-    /// Velocity where the scheme computes it itself; empty otherwise.
+    /// Velocity, if the scheme computes it; empty otherwise.
     pub(crate) velocity: Vec<f64>,
     /// Compliance of the newest sample: d - w + compliance * p is smooth through the end of contact.
     pub(crate) compliance: f64,
-    /// The surface's part of it.
+    /// Elastic part of it, that of the surface.
     pub(crate) elastic: f64,
-    /// End of the first contact where the march finds it itself.
+    /// End of the first contact, if the march computes it.
     pub(crate) separation: Option<Separation>,
-    /// Work left in the half-space where the march finds it itself.
+    /// Work on the half-space, if the march computes it.
     pub(crate) dissipated: Option<f64>,
     /// The contact itself where it was solved by pieces; there are no samples then.
     pub pieces: Option<Arc<SolvedContact>>,
-    /// Estimated error of the force at any instant, over the largest; infinite where nobody has estimated it.
+    /// Estimated error of the force at any instant, over the largest force; infinite if there is no estimate.
     pub error: f64,
 }
 
@@ -56,7 +56,7 @@ impl History {
         history
     }
 
-    /// Forgets everything but the room that it takes.
+    /// Removes all samples, and keeps their memory.
     pub(crate) fn restart(&mut self, step: f64) {
         let begun = |samples: &mut Vec<f64>| {
             samples.clear();
@@ -73,7 +73,7 @@ impl History {
         };
     }
 
-    /// A contact that was solved by pieces: no samples, which [`Resampler`](crate::Resampler) reads of it at any time.
+    /// Of a contact that was solved by pieces: it has no samples, [`Resampler`](crate::Resampler) reads the pieces.
     pub fn of_pieces(solved: &SolvedContact) -> Self {
         Self {
             error: solved.estimates.force,

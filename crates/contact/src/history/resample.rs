@@ -12,11 +12,11 @@ use std::sync::OnceLock;
 /// 3/2 there; force, rate and second rate are those of one function.
 #[derive(Debug, Clone, Default)]
 pub struct Resampler {
-    /// What is read.
+    /// The history that is read.
     pub history: History,
     /// Indentation with its slope and curvature over a step, at each sample.
     indentation: Vec<[f64; 3]>,
-    /// At each sample, once the striker's motion is asked for.
+    /// Velocity at each sample, computed with the first state.
     velocity: OnceLock<Vec<f64>>,
     /// Where each contact begins and ends, in collision units, ascending.
     pub breaks: Vec<f64>,

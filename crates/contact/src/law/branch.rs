@@ -66,7 +66,7 @@ impl Law {
         }
     }
 
-    /// What the dashpot adds to the force over the velocity.
+    /// Force of the dashpot over the velocity.
     pub(crate) fn damping(&self, here: &AtRadius) -> f64 {
         self.lag.unwrap_or(0.0) * here.stiffness * here.stiffness
     }
@@ -96,13 +96,13 @@ pub(crate) struct AtRadius {
     pub(crate) depth_slope: f64,
     /// Slope in the radius of the indentation s of the punches.
     pub(crate) punch_slope: f64,
-    /// Slopes of the two slopes; not of a truncated branch, where the radius is what is known.
+    /// Slopes of the two slopes; not of a truncated branch, where the radius is the known variable.
     pub(crate) bends: [f64; 2],
     /// Force.
     pub(crate) force: f64,
     /// Slope of the force in the indentation.
     pub(crate) stiffness: f64,
-    /// Slope in the radius of what slows the striker, (5/4) p.
+    /// Slope in the radius of the deceleration of the striker, (5/4) p.
     pub(crate) braking: f64,
 }
 

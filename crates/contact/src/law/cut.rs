@@ -60,7 +60,7 @@ impl Cut {
         }
     }
 
-    /// Work of the loading less what is left; Thornton's u* at the top.
+    /// Indentation of the loading less the stroke of the rest; Thornton's u* at the top.
     pub(crate) fn depth(&self) -> f64 {
         let (y2, square) = (self.edge * self.edge, self.top * self.top);
         // stroke of a radius squared from full unloading

@@ -128,7 +128,7 @@ impl Yielding {
     }
 }
 
-/// What has flowed, in collision units; works over the kinetic energy before.
+/// Plastic flow of a contact in collision units; works over the kinetic energy before.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Flow {
     /// Work of the plastic flow.
@@ -144,7 +144,7 @@ pub struct Flow {
     pub peak_indentation: f64,
     /// Indentation that stays.
     pub residual_indentation: f64,
-    /// R_p/R: what contact's relative curvature has become.
+    /// R_p/R: radius of relative curvature after the contact over that before.
     pub flatter: f64,
 }
 

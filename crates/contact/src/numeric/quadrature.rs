@@ -2,7 +2,7 @@
 
 /// Node and weight pairs of the 4-point rule on [0, 1]; exact to degree 7.
 ///
-/// Constants, not `halfspace::gauss`, whose rules are made when they are asked for: sums over them are inlined.
+/// Constants, not `halfspace::gauss`, whose rules are made at run time: sums over them are inlined.
 pub(crate) const GAUSS_4: [(f64, f64); 4] = [
     (0.069_431_844_202_973_71, 0.173_927_422_568_726_93),
     (0.330_009_478_207_571_87, 0.326_072_577_431_273_07),

@@ -9,7 +9,7 @@
 //! With l = (5/2) c int p'^2, the first-order loss,
 //!
 //! ```text
-//! quasi-static    peak force, contact time, restitution, displacement   l/2 + what radiation leaves out
+//! quasi-static    peak force, contact time, restitution, displacement   l/2 + error of radiation
 //!                 loss                                                  all of it
 //! radiation       the same four        0.4 l^2 + (0.12 + 0.07 sigma) l sqrt(T)       fixed disc
 //!                                      0.4 l^2 + 0.3 l T + 0.06 l sqrt(T)            growing contact
@@ -51,9 +51,9 @@ pub struct Regime {
     pub memory: f64,
 }
 
-/// What the dashpot of a yielding contact leaves out over c^2, of its loss over c.
+/// Truncation error of the dashpot of a yielding contact over c^2, and that of its loss over c.
 ///
-/// The first bounds what was found on 80 random pairs of metals at 1.05 to 300 times the velocity of yield, 8.7 at most and
+/// The first bounds the errors of 80 random pairs of metals at 1.05 to 300 times the velocity of yield, 8.7 at most and
 /// 1.4 in the median; `tests/plastic.rs` repeats it.
 const YIELDING: [f64; 2] = [10.0, 1.0];
 
@@ -72,7 +72,7 @@ impl Regime {
         }
     }
 
-    /// What the first order of radiation leaves out: the largest relative error of peak force, contact time, restitution and
+    /// Truncation error of the first order of radiation: the largest relative error of peak force, contact time, restitution and
     /// displacement, and that of the loss 1 - e^2.
     pub(crate) fn beyond_radiation(&self) -> [f64; 2] {
         let (l, t) = (self.first_order_loss(), self.memory);
@@ -93,7 +93,7 @@ impl Regime {
         }
     }
 
-    /// The best model without the full memory, and what it leaves out.
+    /// The best model without the full memory, and its truncation error.
     pub(crate) fn without_memory(&self) -> (Memory, [f64; 2]) {
         match self.physics {
             // the turning point is a corner: of first order in the memory
@@ -112,7 +112,7 @@ impl Regime {
         }
     }
 
-    /// The least memory that meets the accuracy asked for, and its estimated relative error; zero for the full memory, whose
+    /// The least memory that meets the tolerances, and its estimated relative error; zero for the full memory, whose
     /// error is its step's.
     pub fn choose(&self, accuracy: &Accuracy) -> (Memory, f64) {
         let [first_order, _] = self.beyond_radiation();
@@ -140,7 +140,7 @@ pub struct Chosen {
     pub(crate) by_auto: Option<(Memory, f64)>,
 }
 
-/// The model that is asked for or that `auto` chooses.
+/// The model of the scene, or the choice of `auto`.
 ///
 /// `response` is the half-space's for the deflection that the settings ask for.
 pub(crate) fn choose(
@@ -319,7 +319,7 @@ impl Chosen {
     }
 }
 
-/// What the settings ask of a contact's results.
+/// Tolerances of the settings on the results of a contact.
 pub(crate) fn accuracy(settings: &Settings) -> Accuracy {
     Accuracy::of_contact(settings.tolerance, settings.loss_tolerance)
 }

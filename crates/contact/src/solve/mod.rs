@@ -51,7 +51,7 @@ pub struct Solved {
     /// on a disc the work on the mean deflection, in a growing contact that on its punches. Within 1e-3 of itself at a
     /// tolerance of 1e-4, 2e-5 at 1e-6. A closed form has its loss, a series of outcomes that of its marches.
     pub radiated: f64,
-    /// What has flowed; none of a contact that has not yielded.
+    /// Plastic flow; none if the contact has not yielded.
     pub flow: Option<Flow>,
 }
 
@@ -73,7 +73,7 @@ impl Chosen {
         self.solved(None, found, found.summary.loss)
     }
 
-    /// With what has flowed.
+    /// With its plastic flow.
     fn yielded(
         self,
         scheme: Option<Scheme>,
@@ -130,7 +130,7 @@ impl<'a, S: Responses> Solver<'a, S> {
         }
     }
 
-    /// With a cache of responses, and series in place of marches where results alone are asked for.
+    /// With a cache of responses, and series in place of marches where no history is needed.
     pub fn sharing(responses: &'a S, outcomes: &'a Outcomes) -> Self {
         Self {
             outcomes: Some(outcomes),
@@ -178,7 +178,7 @@ impl<'a, S: Responses> Solver<'a, S> {
         Ok((followed.0, history))
     }
 
-    /// A contact with what it needs of its half-space, and the room for its march.
+    /// A contact with its prepared half-space, and the room for its march.
     fn task<'t>(
         &'t mut self,
         collision: &'t Collision,

@@ -14,8 +14,8 @@
 //! Cells with a second contact or a refusal at one of their marches have none, nor have those in which the outcome is not
 //! smooth, with a new largest peak or a memory as long as the contact: contacts there are marched.
 //!
-//! Which cells have a series is known before the first row, from a sample of all rows; what they hold depends on the cell
-//! alone.
+//! The cells that have a series are known before the first row, from a sample of all rows; their content depends on the
+//! cell alone.
 //! So the numbers of a row depend neither on the order of rows nor on shards, threads and interruptions.
 
 use crate::accuracy::Accuracy;
@@ -61,7 +61,7 @@ pub(crate) struct CellPlace {
     inside: [f64; 2],
 }
 
-/// The series that the contacts of a sweep share, each with its certificate, made when it is first asked for.
+/// The series that the contacts of a sweep share, each with its certificate, made at its first use.
 #[derive(Debug, Default)]
 pub struct Outcomes {
     cells: BTreeMap<Cell, OnceLock<Option<(PlaneSeries<8>, f64)>>>,
@@ -86,7 +86,7 @@ const STEPS_OF_SEQUENCE: [f64; 2] = [0.754_877_666, 0.569_840_291];
 /// fails at 1, for the series of the fit.
 const CAUTION_OF_CERTIFICATE: f64 = 3.0;
 
-/// Allowed error, over the tolerance, of the results on which none is asked: loss, deflection, radiated energy. A choice, not a
+/// Allowed error, over the tolerance, of the results without a tolerance: loss, deflection, radiated energy. A choice, not a
 /// measurement: they are relative to small numbers.
 const ALLOWED_UNASKED: f64 = 10.0;
 
@@ -194,7 +194,7 @@ impl Outcomes {
         }
     }
 
-    /// The outcome at a place, what it radiates over its kinetic energy, and its error; nothing where it has to be marched.
+    /// The outcome at a place, its radiated over its kinetic energy, and its error; none if it has to be marched.
     pub(crate) fn at(
         &self,
         place: &CellPlace,
@@ -317,7 +317,7 @@ impl Cell {
     }
 }
 
-/// What a series has of an outcome: without the power of the groups that it has to first order.
+/// Results of an outcome as a series holds them: without the power of the groups that they have to first order.
 fn lanes(summary: &Summary, radiated: f64, [time, coupling]: [f64; 2]) -> [f64; 8] {
     let first = time * coupling;
     [

@@ -1,4 +1,4 @@
-//! The half-space of the latest contact: what contacts with the same Poisson's ratio share.
+//! The half-space of the latest contact, which contacts with the same Poisson's ratio share.
 
 use crate::waves::cache::Responses;
 use crate::waves::punch::PunchWaves;

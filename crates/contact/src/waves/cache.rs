@@ -24,7 +24,7 @@ pub trait Responses {
     fn waves(&self, ratio: f64) -> Result<Arc<PunchWaves>, DomainError>;
 }
 
-/// Exact responses, made when they are asked for: what a single impact takes.
+/// Exact responses, computed at each call, for single impacts.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Exact;
 
@@ -43,7 +43,7 @@ impl Responses for Exact {
     }
 }
 
-/// Tabulated responses, made once and shared by all threads: what a sweep takes.
+/// Tabulated responses, computed once and shared by all threads, for sweeps.
 ///
 /// By default each Poisson's ratio has its own.
 #[derive(Debug, Default)]
@@ -81,7 +81,7 @@ impl Tabulated {
         (self.lattice && inside).then(|| (at(below), at(below + 1.0), place - below))
     }
 
-    /// What belongs to a ratio: made for it once, or between the two of the lattice.
+    /// The response of a ratio: computed once for it, or interpolated between two ratios of the lattice.
     fn at<V>(
         &self,
         cache: &RwLock<HashMap<u64, Arc<V>>>,

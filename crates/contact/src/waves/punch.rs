@@ -10,7 +10,7 @@
 //! ```
 //!
 //! a positive measure of total mass one: each slowness brings the load on one rim to the other after X.
-//! What the contact needs are integrals over this measure of functions that are analytic in X,
+//! The contact needs integrals over this measure of functions that are analytic in X,
 //! so that Gauss's rule of the whole measure, Rayleigh's wave included, converges exponentially.
 
 use crate::numeric::gauss::gauss_rule;
@@ -107,7 +107,7 @@ impl PunchWaves {
         [mass - x * rate, integral]
     }
 
-    /// The rule of a level, delays and rates; made when it is first asked for.
+    /// The rule of a level, delays and rates; computed at the first call.
     pub(crate) fn rule(&self, level: usize) -> &[(f64, f64)] {
         let level = level.min(LEVELS - 1);
         self.rules[level].get_or_init(|| match &self.neighbours {

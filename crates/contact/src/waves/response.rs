@@ -1,5 +1,4 @@
-//! What the marches and the laws need of a disc's response, the exact response as they need it, and as a table of its time
-//! integrals.
+//! Response of a disc as the marches and the laws use it: exact, and as a table of its time integrals.
 //!
 //! One table serves every impact on half-spaces of the same Poisson's ratio, whatever the units.
 
@@ -23,10 +22,10 @@ pub trait DiscResponse {
 
     /// int t^k (1 - W) dt for k = 0 .. 3, and int W dt as a function of its upper limit.
     ///
-    /// Where the memory is resolved by the samples only the memory itself may be asked of what is returned.
+    /// If the samples resolve the memory, only the memory itself of the result may be used.
     fn relaxation(&self, resolved: bool) -> ([f64; 4], impl Fn(f64) -> f64 + '_);
 
-    /// int W and int W (x - middle) over adjoining cells of a width, asked for from 0 on.
+    /// int W and int W (x - middle) over adjoining cells of a width, in ascending order from 0.
     fn cells(&self, width: f64) -> impl FnMut(f64, f64) -> (f64, f64) + '_;
 }
 
