@@ -5,15 +5,15 @@
 use crate::bodies::strength::{Loading, Strength};
 use crate::bodies::{HalfSpace, Striker};
 use crate::disc::FixedDisc;
-use crate::disc::response::DiscResponse;
 use crate::error::ContactError;
-use crate::growing::waves::{GrowingContact, PunchWaves};
+use crate::law::fit::{FITTED, Fit};
 use crate::law::hertz::CONTACT_TIME;
-use crate::model::{Plasticity, Settings, StaticShare};
+use crate::law::yielding::{FlowLaw, Yielding};
 use crate::names::Choice;
-use crate::plastic::branch::{FITTED, Fit};
-use crate::plastic::{FlowLaw, Yielding};
+use crate::settings::{Plasticity, Settings, StaticShare};
 use crate::units::{CollisionUnits, KernelUnits};
+use crate::waves::punch::{GrowingContact, PunchWaves};
+use crate::waves::response::DiscResponse;
 use halfspace::Medium;
 use std::f64::consts::PI;
 
@@ -24,7 +24,7 @@ pub const CONSTRAINT: f64 = 2.8;
 const PHYSICAL: [f64; 2] = [1e-30, 1e30];
 
 /// Steps of a march over Hertz's contact at most and at least, from where it cannot be one.
-const STEPS: [f64; 2] = [1e-3, 1e9];
+const STEPS_OF_MARCH: [f64; 2] = [1e-3, 1e9];
 
 /// A striker with a spherical tip that meets an elastic half-space, in SI units.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -45,7 +45,7 @@ pub struct Collision {
     pub target_longitudinal_speed_m_s: f64,
     /// Poisson's ratio of the half-space.
     pub target_poisson_ratio: f64,
-    /// What the striker and the half-space bear.
+    /// Strengths of the striker and the half-space.
     pub strengths: [Strength; 2],
 }
 
@@ -117,7 +117,7 @@ impl Collision {
         };
         self.check()?;
         let hertz_s = CONTACT_TIME * self.units().time_s;
-        if (STEPS[0]..=STEPS[1]).contains(&(hertz_s / step_s)) {
+        if (STEPS_OF_MARCH[0]..=STEPS_OF_MARCH[1]).contains(&(hertz_s / step_s)) {
             return Ok(());
         }
         Err(ContactError::Step { step_s, hertz_s })
@@ -200,7 +200,7 @@ impl Collision {
         (0.75 * force_n * self.tip_radius_m / self.effective_modulus_pa).cbrt()
     }
 
-    /// How near a largest force in N on a disc of a radius in m comes to what the bodies bear.
+    /// Loading of the bodies by a largest force in N on a disc of a radius in m, over their strengths.
     pub(crate) fn loading(&self, force_n: f64, disc_radius_m: f64) -> Loading {
         let pressure = force_n / (PI * disc_radius_m * disc_radius_m);
         let contact = [self.tip_radius_m, self.effective_modulus_pa];

@@ -1,4 +1,4 @@
-//! Why a contact could not be computed.
+//! Errors of contacts and marches.
 
 use halfspace::DomainError;
 use thiserror::Error;
@@ -92,9 +92,9 @@ pub enum ContactError {
         "the {quantity} comes out as {value:e}: the numbers of the scene are beyond what floating-point arithmetic holds; check their units"
     )]
     NotFinite {
-        /// Which number.
+        /// Name of the number.
         quantity: &'static str,
-        /// What it is.
+        /// Its value.
         value: f64,
     },
     /// A step that no march can have.
@@ -115,7 +115,7 @@ pub enum ContactError {
     Unreliable {
         /// The estimate.
         error: f64,
-        /// What to change.
+        /// Change that helps.
         change: &'static str,
     },
 }
@@ -161,7 +161,7 @@ pub enum MarchError {
         "relative tolerance {tolerance:e} is not reached: the last halving of the step still changed the result by {change:e}"
     )]
     NotConverged {
-        /// The tolerance asked for.
+        /// Required tolerance.
         tolerance: f64,
         /// The estimate reached.
         change: f64,
@@ -200,9 +200,9 @@ pub enum MarchError {
         "relative tolerance {tolerance:e} is not reached: the error is estimated as {estimate:e}"
     )]
     NotReached {
-        /// What was asked for.
+        /// Required tolerance.
         tolerance: f64,
-        /// What was reached.
+        /// Estimated error.
         estimate: f64,
     },
     /// The surface comes back and strikes the striker once more.

@@ -20,28 +20,66 @@
 #![cfg_attr(doctest, doc = include_str!("../README.md"))]
 #![warn(missing_docs)]
 
+// From the bottom up: a module uses only those above it in this list.
+
+// Values of a choice with their names in files.
+mod names;
+
+// Collision units and kernel units.
+mod units;
+
+// Materials, striker, half-space, what they bear.
+mod bodies;
+
+// Quadrature, linear systems, series, roots.
+mod numeric;
+
+// Why a contact has no results.
+mod error;
+
+// What can be chosen about a contact.
+mod settings;
+
+// Results in collision units.
+mod summary;
+
+// What results have to meet, and results with their error.
+mod accuracy;
+
+// How a loaded surface answers.
+mod waves;
+
+// Contact laws in closed form, laws of flow.
 pub mod law;
 
-mod bodies;
-mod collision;
-mod disc;
-mod energy;
-mod error;
+// Contacts whose radius follows the load.
 mod growing;
-mod model;
-mod names;
-mod numbers;
-mod numeric;
-mod outcome;
-mod plastic;
-mod resample;
-mod responses;
+
+// Samples or pieces of a contact, read at any time.
+mod history;
+
+// Contacts on a disc of fixed radius.
+mod disc;
+
+// Two bodies and a velocity: their dimensionless groups.
+mod collision;
+
+// Model chosen, scheme run.
+mod solve;
+
+// Results in SI units.
 mod results;
-mod solver;
-mod summary;
-mod units;
+
+// Warnings.
 mod validity;
 
+// Yield pressure or velocity from a rebound.
+mod infer;
+
+// Revision of the numbers.
+mod numbers;
+
+pub use accuracy::{Accuracy, Found};
 pub use bodies::library::{Library, UnknownMaterial};
 pub use bodies::material::{BodyError, Material, from_wave_speeds};
 pub use bodies::shape::Shape;
@@ -50,30 +88,29 @@ pub use bodies::wave_speeds::WaveSpeeds;
 pub use bodies::{GRAVITY_M_S2, HalfSpace, Striker, fall_velocity_m_s};
 pub use collision::{CONSTRAINT, Collision};
 pub use disc::explicit::march_explicit;
-pub use disc::history::History;
 pub use disc::implicit::march_implicit;
-pub use disc::refine::{Accuracy, Found, refine, solve_disc};
-pub use disc::response::{DiscResponse, ResponseTable};
+pub use disc::refine::{refine, solve_disc};
 pub use disc::weights::Weights;
 pub use disc::{CENTRE_COUPLING, FixedDisc};
-pub use energy::work_until_j;
 pub use error::{ContactError, MarchError};
 pub use growing::solve_growing;
 pub use growing::solved::SolvedContact;
-pub use growing::uniform::march_growing;
-pub use growing::waves::{GrowingContact, PunchWaves};
 pub use growing::work::work_on_half_space;
-pub use model::choose::{Family, Groups, Plan, fixed_disc_m};
-pub use model::{Conflict, Model, Plasticity, Rung, Scheme, Settings, StaticShare};
+pub use history::History;
+pub use history::resample::Resampler;
+pub use infer::{InferError, Inferred, Measure, Unknown, infer};
+pub use law::yielding::{Flow, Yielding};
 pub use names::{Choice, nearest};
 pub use numbers::NUMBERS_REVISION;
-pub use outcome::Outcomes;
-pub use plastic::infer::{InferError, Inferred, Measure, Unknown, infer};
-pub use plastic::{Flow, Yielding};
-pub use resample::Resampler;
-pub use responses::{Exact, Responses, Tabulated};
+pub use numeric::work::work_until_j;
 pub use results::{MOST_ERROR, Plastic, Results};
-pub use solver::{Solved, Solver};
+pub use settings::{Conflict, Memory, Model, Physics, Plasticity, Scheme, Settings, StaticShare};
+pub use solve::choose::{Chosen, Regime, fixed_disc_m};
+pub use solve::outcome::Outcomes;
+pub use solve::{Solved, Solver};
 pub use summary::{Estimates, Instant, Summary};
 pub use units::{CollisionUnits, KernelUnits};
 pub use validity::{doubts, super_seismic, warnings};
+pub use waves::cache::{Exact, Responses, Tabulated};
+pub use waves::punch::{GrowingContact, PunchWaves};
+pub use waves::response::{DiscResponse, ResponseTable};

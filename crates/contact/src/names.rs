@@ -1,4 +1,4 @@
-//! Names in scenes and reports: those of the values of a choice, and what a misspelt one most likely means.
+//! Names in scenes and reports: those of the values of a choice, and the likely meaning of a misspelt one.
 
 /// A choice with a fixed list of values, each with the name that it has in files and reports.
 pub trait Choice: Copy + PartialEq + 'static {
@@ -42,7 +42,7 @@ pub(crate) use choice;
 /// Letters of a word that may be a misspelt name, at most.
 const MOST_LETTERS: usize = 64;
 
-/// Other words for names, in small letters: symbols of the field, and what other programs call the same.
+/// Other words for names, in small letters: symbols of the field, and names in other programs.
 const SYNONYMS: [(&str, &str); 18] = [
     ("e", "youngs_modulus_pa"),
     ("young", "youngs_modulus_pa"),

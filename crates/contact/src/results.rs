@@ -3,10 +3,10 @@
 use crate::bodies::strength::Loading;
 use crate::collision::Collision;
 use crate::error::ContactError;
-use crate::model::Settings;
-use crate::model::choose::fixed_disc_m;
-use crate::plastic::Flow;
-use crate::solver::Solved;
+use crate::law::yielding::Flow;
+use crate::settings::Settings;
+use crate::solve::Solved;
+use crate::solve::choose::fixed_disc_m;
 use crate::units::INVERSE_MASS;
 
 /// Estimated relative error from which on results say nothing.
@@ -44,9 +44,9 @@ pub struct Results {
     pub contact_radius_m: f64,
     /// Radius of the disc that loads the half-space in m: that of the settings, or the largest contact radius.
     pub disc_radius_m: f64,
-    /// How near the contact comes to what the bodies bear.
+    /// Loading of the bodies over their strengths.
     pub loading: Loading,
-    /// What flows.
+    /// Plastic flow.
     pub plastic: Plastic,
     /// Number of contacts.
     pub contacts: usize,
@@ -58,7 +58,7 @@ pub struct Results {
     pub relative_error_estimate: f64,
 }
 
-/// What flows in a contact, in SI units; all none where no law of flow is asked for.
+/// Plastic flow of a contact in SI units; all none without a law of flow.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Plastic {
@@ -114,7 +114,7 @@ impl Results {
             [flow.contact_radius, flow.disc_radius, flow.contact_radius].map(|one| one * length_m)
         } else {
             let radius_m = collision.contact_radius_m(peak_force_n);
-            let disc_m = fixed_disc_m(solved.plan.model, settings, collision).unwrap_or(radius_m);
+            let disc_m = fixed_disc_m(solved.chosen.model, settings, collision).unwrap_or(radius_m);
             [radius_m, disc_m, disc_m]
         };
         // by two routes that share nothing but the force: what the striker keeps follows from its momentum, what the

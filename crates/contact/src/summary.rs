@@ -22,7 +22,7 @@ pub struct Summary {
     pub peak_displacement: f64,
     /// Largest deflection that enters the contact law.
     pub peak_deflection: f64,
-    /// int p dt over all contacts, from the force alone: what the momentum of the striker changes by, whatever route
+    /// int p dt over all contacts, from the force alone: the change of the striker's momentum, whichever route
     /// gave the restitution. Closed forms have no other than that of their restitution.
     pub impulse: f64,
     /// Number of contacts: 1 unless the surface strikes again.
@@ -46,14 +46,14 @@ pub struct Estimates {
     pub loss: f64,
     /// Of the largest displacement.
     pub peak_displacement: f64,
-    /// Of the largest deflection; infinite where nobody has estimated it.
+    /// Of the largest deflection; infinite if there is no estimate.
     pub peak_deflection: f64,
     /// Of the force at any time, over the largest.
     pub force: f64,
 }
 
 impl Estimates {
-    /// The largest of what a tolerance is asked on: peak force, contact time, restitution, displacement.
+    /// The largest of those with a tolerance: peak force, contact time, restitution, displacement.
     pub fn contact(&self) -> f64 {
         self.peak_force
             .max(self.contact_time)
@@ -87,7 +87,7 @@ impl Summary {
         }
     }
 
-    /// The largest difference of what a tolerance is asked on, relative (restitution: of the velocity
+    /// The largest difference of the results with a tolerance, relative (restitution: of the velocity
     /// of approach): peak force, contact time, restitution, largest displacement.
     pub fn distance(&self, other: &Self) -> f64 {
         self.motion_distance(other)

@@ -5,7 +5,7 @@
 //!
 //! Theory: `docs/theory.md` (T37).
 
-/// Units of a collision: what Hertz's closed form reaches.
+/// Units of a collision: the largest approach and force of Hertz's closed form.
 ///
 /// ```text
 /// length  alpha = (5 m V0^2/(4 K))^(2/5)      largest approach (45)

@@ -1,4 +1,4 @@
-//! Where the model leaves what it was made for: warnings with their numbers.
+//! Warnings, with their numbers, where a scene leaves the range of its model.
 //!
 //! Theory: `docs/theory.md` (T57).
 
@@ -7,10 +7,10 @@ use crate::bodies::shape::Shape;
 use crate::bodies::{HalfSpace, Striker};
 use crate::collision::Collision;
 use crate::disc::CENTRE_COUPLING;
-use crate::model::choose::{Plan, fixed_disc_m};
-use crate::model::{Model, Settings, StaticShare};
 use crate::names::Choice;
 use crate::results::Results;
+use crate::settings::{Model, Settings, StaticShare};
+use crate::solve::choose::{Chosen, fixed_disc_m};
 use halfspace::Deflection;
 use std::f64::consts::PI;
 
@@ -23,7 +23,7 @@ pub fn super_seismic(half_space: &HalfSpace, collision: &Collision, radius_m: f6
 /// Mass over that of a ball of the tip's radius below which the two hint at a slip in a unit.
 const LIGHT: f64 = 1e-3;
 
-/// What bodies have: field, least and most, unit, and a unit that is often taken for it with its size.
+/// Usual ranges of the numbers of bodies: field, least and most, unit, and a unit that is often taken for it with its size.
 const USUAL: [(&str, [f64; 2], &str, &str, f64); 8] = [
     ("youngs_modulus_pa", [1e3, 2e12], "Pa", "GPa", 1e9),
     ("density_kg_m3", [10.0, 3e4], "kg/m3", "g/cm3", 1e3),
@@ -35,7 +35,7 @@ const USUAL: [(&str, [f64; 2], &str, &str, f64); 8] = [
     ("mass_kg", [1e-20, 1e5], "kg", "g", 1e-3),
 ];
 
-/// What hints at slips in the numbers of two bodies, by field.
+/// Doubts about the numbers of two bodies, by field.
 pub fn doubts(half_space: &HalfSpace, striker: &Striker) -> Vec<String> {
     let target = half_space.material();
     let of_material = |body, material: &Material| {
@@ -75,7 +75,7 @@ pub fn doubts(half_space: &HalfSpace, striker: &Striker) -> Vec<String> {
     unusual.chain(doubt(striker)).collect()
 }
 
-/// What hints at a slip: a mass that no body with such a tip has, or that of a ball of half the radius.
+/// A doubt about the mass: one that no body with such a tip has, or that of a ball of half the radius.
 fn doubt(striker: &Striker) -> Option<String> {
     let (mass_kg, radius_m) = (striker.mass_kg, striker.tip_radius_m);
     let ball_kg = 4.0 / 3.0 * PI * radius_m.powi(3) * striker.material.density_kg_m3?;
@@ -94,18 +94,18 @@ fn doubt(striker: &Striker) -> Option<String> {
     })
 }
 
-/// What the user should know of the bodies, the settings, the plan and what it gave: sentences with their numbers, none where
+/// Warnings about the bodies, the settings, the model and its results: sentences with their numbers, none where
 /// all is well.
 pub fn warnings(
     half_space: &HalfSpace,
     striker: &Striker,
     collision: &Collision,
     settings: &Settings,
-    plan: &Plan,
+    chosen: &Chosen,
     results: &Results,
 ) -> Vec<String> {
     let mut found = Vec::new();
-    let disc_radius_m = fixed_disc_m(plan.model, settings, collision);
+    let disc_radius_m = fixed_disc_m(chosen.model, settings, collision);
     let hertz_radius = results.contact_radius_m;
     let radius = disc_radius_m.unwrap_or(hertz_radius);
     let alpha = super_seismic(half_space, collision, radius);
@@ -156,7 +156,7 @@ pub fn warnings(
         ));
     }
     found.extend(doubts(half_space, striker));
-    of_the_model(settings, plan, results, &mut found);
+    of_the_model(settings, chosen, results, &mut found);
     found
 }
 
@@ -218,10 +218,10 @@ fn of_the_flow(
     }
 }
 
-fn of_the_model(settings: &Settings, plan: &Plan, results: &Results, found: &mut Vec<String>) {
-    let chosen = (plan.model, settings.static_share, settings.deflection);
-    let of_centre = chosen == (Model::Wave, StaticShare::Full, Deflection::Centre);
-    let centre = plan.groups.coupling;
+fn of_the_model(settings: &Settings, chosen: &Chosen, results: &Results, found: &mut Vec<String>) {
+    let paper = (chosen.model, settings.static_share, settings.deflection);
+    let of_centre = paper == (Model::Wave, StaticShare::Full, Deflection::Centre);
+    let centre = chosen.regime.coupling;
     if of_centre && centre > CENTRE_COUPLING {
         found.push(format!(
             "the disc gives way {centre:.1} times as much as the contact, more than {CENTRE_COUPLING}: the deflection of its centre is not conjugate to the pressure and may feed energy back; set deflection = \"mean\""

@@ -4,16 +4,15 @@
 
 #[path = "support/solids.rs"]
 mod solids;
-mod support;
 
 use contact::{
     Collision, ContactError, HalfSpace, Library, MarchError, Model, Settings, Solved, Solver,
     StaticShare, Striker, Tabulated,
 };
+use halfspace::random::Stream;
 use rayon::prelude::*;
 use solids::material;
 use std::collections::BTreeMap;
-use support::Draws;
 
 const SCENES: u64 = 1000;
 
@@ -44,7 +43,7 @@ impl Family {
 
 /// A collision and what is asked of it.
 fn random_scene(family: Family, index: u64) -> (Collision, Settings) {
-    let mut draws = Draws(index * 1000 + family.offset());
+    let mut draws = Stream::new(index * 1000 + family.offset());
     let (tip, density) = (draws.log(1e-4, 0.1), draws.log(1000.0, 10_000.0));
     // around the mass of a ball of that radius
     let mass = 4.19 * tip.powi(3) * draws.log(1000.0, 20_000.0) * draws.log(0.3, 10.0);
@@ -105,7 +104,7 @@ fn compare(family: Family, index: u64, responses: &Tabulated) -> Option<(Model, 
     let loss = settings
         .loss_tolerance
         .map_or(0.0, |asked| a.loss_distance(b) / asked);
-    Some((found.plan.model, a.distance(b) / settings.tolerance, loss))
+    Some((found.chosen.model, a.distance(b) / settings.tolerance, loss))
 }
 
 fn check(family: Family) {
@@ -147,7 +146,7 @@ fn real_scene(index: u64) -> Collision {
         let place = (draw * with_density().count() as f64) as usize;
         with_density().nth(place).unwrap().clone()
     };
-    let mut draws = Draws(index * 7919 + 61);
+    let mut draws = Stream::new(index * 7919 + 61);
     let (block, ball) = (solid(draws.next()), solid(draws.next()));
     let shear_speed = (block.shear_modulus_pa() / block.density_kg_m3.unwrap()).sqrt();
     let velocity = shear_speed * draws.log(1e-4, 5e-2);
@@ -178,7 +177,7 @@ fn most_real_impacts_need_no_memory() {
                 let found = collide(&collision, &settings, &responses).unwrap();
                 let exact = collide(&collision, &exactly, &responses).unwrap();
                 let (a, b) = (&found.summary, &exact.summary);
-                (found.plan.model, a.distance(b), a.loss_distance(b))
+                (found.chosen.model, a.distance(b), a.loss_distance(b))
             })
             .collect();
         let count =

@@ -3,11 +3,11 @@
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 
 use contact::{
-    Collision, ContactError, Exact, GrowingContact, HalfSpace, MarchError, Material, Measure,
-    Model, Plasticity, PunchWaves, Results, Settings, Solver, Striker, Unknown, infer,
-    march_growing, warnings,
+    Collision, ContactError, Exact, FixedDisc, HalfSpace, MarchError, Material, Measure, Model,
+    Plasticity, Results, Settings, Solver, StaticShare, Striker, Unknown, infer, march_implicit,
+    warnings,
 };
-use halfspace::Medium;
+use halfspace::{Deflection, Medium, SurfaceResponse};
 use std::time::{Duration, Instant};
 
 /// A hard ball of 5 mm on a block without waves of a yield strength over its effective modulus of 1e11 Pa, at 1 m/s.
@@ -45,7 +45,14 @@ fn the_fit_is_warned_of_where_it_leaves_its_authors_restitution() {
             let collision = Collision::new(&block, &ball, velocity);
             let solved = Solver::new(&Exact).solve(&collision, &settings).unwrap();
             let results = Results::new(&collision, &settings, &solved);
-            let told = warnings(&block, &ball, &collision, &settings, &solved.plan, &results);
+            let told = warnings(
+                &block,
+                &ball,
+                &collision,
+                &settings,
+                &solved.chosen,
+                &results,
+            );
             let warned = told.iter().any(|one| one.contains("is trusted"));
             let off = results.restitution / of_the_authors(v, strain) - 1.0;
             (off, results.plastic.velocity_over_trusted.unwrap(), warned)
@@ -159,18 +166,19 @@ fn an_elastic_rebound_has_a_least_pressure_and_no_largest() {
 
 #[test]
 fn a_step_too_fine_is_refused_before_the_march() {
-    let waves = PunchWaves::new(&Medium::new(0.33).unwrap());
-    let contact = GrowingContact {
-        waves: &waves,
-        target_share: 0.4,
+    let response = SurfaceResponse::new(&Medium::new(0.33).unwrap(), Deflection::Centre);
+    let disc = FixedDisc {
+        response: &response,
+        coupling: 0.4,
         wave_time: 5e-3,
+        share: StaticShare::Full,
     };
     let begun = Instant::now();
-    let found = march_growing(&contact, 1.6e-5);
+    let found = march_implicit(&disc, 3e-6);
     assert!(
         matches!(found, Err(MarchError::TooLong { .. })),
         "{found:?}"
     );
     assert!(begun.elapsed() < Duration::from_secs(1));
-    assert!(march_growing(&contact, 2e-3).is_ok());
+    assert!(march_implicit(&disc, 2e-3).is_ok());
 }

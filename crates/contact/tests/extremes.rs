@@ -3,8 +3,8 @@
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 
 use contact::{
-    Choice, Collision, ContactError, Exact, HalfSpace, Material, Model, Results, Settings, Solver,
-    Striker,
+    Choice, Collision, ContactError, Exact, HalfSpace, Material, Model, Resampler, Results,
+    Settings, Solver, Striker,
 };
 
 fn ball_on_block() -> Collision {
@@ -145,4 +145,30 @@ fn numbers_that_no_body_has_are_refused_and_others_stay_numbers() {
         }
     }
     assert!(refused > 100, "{refused}");
+}
+
+/// The deflection is lost in the rounding of the indentation there, and no reason to refuse the force.
+#[test]
+fn very_slow_contacts_have_a_history() {
+    for &model in Model::ALL {
+        for velocity_m_s in [1e-6, 1e-10] {
+            let slow = Collision {
+                velocity_m_s,
+                ..ball_on_block()
+            };
+            let settings = Settings {
+                model,
+                ..Settings::default()
+            };
+            let solved = Solver::new(&Exact).solve_with_history(&slow, &settings);
+            let (solved, history) = solved.unwrap_or_else(|error| panic!("{model:?}: {error}"));
+            let middle = 0.5 * solved.summary.contact_time;
+            let [force, ..] = Resampler::new(history).force(middle);
+            let peak = solved.summary.peak_force;
+            assert!(
+                (force / peak - 1.0).abs() < 1e-3,
+                "{model:?}: {force} {peak}"
+            );
+        }
+    }
 }

@@ -4,17 +4,15 @@
 
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 
-mod support;
-
 use contact::law::area_dashpot::{AreaDashpot, left_out};
 use contact::{
     Accuracy, GrowingContact, History, MarchError, PunchWaves, Resampler, SolvedContact,
     solve_growing, work_on_half_space,
 };
 use halfspace::Medium;
+use halfspace::random::Stream;
 use rayon::prelude::*;
 use std::path::Path;
-use support::Draws;
 
 /// Poisson's ratio, phi and tau of a contact.
 #[derive(Debug, Clone, Copy)]
@@ -57,7 +55,7 @@ fn results(solved: &SolvedContact) -> [f64; 8] {
 /// A ball of a third to ten times its mass on a half-space, both of moduli of 1 MPa to 400 GPa, at 1e-4 to
 /// 5e-2 of the half-space's shear wave speed.
 fn random_scene(index: u64) -> Case {
-    let mut draws = Draws(index * 7919 + 29);
+    let mut draws = Stream::new(index * 7919 + 29);
     let (density, striker_density) = (draws.log(900.0, 1e4), draws.log(900.0, 2e4));
     let (striker, target) = (draws.log(1e6, 4e11), draws.log(1e6, 4e11));
     let (other, ratio) = (0.49 * draws.next(), 0.4995 * draws.next());
@@ -231,9 +229,10 @@ fn what_cannot_be_solved_is_said() {
     assert!(matches!(found, MarchError::Overtaken { .. }), "{found}");
 }
 
-/// Of some random scenes at a tolerance: none is refused, few estimates are exceeded.
+/// Of some random scenes at a tolerance: none is refused, and two in a hundred exceed an estimate at most, which fails where
+/// a factor of `growing/solved` is a tenth of what it is.
 fn check_scenes(count: u64, tolerance: f64) {
-    let checked: Vec<[bool; 8]> = (0..count)
+    let checked: Vec<[f64; 8]> = (0..count)
         .into_par_iter()
         .map(|index| {
             let case = random_scene(index);
@@ -243,31 +242,46 @@ fn check_scenes(count: u64, tolerance: f64) {
             let exact =
                 solve(&case, &fine).unwrap_or_else(|error| panic!("scene {index}: {error}"));
             let (a, b, e) = (results(&solved), results(&exact), solved.estimates);
-            let estimates = [
-                e.peak_force * b[0],
-                e.peak_force_time * b[2],
-                e.contact_time * b[2],
-                e.restitution,
-                e.loss * b[4],
-                e.peak_displacement * b[5],
-            ];
-            let mut kept = [true; 8];
-            for (k, estimate) in estimates.iter().enumerate() {
-                kept[k] = (a[k] - b[k]).abs() <= *estimate;
-            }
-            kept[6] = [0, 2, 3, 5]
-                .iter()
-                .all(|&k| (a[k] - b[k]).abs() <= tolerance * b[k].max(1.0));
-            kept
+            let error = |k: usize| (a[k] - b[k]).abs();
+            let end = b[2];
+            let forces = (1..200).map(|i| {
+                let time = end * f64::from(i) / 200.0;
+                (solved.force(time)[0] - exact.force(time)[0]).abs()
+            });
+            let tolerances = [0, 2, 3, 5].map(|k| error(k) / (tolerance * b[k].max(1.0)));
+            [
+                error(0) / (e.peak_force * b[0]),
+                error(1) / (e.peak_force_time * b[2]),
+                error(2) / (e.contact_time * b[2]),
+                error(3) / e.restitution,
+                error(4) / (e.loss * b[4]),
+                error(5) / (e.peak_displacement * b[5]),
+                forces.fold(0.0, f64::max) / (e.force * b[0]),
+                tolerances.into_iter().fold(0.0, f64::max),
+            ]
         })
         .collect();
-    let missed = |k: usize| checked.iter().filter(|kept| !kept[k]).count();
-    let missed: Vec<usize> = (0..7).map(missed).collect();
-    println!(
-        "{tolerance:e}: of {count} scenes, estimates exceeded (force, its time, contact time, restitution, loss, displacement) and tolerance missed: {missed:?}"
-    );
-    let allowed = (count / 50).max(3) as usize;
-    assert!(missed.iter().all(|&k| k <= allowed), "{missed:?}");
+    let names = [
+        "force",
+        "its time",
+        "contact time",
+        "restitution",
+        "loss",
+        "displacement",
+        "force at any time",
+        "tolerance",
+    ];
+    for (k, name) in names.iter().enumerate() {
+        let mut ratios: Vec<f64> = checked.iter().map(|row| row[k]).collect();
+        ratios.sort_by(f64::total_cmp);
+        let over = ratios.iter().filter(|&&ratio| ratio > 1.0).count();
+        println!(
+            "{tolerance:e}, {name}: error over estimate, median {:.2}, 98 % {:.2}; {over} of {count} exceed it",
+            ratios[ratios.len() / 2],
+            ratios[ratios.len() * 98 / 100],
+        );
+        assert!(50 * over <= ratios.len(), "{name}: {over}");
+    }
 }
 
 #[test]

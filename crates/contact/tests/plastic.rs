@@ -540,7 +540,7 @@ fn a_yielding_contact_that_the_surface_meets_again_is_refused() {
     assert!(refused.contains("meets the striker again"), "{refused}");
     // the dashpot has one contact, and no results that count
     let found = solve(Model::Auto).unwrap();
-    assert!(found.plan.model == Model::AreaDashpot && found.error > 0.5);
+    assert!(found.chosen.model == Model::AreaDashpot && found.error > 0.5);
 }
 
 /// Errors of `auto` over their estimates on random pairs of metals, from the onset of yield to some hundred times its
@@ -590,7 +590,7 @@ fn estimates_of_contacts_that_yield_hold() {
         let error = found.summary.distance(&exact.summary);
         over.push((error - exact.error).max(0.0) / found.error);
         let damped = with(Model::AreaDashpot, settings.tolerance).unwrap();
-        let lag = damped.plan.groups.lag;
+        let lag = damped.chosen.regime.lag;
         left_out.push(damped.summary.distance(&exact.summary) / (lag * lag));
     }
     over.sort_by(f64::total_cmp);

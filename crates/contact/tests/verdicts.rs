@@ -6,23 +6,22 @@
 
 #[path = "support/solids.rs"]
 mod solids;
-mod support;
 
 use contact::{
     Collision, ContactError, HalfSpace, MarchError, Model, Settings, Solver, StaticShare, Striker,
     Tabulated,
 };
 use halfspace::Deflection;
+use halfspace::random::Stream;
 use rayon::prelude::*;
 use solids::material;
-use support::Draws;
 
 const SCENES: u64 = 400;
 const TOLERANCES: [f64; 4] = [1e-3, 1e-4, 1e-6, 1e-8];
 
 /// A ball on a disc of 0.05 to 3 of its contact radius.
 fn random_scene(index: u64) -> (Collision, f64) {
-    let mut draws = Draws(index * 1000 + 17);
+    let mut draws = Stream::new(index * 1000 + 17);
     let (tip, density) = (draws.log(1e-4, 0.1), draws.log(1000.0, 10_000.0));
     let mass = 4.19 * tip.powi(3) * draws.log(1000.0, 20_000.0);
     let (first, second) = (draws.log(1e9, 4e11), draws.log(1e9, 4e11));

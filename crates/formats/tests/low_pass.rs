@@ -6,6 +6,7 @@
 
 use formats::schema::results::TREATMENT;
 use formats::{Existing, json_report, parse_scene, resolved, write_results};
+use halfspace::random::Stream;
 use impact::{ForceRecord, KernelChoice, Load, Scene, simulate};
 use std::f64::consts::PI;
 use std::fmt::Write;
@@ -39,16 +40,9 @@ fn record(scene: &Scene) -> &ForceRecord {
     }
 }
 
-/// Sum of twelve numbers of splitmix64, of mean zero and variance one.
-fn gauss(state: &mut u64) -> f64 {
-    let mut next = || {
-        *state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = *state;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    };
-    (0..12).map(|_| next()).sum::<f64>() - 6.0
+/// Sum of twelve even numbers, of mean zero and variance one.
+fn gauss(stream: &mut Stream) -> f64 {
+    (0..12).map(|_| stream.next()).sum::<f64>() - 6.0
 }
 
 /// 10 ms in a million rows: a pulse, noise of 1 % of its peak, an offset of 5 %.
@@ -58,11 +52,11 @@ fn a_million_noisy_rows_are_read_and_filtered() {
     const STEP_S: f64 = 1e-8;
     const CUTOFF_HZ: f64 = 5e5;
     let (noise_n, offset_n, from_s) = (0.01 * PEAK_N, 0.05 * PEAK_N, 4e-3);
-    let mut state = 2026;
+    let mut noise = Stream::new(2026);
     let mut text = String::from("time_s,force_n\n");
     for i in 0..ROWS {
         let time_s = f64::from(i) * STEP_S;
-        let force_n = pulse(time_s, from_s) + offset_n + noise_n * gauss(&mut state);
+        let force_n = pulse(time_s, from_s) + offset_n + noise_n * gauss(&mut noise);
         writeln!(text, "{time_s:.8},{force_n:.6}").unwrap();
     }
     let folder = tempfile::tempdir().unwrap();

@@ -16,10 +16,11 @@
 mod support;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use halfspace::random::Stream;
 use halfspace::{Deflection, Kernel, Medium, Profile, Six, SurfaceResponse, kausel};
 use std::hint::black_box;
 use std::time::{Duration, Instant};
-use support::{Stream, heading, line, peaks};
+use support::{heading, line, peaks};
 
 const POISSON_RATIO: f64 = 0.3;
 const TOLERANCES: [f64; 4] = [1e-4, 1e-6, 1e-8, 1e-10];

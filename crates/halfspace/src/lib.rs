@@ -84,7 +84,7 @@ pub use integral::axis::weights_off_axis;
 pub use kernel::Kernel;
 pub use medium::Medium;
 pub use numeric::polynomial::{chebyshev, chebyshev_each, lagrange, leja_nodes, leja_series};
-pub use numeric::{bisected, gauss};
+pub use numeric::{bisected, gauss, random};
 pub use profile::Profile;
 pub use surface::{Deflection, LoadedDisc, SurfaceResponse, surface_measure};
 pub use trace::Trace;

@@ -6,8 +6,9 @@
 
 mod support;
 
+use halfspace::random::Stream;
 use halfspace::{Arrivals, Kernel, Medium, Profile};
-use support::{Stream, heading, line};
+use support::{heading, line};
 
 const COUNT: usize = 12000;
 

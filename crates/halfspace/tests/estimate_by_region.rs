@@ -9,8 +9,9 @@
 
 mod support;
 
+use halfspace::random::Stream;
 use halfspace::{Arrivals, Kernel, Medium, Profile};
-use support::{NAMES, Quantiles, Stream, heading, line};
+use support::{NAMES, Quantiles, heading, line};
 
 /// Points in each region, at each tolerance.
 const POINTS: usize = 1500;

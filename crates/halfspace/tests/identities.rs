@@ -6,10 +6,11 @@
 
 mod support;
 
+use halfspace::random::Stream;
 use halfspace::{Arrivals, FIELDS, Kernel, Medium, Profile, Six};
 use proptest::prelude::*;
 use proptest::test_runner::FileFailurePersistence;
-use support::{NAMES, Stream, heading, line, peaks, step};
+use support::{NAMES, heading, line, peaks, step};
 
 const PROFILES: [Profile; 3] = [Profile::Hertz, Profile::Punch, Profile::Point];
 

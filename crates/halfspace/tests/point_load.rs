@@ -13,11 +13,12 @@
 
 mod support;
 
+use halfspace::random::Stream;
 use halfspace::{Field, Kernel, Medium, Profile};
 use num_complex::Complex64;
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
-use support::{NAMES, Stream, heading, line, read_csv, step};
+use support::{NAMES, heading, line, read_csv, step};
 
 const U: usize = Field::DisplacementR.index();
 const W: usize = Field::DisplacementZ.index();

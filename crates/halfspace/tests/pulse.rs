@@ -10,10 +10,11 @@
 mod support;
 
 use halfspace::gauss::rule;
+use halfspace::random::Stream;
 use halfspace::{Arrivals, Kernel, Medium, Profile, Six, Trace};
 use std::f64::consts::PI;
 use std::time::Instant;
-use support::{NAMES, Stream, heading, line, read_csv};
+use support::{NAMES, heading, line, read_csv};
 
 /// P = sin^4(pi t/length).
 #[derive(Clone, Copy)]

@@ -7,9 +7,10 @@
 mod support;
 
 use halfspace::gauss::rule;
+use halfspace::random::Stream;
 use halfspace::{Kernel, Medium, Profile};
 use std::f64::consts::PI;
-use support::{NAMES, Stream, heading, line, read_csv};
+use support::{NAMES, heading, line, read_csv};
 
 #[test]
 fn static_fields_hold_the_promised_accuracy() {

@@ -15,7 +15,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             run.peak_force_n,
             1e6 * run.contact_time_s,
             run.loss,
-            run.solved.plan.model.name()
+            run.solved.chosen.model.name()
         );
     }
     Ok(())

@@ -4,8 +4,8 @@
 
 use contact::law::radiation::{self, radiation};
 use contact::{
-    GrowingContact, HalfSpace, Material, Model, PunchWaves, Settings, StaticShare, Striker,
-    Summary, march_growing,
+    Accuracy, GrowingContact, HalfSpace, Material, Model, PunchWaves, Settings, StaticShare,
+    Striker, solve_growing,
 };
 use halfspace::{Deflection, Medium, SurfaceResponse};
 use hertzlamb::{contact, halfspace, impact};
@@ -135,7 +135,9 @@ fn growing_tends_to_the_radiation_law() {
             target_share: 0.5,
             wave_time,
         };
-        let found = Summary::new(&march_growing(&impact, 3.0 / 512.0).unwrap()).unwrap();
+        let found = solve_growing(&impact, &Accuracy::of_contact(1e-8, None))
+            .unwrap()
+            .summary;
         let law = radiation(0.5 * wave_time * response.disc.relaxation_time);
         let difference = (found.loss / law.loss - 1.0).abs();
         println!(
@@ -180,7 +182,7 @@ fn loss_tolerance_is_heeded_by_auto() {
         let mut slow = strike(&ONE, model(Model::Auto)).to_tolerance(1e-2);
         slow.velocity_m_s = 1e-4;
         slow.settings.loss_tolerance = loss_tolerance;
-        slow.solve().unwrap().solved.plan.model
+        slow.solve().unwrap().solved.chosen.model
     };
     assert_eq!(chosen(None), Model::Hertz);
     assert_ne!(chosen(Some(1e-1)), Model::Hertz);

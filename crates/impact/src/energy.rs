@@ -16,7 +16,7 @@
 use crate::excitation::{Excitation, Run};
 use crate::grid::Grid;
 use crate::record::jump::Jump;
-use contact::{Family, Plan, Rung, StaticShare, work_until_j};
+use contact::{Chosen, Memory, Physics, StaticShare, work_until_j};
 use halfspace::{Deflection, SurfaceResponse, lagrange};
 
 /// Energies in J at the times of the output.
@@ -38,10 +38,14 @@ pub struct EnergySeries {
 const SAMPLES: f64 = 1024.0;
 
 impl EnergySeries {
-    /// Of a striker whose contact was planned so, at times in s; none for a record.
+    /// Of a striker whose contact has this model, at times in s; none for a record.
     ///
     /// The work is within 1e-4 of itself beside the error of the force.
-    pub(crate) fn of_striker(excitation: &Excitation, plan: &Plan, time_s: &[f64]) -> Option<Self> {
+    pub(crate) fn of_striker(
+        excitation: &Excitation,
+        chosen: &Chosen,
+        time_s: &[f64],
+    ) -> Option<Self> {
         let contact = excitation.contact()?;
         let (end_s, units) = (contact.samples.end() * contact.units.time_s, &contact.units);
         let initial_j = 0.4 * units.force_n * units.length_m;
@@ -67,22 +71,28 @@ impl EnergySeries {
         let step_s = end_s / SAMPLES;
         let times = (0..=SAMPLES as usize + 1).map(|i| i as f64 * step_s);
         let force_n: Vec<f64> = times.clone().map(|t| excitation.force_n(t)).collect();
-        let lag_m: Vec<f64> = if plan.model.row() == (Rung::FullMemory, true) {
+        let physics = chosen.regime.physics;
+        let on_disc = match (physics, chosen.memory()) {
+            (Physics::Disc(_), Memory::Full) => true,
+            (Physics::Disc(_), Memory::None | Memory::FirstOrder | Memory::Dashpot)
+            | (Physics::Growing | Physics::Yielding, _) => false,
+        };
+        let lag_m: Vec<f64> = if on_disc {
             let share = StaticShare::Dynamic;
             excitation.deflection_m(Deflection::Mean, share, step_s, 0.0, &force_n)
         } else {
             // the contact law's own deflection but for its static part
-            let static_m_per_n = plan.coupling() * units.length_m / units.force_n;
+            let static_m_per_n = chosen.coupling() * units.length_m / units.force_n;
             let law_m = |t| excitation.motion(t).map_or(0.0, |m| m.deflection_m);
             let samples = times.zip(&force_n);
             let lag_m = samples.map(|(t, p)| law_m(t) - static_m_per_n * p);
             lag_m.collect()
         };
         let work_j = work_until_j(&force_n, &lag_m);
-        let static_m_per_n = match plan.groups.family {
-            Family::Full => static_mean_m_per_n(excitation),
+        let static_m_per_n = match physics {
+            Physics::Disc(StaticShare::Full) => static_mean_m_per_n(excitation),
             // Hertz's law holds all of it
-            Family::Growing | Family::Dynamic | Family::Yielding => 0.0,
+            Physics::Growing | Physics::Disc(StaticShare::Dynamic) | Physics::Yielding => 0.0,
         };
         let stored = |&t: &f64| {
             let p = excitation.force_n(t);

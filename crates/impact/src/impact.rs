@@ -72,7 +72,7 @@ pub(crate) fn solve<S: Responses>(
     collision.check_step(settings)?;
     let (solved, history) = solver.solve_with_history(collision, settings)?;
     let results = Results::new(collision, settings, &solved).checked()?;
-    let radius = match fixed_disc_m(solved.plan.model, settings, collision) {
+    let radius = match fixed_disc_m(solved.chosen.model, settings, collision) {
         Some(radius_m) => PressureRadius::Fixed(radius_m),
         None => PressureRadius::Following {
             largest_m: results.disc_radius_m,
@@ -126,7 +126,7 @@ impl Impact {
         let mut solver = Solver::new(&Exact);
         let mut run = solve(&mut solver, &self.half_space, &collision, settings)?;
         let (block, striker) = (&self.half_space, &self.striker);
-        let (plan, results) = (&run.solved.plan, &run.results);
+        let (plan, results) = (&run.solved.chosen, &run.results);
         let mut found = warnings(block, striker, &collision, settings, plan, results);
         found.extend(self.would_yield(&mut solver, &collision, results));
         found.extend(self.counted_twice(&mut solver, &collision, &run));
@@ -170,8 +170,7 @@ impl Impact {
         collision: &Collision,
         run: &Run,
     ) -> Option<String> {
-        let (_, on_disc) = run.solved.plan.model.row();
-        if !on_disc || self.settings.static_share != StaticShare::Full {
+        if !run.solved.chosen.model.on_disc() || self.settings.static_share != StaticShare::Full {
             return None;
         }
         let following = Settings {

@@ -69,7 +69,7 @@ fn of_strike(
             },
         )?;
     let excitation = run.excitation();
-    let (plan, scheme) = (&run.solved.plan, run.solved.scheme);
+    let (plan, scheme) = (&run.solved.chosen, run.solved.scheme);
     let cause = Cause::Contact {
         model: plan.model,
         scheme,

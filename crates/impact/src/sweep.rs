@@ -30,7 +30,7 @@ pub fn collide(
     collision.check_step(settings)?;
     let solved = solver.solve(collision, settings)?;
     Ok(Observed {
-        model: solved.plan.model,
+        model: solved.chosen.model,
         results: Results::new(collision, settings, &solved).checked()?,
         peaks: None,
     })
@@ -53,7 +53,7 @@ pub fn observe(
     let run = solve(solver, target, &collision, settings).map_err(|error| error.to_string())?;
     let peaks = peaks_at_probes(scene, kernels, run.excitation());
     Ok(Observed {
-        model: run.solved.plan.model,
+        model: run.solved.chosen.model,
         results: run.results,
         peaks: Some(peaks.map_err(|error| error.to_string())),
     })

@@ -6,22 +6,19 @@
 
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 
-#[path = "../../contact/tests/support/mod.rs"]
-mod support;
-
 use contact::{HalfSpace, Library, Model, Settings, Striker};
+use halfspace::random::Stream;
 use impact::{Excitation, Impact, KernelSource};
 use lookup::TableFile;
 use std::env;
 use std::path::Path;
 use std::sync::Arc;
-use support::Draws;
 
 /// Of the force and the fields.
 const TOLERANCE: f64 = 1e-4;
 
 /// A ball of a library material on a block of another; every other contact on a disc of up to twelve times its largest radius.
-fn scene(index: u64, draws: &mut Draws) -> Excitation {
+fn scene(index: u64, draws: &mut Stream) -> Excitation {
     let library = Library::built_in();
     let dense: Vec<_> = library
         .iter()
@@ -148,7 +145,7 @@ fn fields_of_real_impacts_hold_the_tolerance() {
     let table = table.map(|path| TableFile::open(Path::new(&path)).unwrap());
     let (mut direct, mut looked_up) = (Found::default(), Found::default());
     for index in 0..scenes {
-        let mut draws = Draws(1000 * index + 5);
+        let mut draws = Stream::new(1000 * index + 5);
         let excitation = scene(index, &mut draws);
         let medium = excitation.medium();
         let radius_m = excitation.units().disc_radius_m;

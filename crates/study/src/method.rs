@@ -45,8 +45,6 @@ methods! {
     Series "series, as in large sweeps";
     Radiation "radiation";
     AreaDashpot "area dashpot";
-    GrowingUniform "growing" not taken: "its number of steps is known beforehand; the program does not know how many a tolerance needs, halves the step until the results stand still, and pays for the coarser marches as well";
-    GrowingHalved "growing, step halved to tolerance";
     GrowingPieces "growing, polynomial pieces";
 
     Direct "direct";

@@ -1,4 +1,4 @@
-//! Elastic materials, and what can be wrong with a body.
+//! Elastic materials, and errors of bodies.
 
 use halfspace::{DomainError, check};
 use thiserror::Error;
@@ -35,7 +35,7 @@ pub struct Material {
 }
 
 impl Material {
-    /// Of Young's modulus in Pa, Poisson's ratio and a density in kg/m^3; what it bears can be set afterwards.
+    /// Of Young's modulus in Pa, Poisson's ratio and a density in kg/m^3; strengths can be set afterwards.
     ///
     /// # Errors
     /// [`BodyError::OutOfRange`].
@@ -140,7 +140,7 @@ pub enum BodyError {
     NoDensity {
         /// Name of the material.
         material: String,
-        /// What needs it.
+        /// Quantity that needs it.
         purpose: &'static str,
     },
     /// A number outside its range.

@@ -1,6 +1,6 @@
 //! The two bodies of an impact, and how fast one falls.
 //!
-//! `material` and `library` are what they are made of, `shape` what mass and tip follow from, `strength` what they bear,
+//! `material` and `library` are what they are made of, `shape` is that from which mass and tip follow, `strength` has the strengths,
 //! `wave_speeds` when waves and echoes arrive.
 
 pub(crate) mod library;
@@ -39,7 +39,7 @@ impl HalfSpace {
         })
     }
 
-    /// What it is made of.
+    /// Material.
     pub fn material(&self) -> &Material {
         &self.material
     }
@@ -69,7 +69,7 @@ impl HalfSpace {
 /// The body that strikes: a rigid mass with a spherical elastic tip.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Striker {
-    /// What it is made of.
+    /// Material.
     pub material: Material,
     /// Mass in kg.
     pub mass_kg: f64,
@@ -77,7 +77,7 @@ pub struct Striker {
     pub tip_radius_m: f64,
     /// Length in m of a rod, for the check of its free oscillations.
     pub length_m: Option<f64>,
-    /// What mass, tip and length follow from, where they do: see [`Striker::change_shape`].
+    /// Shape from which mass, tip and length follow, if there is one: see [`Striker::change_shape`].
     pub shape: Option<Shape>,
 }
 
@@ -126,7 +126,7 @@ impl Striker {
         Ok(striker)
     }
 
-    /// Changes what mass and tip follow from; without a shape only the material.
+    /// Changes the shape from which mass and tip follow; without a shape only the material.
     ///
     /// # Errors
     /// [`BodyError`] when the change makes no body; it is not to be used then.

@@ -1,9 +1,9 @@
-//! How near a contact is to what its bodies bear: yield and cone cracks.
+//! Loading of a contact over the strengths of its bodies: yield and cone cracks.
 
 use crate::bodies::material::Material;
 use std::f64::consts::PI;
 
-/// What one body bears; by default nothing of it is known.
+/// Strengths of one body; by default none of them is known.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Strength {
     poisson_ratio: f64,
@@ -75,7 +75,7 @@ pub fn largest_mises(poisson_ratio: f64) -> f64 {
     largest.max((1.0 - 2.0 * nu) / 3.0_f64.sqrt())
 }
 
-/// How near a contact comes to what its bodies bear; none where the number that it needs is not known.
+/// Loading of a contact over the strengths of its bodies; none if the strength is not known.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Loading {
     /// Largest force over the area of the loaded disc, in Pa.

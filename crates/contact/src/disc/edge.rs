@@ -1,6 +1,6 @@
 //! The force next to an end of the contact, where it goes to zero with the power 3/2.
 //!
-//! With y = p^(1/3) the indentation and what the surface gives way at once are y^2 + a y^3, which is proportional to
+//! With y = p^(1/3) the sum of the indentation and of the prompt deflection of the surface is y^2 + a y^3, proportional to
 //! the time s from the end but for a smooth factor.
 //! So s is the elementary function of y, and integrals over the edge are integrals of smooth functions over y:
 //!
@@ -8,12 +8,12 @@
 //! s = y^2 (1 + a y) G(y),     dp/ds = 3 y/R(y),     ds = y R dy,     R = (2 + 3 a y) G + (y + a y^2) G'
 //! ```
 //!
-//! What is left to come of the deflection there is the [`Relaxation`] 1 - W of the disc.
+//! The deflection that is still to come there is the [`Relaxation`] 1 - W of the disc.
 //!
 //! Theory: `docs/theory.md` (T44 to T46).
 
-use crate::disc::response::DiscResponse;
 use crate::numeric::quadrature::{GAUSS_4, gauss};
+use crate::waves::response::DiscResponse;
 
 /// s(y) with G a parabola; time in steps.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -23,7 +23,7 @@ pub(crate) struct Edge {
 }
 
 /// Newton's iterations at most; the function is convex and its bounds need not be sharp.
-const ITERATIONS: usize = 8;
+const MOST_ITERATIONS: usize = 8;
 
 impl Edge {
     /// Through three roots y of the force, each at its time from the end, on a surface that gives way by `compliance`.
@@ -85,7 +85,7 @@ impl Edge {
     /// y at the time s, sought from `y`.
     #[inline]
     fn root(&self, s: f64, mut y: f64) -> f64 {
-        for _ in 0..ITERATIONS {
+        for _ in 0..MOST_ITERATIONS {
             let change = (self.time(y) - s) / (y * self.rate(y)[0]);
             let next = y - change;
             if next <= 0.0 || next.is_nan() {
@@ -127,7 +127,7 @@ pub(crate) struct Relaxation<F> {
 }
 
 /// Steps of memory up to which only its zeroth moment counts.
-const SHORT: f64 = 0.1;
+const SHORT_MEMORY: f64 = 0.1;
 
 /// Steps of memory beyond which the samples resolve what happens at the touch and at the end.
 pub(crate) const RESOLVED: f64 = 3.0;
@@ -135,7 +135,7 @@ pub(crate) const RESOLVED: f64 = 3.0;
 impl Relaxation<()> {
     /// Of a disc's response, with r0/c1 in steps.
     ///
-    /// Beyond [`RESOLVED`] nothing but its memory and coupling may be asked of it.
+    /// Beyond [`RESOLVED`] it holds its memory and coupling only.
     pub(crate) fn of(
         response: &impl DiscResponse,
         coupling: f64,
@@ -205,7 +205,7 @@ impl<F: Fn(f64) -> f64> Relaxation<F> {
         self.moments[0] * slope - past
     }
 
-    /// What L is less than the zeroth moment times p'.
+    /// Difference between the zeroth moment times p' and L.
     fn past_at_touch(&self, edge: &Edge, y: f64) -> f64 {
         let s = edge.time(y);
         let oldest = if self.memory < s {
@@ -218,10 +218,10 @@ impl<F: Fn(f64) -> f64> Relaxation<F> {
 
     /// Whether L = int_0^m (1 - W(s)) p'(t - s) ds may be taken as the zeroth moment times p' in the work int p' L dt.
     ///
-    /// What the first moment adds to the work is zero, since p' is zero at both ends of a contact; the second adds a
+    /// The first moment adds nothing to the work, since p' is zero at both ends of a contact; the second adds a
     /// fraction of (m/T)^2 log(T/m) in a contact of duration T.
     pub(crate) fn is_short(&self) -> bool {
-        self.memory < SHORT
+        self.memory < SHORT_MEMORY
     }
 }
 

@@ -9,8 +9,9 @@
 //! First order: the velocity lags the force by half a step, which feeds energy into the rebound.
 
 use crate::disc::FixedDisc;
-use crate::disc::history::{History, affordable, memory_cells};
+use crate::disc::bounds::{affordable, memory_cells};
 use crate::error::MarchError;
+use crate::history::History;
 use crate::numeric::quadrature::peak;
 use crate::summary::Summary;
 use crate::units::INVERSE_MASS;

@@ -9,13 +9,14 @@
 //! Theory: `docs/theory.md` (T42).
 
 use crate::disc::FixedDisc;
+use crate::disc::bounds::{affordable, memory_cells};
 use crate::disc::edge::{Edge, RESOLVED, Relaxation};
-use crate::disc::history::{History, affordable, memory_cells};
-use crate::disc::response::DiscResponse;
 use crate::disc::striker::{STARTING, StrikerMotion, starting_roots};
 use crate::disc::weights::Weights;
 use crate::error::MarchError;
+use crate::history::History;
 use crate::numeric::cubic::force_root;
+use crate::waves::response::DiscResponse;
 
 /// Marches with a fixed step (collision units).
 ///
@@ -90,7 +91,7 @@ pub(crate) fn march_into(
     Ok(())
 }
 
-/// What the weights miss of the delayed deflection at the first samples.
+/// Error of the weights in the delayed deflection at the first samples.
 ///
 /// They follow a parabola through the samples, the force at the touch has the roots of `edge`.
 fn missed(

@@ -1,4 +1,4 @@
-//! What is asked of the samples of a march: peaks, the end of contact, the rebound.
+//! Results of the samples of a march: peaks, the end of contact, the rebound.
 //!
 //! None of them lies on a sample.
 //! Peaks are interpolated through five samples.
@@ -6,30 +6,26 @@
 //! the power 3/2 (A is the compliance of the newest sample), so b is extrapolated from the last five
 //! samples in contact and the force of the last cells is integrated from it.
 
-use crate::disc::history::History;
-use crate::energy::work;
 use crate::error::MarchError;
+use crate::history::History;
 use crate::numeric::cubic::force_root;
-use crate::numeric::quadrature::{GAUSS_8, Local, peak};
+use crate::numeric::quadrature::{GAUSS_8, LocalPolynomial, peak};
+use crate::numeric::work::work;
 use crate::summary::{SMALL_LOSS, Summary};
 use crate::units::INVERSE_MASS;
 
 /// Samples in contact that the interpolation needs.
-const NEEDED: usize = 8;
+const NEEDED_SAMPLES: usize = 8;
 
 /// Fraction of the last change of the contact time that is its error, chosen so that the estimates hold
-/// (`tests/estimates.rs`), and what stays of it at any step: of an end found by extrapolation of what is smooth there, and
-/// of a contact whose radius goes to zero, its last instants resolved, where it is of first order.
-const SMOOTH: [f64; 2] = [1.0, 0.0];
-const SINGULAR: [f64; 2] = [1.5, 0.0];
+/// (`tests/estimates.rs`), and what stays of it at any step: of an end found by extrapolation of what is smooth there.
+const SMOOTH_END: [f64; 2] = [1.0, 0.0];
 
-/// That fraction of an end from what the surface keeps of the force, and of one with its last instants in closed form:
-/// what stays is their uncertainty.
-const KEPT: f64 = 0.5;
-const LAYER: f64 = 1.0 / 3.0;
+/// The same fraction of an end that comes from the residual deflection; its uncertainty stays at any step.
+const KEPT_END: f64 = 0.5;
 
 impl Summary {
-    /// Of a history made by the implicit or the growing march.
+    /// Of a history made by the implicit march.
     ///
     /// # Errors
     /// [`MarchError::StepTooLong`] when the contact has too few samples to interpolate.
@@ -37,29 +33,23 @@ impl Summary {
         Self::measured(history).map(|(summary, _)| summary)
     }
 
-    /// The same, with the fraction of the last change of the contact time that is its error, and what stays at any step.
+    /// The same, with the fraction of the last change of the contact time that is its error, and the error that stays at any
+    /// step.
     pub(crate) fn measured(history: &History) -> Result<(Self, [f64; 2]), MarchError> {
         let step = history.step;
         let force = &history.force;
         let end = first_separation(force);
-        if end < NEEDED {
+        if end < NEEDED_SAMPLES {
             return Err(MarchError::StepTooLong {
                 samples: end,
-                needed: NEEDED,
+                needed: NEEDED_SAMPLES,
             });
         }
-        let (mut contact_time, impulse) = end_of_contact(history, end);
-        let mut how = match &history.separation {
-            None => SMOOTH,
-            Some(found) => [KEPT, found.uncertainty / found.time],
+        let (contact_time, impulse) = end_of_contact(history, end);
+        let how = match &history.separation {
+            None => SMOOTH_END,
+            Some(found) => [KEPT_END, found.uncertainty / found.time],
         };
-        if let Some(layer) = history.end_layer {
-            how = SINGULAR;
-            if let Some((time, uncertainty)) = end_of_layer(history, end, layer) {
-                contact_time = time;
-                how = [LAYER, uncertainty / time];
-            }
-        }
         let (place, peak_force) = peak(force);
         // those whose force exceeds 1e-6 of the largest
         let counts = |contact: &&[f64]| contact.iter().any(|p| *p > 1e-6 * peak_force);
@@ -109,31 +99,6 @@ pub(crate) fn first_separation(force: &[f64]) -> usize {
     free.map_or(force.len(), |i| i + 1)
 }
 
-/// Uncertainty of the time spent in the end layer.
-const LAYER_UNCERTAINTY: f64 = 0.05;
-
-/// End of a contact with a layer that the step does not resolve, and its uncertainty.
-///
-/// The displacement is smooth there, so the place where it reaches the layer's depth is known well.
-fn end_of_layer(history: &History, end: usize, [depth, width]: [f64; 2]) -> Option<(f64, f64)> {
-    let (step, d) = (history.step, &history.displacement);
-    let from = end.checked_sub(3)?;
-    if width == 0.0 || end + 1 >= d.len() {
-        return None;
-    }
-    let velocity = (d[end - 1] - d[end]) / step;
-    if velocity <= 0.0 || 4.0 * step < width * velocity {
-        return None;
-    }
-    let depth = depth * velocity * velocity;
-    let local = Local::<5>::new(std::array::from_fn(|i| d[from + i] - depth));
-    if local.value(0.0) <= 0.0 || local.value(4.0) >= 0.0 {
-        return None;
-    }
-    let time = (from as f64 + local.root(0.0, 4.0)) * step;
-    Some((time, LAYER_UNCERTAINTY * depth / velocity))
-}
-
 /// End of the first contact and the impulse until then; `end` is the first free sample.
 fn end_of_contact(history: &History, end: usize) -> (f64, f64) {
     let step = history.step;
@@ -144,7 +109,7 @@ fn end_of_contact(history: &History, end: usize) -> (f64, f64) {
     let a = history.compliance;
     let b = |i: usize| history.displacement[i] - history.deflection[i] + a * history.force[i];
     let from = end - 5;
-    let local = Local::<5>::new(std::array::from_fn(|i| b(from + i)));
+    let local = LocalPolynomial::<5>::new(std::array::from_fn(|i| b(from + i)));
     // Place of zero in steps from `from`: beyond the fifth sample and before the first free one.
     let place = if local.value(4.0) > 0.0 && local.value(5.0) <= 0.0 {
         local.root(4.0, 5.0)
@@ -170,7 +135,7 @@ mod tests {
     use super::*;
     use crate::disc::FixedDisc;
     use crate::disc::implicit::march_implicit;
-    use crate::model::StaticShare;
+    use crate::settings::StaticShare;
     use halfspace::{Deflection, Medium, SurfaceResponse};
 
     /// Where the loss is taken from the work, the impulse is still that of the force: the ledger's two sides are two.

@@ -1,24 +1,24 @@
 //! An impact on a disc of fixed radius, in dimensionless groups, and its marches.
 //!
-//! In reading order: `response` is how the loaded surface answers, `stability` says whether there is a contact
-//! at all; `implicit` is the march, with the half-space's memory in `weights`, the striker's motion in `striker`, the force
-//! next to the ends of contact in `edge`, the end itself and the work in `separation`; `measured` has the results of the samples, `refine` chooses the step;
-//! `explicit` is the paper's scheme, `history` the samples of all marches.
+//! In reading order: `implicit` is the march, with the half-space's memory in `weights`, the striker's motion in `striker`,
+//! the force next to the ends of contact in `edge`, the end itself and the work in `separation`, and the work that it may
+//! take in `bounds`; `explicit` is the paper's scheme; `measured` has the results of the samples, `refine` chooses the step,
+//! `radiated` has the energy of the waves; `stability` tells whether there is a contact at all.
 
+pub(crate) mod bounds;
 pub(crate) mod edge;
 pub(crate) mod explicit;
-pub(crate) mod history;
 pub(crate) mod implicit;
 pub(crate) mod measured;
+pub(crate) mod radiated;
 pub(crate) mod refine;
-pub(crate) mod response;
 pub(crate) mod separation;
 pub(crate) mod stability;
 pub(crate) mod striker;
 pub(crate) mod weights;
 
-use crate::disc::response::DiscResponse;
-use crate::model::StaticShare;
+use crate::settings::StaticShare;
+use crate::waves::response::DiscResponse;
 use halfspace::SurfaceResponse;
 
 /// Coupling up to which the deflection of the centre takes more energy than it gives, for any Poisson's ratio
@@ -34,7 +34,7 @@ pub struct FixedDisc<'a, R = SurfaceResponse> {
     pub coupling: f64,
     /// r0/c1 in collision times.
     pub wave_time: f64,
-    /// Which part of the deflection enters.
+    /// Part of the static deflection that enters.
     pub share: StaticShare,
 }
 

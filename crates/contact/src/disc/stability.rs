@@ -19,24 +19,24 @@
 //! Theory: `docs/theory.md` (T42, T57).
 
 use crate::disc::FixedDisc;
-use crate::disc::history::History;
 use crate::disc::implicit::march_into;
-use crate::disc::response::DiscResponse;
 use crate::error::{ContactError, MarchError};
+use crate::history::History;
 use crate::law::quasi_static::{largest_force, quasi_static};
-use crate::model::StaticShare;
+use crate::settings::StaticShare;
 use crate::summary::Summary;
+use crate::waves::response::DiscResponse;
 use halfspace::Deflection;
 
 /// -C where it is real, at most, for any Poisson's ratio.
 const LARGEST_NEGATIVE: f64 = 0.3;
 
 /// Memory over the contact time below which whatever grows has grown beyond bounds.
-const SHORT: f64 = 2e-3;
+const SHORT_MEMORY: f64 = 2e-3;
 
 /// Cells of the memory, and steps of the contact at least, of the march that decides.
-const CELLS: f64 = 24.0;
-const STEPS: f64 = 300.0;
+const CELLS_OF_MEMORY: f64 = 24.0;
+const STEPS_OF_TRIAL: f64 = 300.0;
 
 /// Margin of that march from the fold of the dynamic share.
 const MARGIN: f64 = 0.975;
@@ -62,13 +62,13 @@ pub(crate) fn check(
         return Ok(());
     }
     let (springs, _) = quasi_static(still);
-    if impact.memory() < SHORT * springs.contact_time {
+    if impact.memory() < SHORT_MEMORY * springs.contact_time {
         return Err(match impact.share {
             StaticShare::Dynamic => no_solution(0.5 * springs.contact_time),
             StaticShare::Full => fed(None),
         });
     }
-    let step = (impact.memory() / CELLS).min(springs.contact_time / STEPS);
+    let step = (impact.memory() / CELLS_OF_MEMORY).min(springs.contact_time / STEPS_OF_TRIAL);
     march_into(history, impact, step)?;
     match impact.share {
         StaticShare::Dynamic => {
@@ -94,9 +94,9 @@ pub(crate) fn check(
 /// C(i w) = 1 - i w int_0^M V e^(-i w t) dt,     V = 1 - W, by its means over cells
 /// ```
 pub(crate) fn negative_compliance(response: &impl DiscResponse) -> f64 {
-    let width = response.disc().memory / SAMPLES as f64;
+    let width = response.disc().memory / CELLS_OF_SPECTRUM as f64;
     let mut cell = response.cells(width);
-    let left: Vec<f64> = (0..SAMPLES)
+    let left: Vec<f64> = (0..CELLS_OF_SPECTRUM)
         .map(|j| 1.0 - cell(j as f64 * width, (j + 1) as f64 * width).0 / width)
         .collect();
     let compliance = |angle: f64| {
@@ -115,7 +115,7 @@ pub(crate) fn negative_compliance(response: &impl DiscResponse) -> f64 {
         let size = 2.0 * (0.5 * angle).sin();
         [1.0 + size * imaginary, -size * real]
     };
-    let step = HIGHEST / (FREQUENCIES as f64 * SAMPLES as f64);
+    let step = HIGHEST_FREQUENCY / (FREQUENCIES as f64 * CELLS_OF_SPECTRUM as f64);
     let mut before = compliance(step);
     let mut largest = 0.0_f64;
     for k in 2..=FREQUENCIES {
@@ -130,9 +130,9 @@ pub(crate) fn negative_compliance(response: &impl DiscResponse) -> f64 {
 }
 
 /// Cells of the memory, frequencies, and the highest in radians over the memory.
-const SAMPLES: usize = 256;
+const CELLS_OF_SPECTRUM: usize = 256;
 const FREQUENCIES: usize = 240;
-const HIGHEST: f64 = 60.0;
+const HIGHEST_FREQUENCY: f64 = 60.0;
 
 #[cfg(test)]
 mod tests {

@@ -5,13 +5,12 @@
 //!      = t - (5/4) { h^2 [ sum_{j<n} (n - j) p_j + p_n/12 ] + E_0 t - E_1 } + O(h^4)
 //! ```
 //!
-//! E_0 and E_1 are what the sums of p and t p miss at the touch, where the force starts with the power 3/2 as
+//! E_0 and E_1 are the errors of the sums of p and t p at the touch, where the force starts with the power 3/2 as
 //! y^2 + sigma y^3 = t, p = y^3, on a surface of compliance sigma; without them the error would be of order 5/2.
 //! Everything is in collision units.
 //!
 //! Theory: `docs/theory.md` (T40).
 
-use crate::disc::history::History;
 use crate::numeric::cubic::force_root;
 use crate::units::INVERSE_MASS;
 
@@ -36,7 +35,7 @@ pub(crate) struct StrikerMotion {
     sum: f64,
     /// sum over the samples so far of (n - j) p_j, n the next sample.
     double_sum: f64,
-    /// What the trapezoidal rule misses at the touch of int p dt and of int t p dt.
+    /// Error of the trapezoidal rule at the touch in int p dt and in int t p dt.
     pub(crate) missed: [f64; 2],
 }
 
@@ -61,7 +60,7 @@ impl StrikerMotion {
         t - INVERSE_MASS * (h * h * self.double_sum + start)
     }
 
-    /// What a unit force at the next sample takes from d.
+    /// Decrease of d by a unit force at the next sample.
     pub(crate) fn newest_weight(&self) -> f64 {
         INVERSE_MASS * self.step * self.step / 12.0
     }
@@ -74,7 +73,7 @@ impl StrikerMotion {
     }
 }
 
-/// What the trapezoidal rule misses at the touch of int p dt and of int t p dt: the constants of Euler and Maclaurin.
+/// Error of the trapezoidal rule at the touch in int p dt and in int t p dt: the constants of Euler and Maclaurin.
 ///
 /// t = y^2 + sigma y^3 makes both integrals and the derivatives at the upper end elementary.
 fn missed(step: f64, compliance: f64, roots: &[f64; STARTING]) -> [f64; 2] {
@@ -103,42 +102,10 @@ fn missed(step: f64, compliance: f64, roots: &[f64; STARTING]) -> [f64; 2] {
     ]
 }
 
-impl History {
-    /// int_0^{t_k} p dt for a sample k that has two neighbours on both sides, error O(h^4).
-    pub(crate) fn impulse_until(&self, k: usize) -> f64 {
-        let sum: f64 = self.force[..k].iter().sum::<f64>() + 0.5 * self.force[k];
-        self.impulse_from_sum(k, sum)
-    }
-
-    fn impulse_from_sum(&self, k: usize, sum: f64) -> f64 {
-        let at = |i: usize| self.force.get(i).copied().unwrap_or(0.0);
-        // h p' by central differences
-        let slope = match k {
-            0 => return 0.0,
-            1 => 0.5 * (at(2) - at(0)),
-            _ => (8.0 * (at(k + 1) - at(k - 1)) - (at(k + 2) - at(k - 2))) / 12.0,
-        };
-        self.step * (sum - slope / 12.0) + self.start
-    }
-
-    /// Velocity of the striker at every sample.
-    pub fn velocities(&self) -> Vec<f64> {
-        if !self.velocity.is_empty() {
-            return self.velocity.clone();
-        }
-        let mut sum = 0.0;
-        let mut velocity = Vec::with_capacity(self.force.len());
-        for (k, &p) in self.force.iter().enumerate() {
-            velocity.push(1.0 - INVERSE_MASS * self.impulse_from_sum(k, sum + 0.5 * p));
-            sum += p;
-        }
-        velocity
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::history::History;
 
     /// Errors of d and of the impulse at t = 1 for a force p of known integrals int p and int (1 - t) p.
     fn errors(step: f64, compliance: f64, p: impl Fn(f64) -> f64, exact: [f64; 2]) -> [f64; 2] {

@@ -13,7 +13,7 @@
 //! Theory: `docs/theory.md` (T41, T43).
 
 use crate::disc::FixedDisc;
-use crate::disc::response::DiscResponse;
+use crate::waves::response::DiscResponse;
 
 /// The weights g_j of one step, newest first: as many as the memory has cells.
 #[derive(Debug, Clone, PartialEq)]

@@ -2,12 +2,12 @@
 //! at a time.
 
 use crate::growing::nodes::Polynomial;
+use crate::law::branch::Law;
 use crate::numeric::quadrature::{CLOSE, rising_root};
-use crate::plastic::branch::Law;
 
 /// Time, contact radius, velocity and displacement of the striker over a stretch of the contact, and the law that it follows.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Piece {
+pub(crate) struct ContactPiece {
     pub(crate) law: Law,
     pub(crate) time: Polynomial,
     pub(crate) radius: Polynomial,
@@ -19,7 +19,7 @@ pub(crate) struct Piece {
     pub(crate) end: State,
 }
 
-/// What is known where a piece starts or ends.
+/// State of the striker and the contact where a piece starts or ends.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct State {
     pub(crate) time: f64,
@@ -41,7 +41,7 @@ impl State {
     };
 }
 
-impl Piece {
+impl ContactPiece {
     /// Force and its first two slopes in the place.
     pub(crate) fn force(&self, place: f64) -> [f64; 3] {
         match &self.force {
@@ -70,7 +70,7 @@ impl Piece {
 /// `own` has the time and the radius of that piece, which starts at `start`; `found` holds departures of a nearby
 /// contact as first guesses, or of no piece at all.
 pub(crate) fn departures(
-    pieces: &[Piece],
+    pieces: &[ContactPiece],
     own: [&Polynomial; 2],
     start: &State,
     [place, arrival]: [f64; 2],

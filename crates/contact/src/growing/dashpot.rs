@@ -10,14 +10,14 @@
 use crate::error::MarchError;
 use crate::growing::equations::March;
 use crate::growing::solved::SolvedContact;
-use crate::plastic::branch::Branch;
+use crate::law::branch::Branch;
 
 /// Error of a piece: below that of any model in closed form.
 const ACCURACY: f64 = 1e-8;
 
 /// Longest piece in the root of the time, and of the distance from the largest radius, in collision units: at
 /// [`ACCURACY`] longer ones are tried in vain. `benches/histories.rs` measures the time: 35 to 45 us, and 60 us without.
-const LONGEST: f64 = 0.35;
+const LONGEST_PIECE: f64 = 0.35;
 
 /// Solves the contact of Hertz's spring in series with a linear one of compliance `coupling`, with a lag.
 ///
@@ -26,9 +26,9 @@ const LONGEST: f64 = 0.35;
 pub(crate) fn solve_springs(coupling: f64, lag: f64) -> Result<SolvedContact, MarchError> {
     let mut march = March::damped(lag, ACCURACY);
     march.law.branch = Branch::OnSpring { coupling };
-    march.flow(LONGEST)?;
+    march.flow(LONGEST_PIECE)?;
     let top = march.state.radius;
-    march.open(top, 0.0, LONGEST)?;
+    march.open(top, 0.0, LONGEST_PIECE)?;
     Ok(SolvedContact::with_dashpot(march))
 }
 

@@ -12,11 +12,12 @@
 //! Indentation u, punches s, g = int ds/a and force p over the radius are those of a [`Law`]; Hertz's has u = s = a^2,
 //! g = 2 a and p = a^3.
 
-use crate::growing::arrivals::{Departure, Piece, State, departures};
-use crate::growing::nodes::{Factors, LARGEST, Nodes, Polynomial, SIZE, dot};
-use crate::growing::waves::GrowingContact;
-use crate::plastic::branch::{Law, Local};
+use crate::growing::arrivals::{ContactPiece, Departure, State, departures};
+use crate::growing::nodes::{LARGEST_DEGREE, Polynomial, RadauNodes, SIZE};
+use crate::law::branch::{AtRadius, Law};
+use crate::numeric::linear::{Factors, dot};
 use crate::units::INVERSE_MASS;
+use crate::waves::punch::GrowingContact;
 
 /// A contact on its way.
 #[derive(Debug)]
@@ -24,8 +25,8 @@ pub(crate) struct March<'a> {
     pub(crate) contact: GrowingContact<'a>,
     /// Error that a piece may leave: of the force, in the end of the time.
     pub(crate) accuracy: f64,
-    pub(crate) nodes: &'static Nodes,
-    pub(crate) pieces: Vec<Piece>,
+    pub(crate) nodes: &'static RadauNodes,
+    pub(crate) pieces: Vec<ContactPiece>,
     /// Where they end.
     pub(crate) state: State,
     pub(crate) law: Law,
@@ -51,7 +52,7 @@ pub(crate) struct Errors {
     pub(crate) work: f64,
 }
 
-/// What a piece is a function of.
+/// Independent variable of a piece.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Independent {
     /// The radius is sought as a function of time.
@@ -65,13 +66,13 @@ pub(crate) enum Independent {
 pub(crate) struct Equations<'a> {
     pub(crate) march: &'a March<'a>,
     pub(crate) known: Independent,
-    /// What is known: the time or the radius.
+    /// The known one of time and radius.
     pub(crate) given: Polynomial,
 }
 
-/// Time, radius and what follows from them at 0 and the nodes.
+/// Time, radius and the velocity and law that follow from them, at 0 and the nodes.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Motion {
+pub(crate) struct PieceMotion {
     pub(crate) time: [f64; SIZE],
     pub(crate) radius: [f64; SIZE],
     /// Slopes with respect to the place.
@@ -79,16 +80,16 @@ pub(crate) struct Motion {
     pub(crate) radius_slope: [f64; SIZE],
     pub(crate) velocity: [f64; SIZE],
     /// The law at the nodes.
-    pub(crate) local: [Local; LARGEST],
+    pub(crate) local: [AtRadius; LARGEST_DEGREE],
 }
 
-/// Residuals and what drives the radius at the nodes, with the departures of all waves to them.
+/// Residuals and the drive of the radius at the nodes, with the departures of all waves to them.
 #[derive(Debug, Default)]
 pub(crate) struct Residual<'a> {
     /// The rule over the waves.
     pub(crate) rule: &'a [(f64, f64)],
-    pub(crate) value: [f64; LARGEST],
-    pub(crate) drive: [f64; LARGEST],
+    pub(crate) value: [f64; LARGEST_DEGREE],
+    pub(crate) drive: [f64; LARGEST_DEGREE],
     pub(crate) departures: Vec<Departure>,
     pub(crate) delays: Vec<f64>,
 }
@@ -96,21 +97,21 @@ pub(crate) struct Residual<'a> {
 /// A piece that solves its equations at its nodes.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Solution {
-    pub(crate) piece: Piece,
+    pub(crate) piece: ContactPiece,
     /// Largest radius at the nodes.
     pub(crate) widest: f64,
     /// int p (v - u') dt over the piece.
     pub(crate) dissipated: f64,
-    /// Size of the last of the polynomial's terms in what was sought.
+    /// Size of the last term of the polynomial of the unknown.
     pub(crate) truncated: f64,
-    /// Change of what was sought by the finer rule over the waves.
+    /// Change of the unknown by the finer rule over the waves.
     pub(crate) waves: f64,
-    /// What was sought, at 0 and the nodes.
+    /// Values of the unknown at 0 and the nodes.
     pub(crate) sought: [f64; SIZE],
 }
 
 /// Newton's iterations at most.
-const ITERATIONS: usize = 14;
+const MOST_ITERATIONS: usize = 14;
 
 /// Iterations after which each has to halve the change.
 const SETTLED: usize = 6;
@@ -122,7 +123,7 @@ const SLACK: f64 = 0.3;
 const CLOSED: f64 = 1e-14;
 
 impl Equations<'_> {
-    /// Polynomials of time and radius through values of what is sought.
+    /// Polynomials of time and radius through values of the unknown.
     pub(crate) fn polynomials(&self, sought: &[f64; SIZE]) -> (Polynomial, Polynomial) {
         let sought = self.march.nodes.polynomial(sought);
         match self.known {
@@ -131,8 +132,8 @@ impl Equations<'_> {
         }
     }
 
-    /// What follows from values of what is sought.
-    pub(crate) fn motion(&self, sought: &[f64; SIZE]) -> Motion {
+    /// The motion that follows from values of the unknown.
+    pub(crate) fn motion(&self, sought: &[f64; SIZE]) -> PieceMotion {
         let (nodes, law) = (self.march.nodes, &self.march.law);
         let n = nodes.degree;
         let [mut given, mut given_slope, mut sought_slope] = [[0.0; SIZE]; 3];
@@ -146,8 +147,8 @@ impl Equations<'_> {
             Independent::Time => (given, *sought, given_slope, sought_slope),
             Independent::Radius => (*sought, given, sought_slope, given_slope),
         };
-        let mut impulse = [0.0; LARGEST];
-        let mut local = [Local::default(); LARGEST];
+        let mut impulse = [0.0; LARGEST_DEGREE];
+        let mut local = [AtRadius::default(); LARGEST_DEGREE];
         for j in 1..=n {
             let here = law.branch.at(radius[j]);
             impulse[j - 1] = here.force * time_slope[j]
@@ -158,7 +159,7 @@ impl Equations<'_> {
         for (i, v) in velocity.iter_mut().enumerate().take(n + 1).skip(1) {
             *v -= INVERSE_MASS * dot(&nodes.integral[i], &impulse[..n]);
         }
-        Motion {
+        PieceMotion {
             time,
             radius,
             time_slope,
@@ -172,7 +173,7 @@ impl Equations<'_> {
     pub(crate) fn residual(
         &self,
         sought: &[f64; SIZE],
-        motion: &Motion,
+        motion: &PieceMotion,
         residual: &mut Residual<'_>,
     ) {
         let march = self.march;
@@ -214,8 +215,13 @@ impl Equations<'_> {
         piece.map_or(&self.march.law, |piece| &piece.law)
     }
 
-    /// Derivatives of the residuals with respect to what is sought, at the departures of the residual.
-    pub(crate) fn jacobian(&self, motion: &Motion, residual: &Residual<'_>, matrix: &mut Factors) {
+    /// Derivatives of the residuals with respect to the unknown, at the departures of the residual.
+    pub(crate) fn jacobian(
+        &self,
+        motion: &PieceMotion,
+        residual: &Residual<'_>,
+        matrix: &mut Factors<LARGEST_DEGREE>,
+    ) {
         let (nodes, law) = (self.march.nodes, &self.march.law);
         let (n, contact) = (nodes.degree, &self.march.contact);
         let velocity = self.velocity_by_impulse(motion);
@@ -254,10 +260,10 @@ impl Equations<'_> {
         }
     }
 
-    /// Row j: what is sought in the impulse -(5/4) p T' of node j.
-    fn velocity_by_impulse(&self, motion: &Motion) -> [[f64; LARGEST]; LARGEST] {
+    /// Row j: derivatives of the impulse -(5/4) p T' of node j with respect to the unknown.
+    fn velocity_by_impulse(&self, motion: &PieceMotion) -> [[f64; LARGEST_DEGREE]; LARGEST_DEGREE] {
         let nodes = self.march.nodes;
-        let mut rows = [[0.0; LARGEST]; LARGEST];
+        let mut rows = [[0.0; LARGEST_DEGREE]; LARGEST_DEGREE];
         for (j, row) in (1..=nodes.degree).zip(&mut rows) {
             let here = &motion.local[j - 1];
             match self.known {
@@ -272,8 +278,8 @@ impl Equations<'_> {
         rows
     }
 
-    /// Derivatives of S times the wave time at the node i: with respect to what is sought at each node (with
-    /// the sign turned) and, beside it, at the node itself, where g has a slope.
+    /// Derivatives of S times the wave time at the node i: with respect to the unknown at each node (with
+    /// the sign turned) and, separately, at the node itself, where g has a slope.
     fn tension_row(&self, residual: &Residual<'_>, i: usize, slope: f64) -> ([f64; SIZE], f64) {
         let nodes = self.march.nodes;
         let [mut sums, mut basis] = [[0.0; SIZE]; 2];
@@ -312,7 +318,7 @@ impl Equations<'_> {
         let mut before = f64::INFINITY;
         // Newton's next change would be about the square
         let enough = (1e-2 * self.march.accuracy).sqrt().min(1e-5);
-        for iteration in 1..=ITERATIONS {
+        for iteration in 1..=MOST_ITERATIONS {
             let motion = self.moves(&sought)?;
             self.residual(&sought, &motion, &mut residual);
             self.jacobian(&motion, &residual, &mut matrix);
@@ -344,7 +350,7 @@ impl Equations<'_> {
     }
 
     /// The motion, unless a matrix that is nearly singular or a law at the end of the numbers threw it out of them.
-    fn moves(&self, sought: &[f64; SIZE]) -> Option<Motion> {
+    fn moves(&self, sought: &[f64; SIZE]) -> Option<PieceMotion> {
         let motion = self.motion(sought);
         let of = [&motion.time, &motion.radius, &motion.velocity];
         let mut all = of.into_iter().flatten();
@@ -352,7 +358,11 @@ impl Equations<'_> {
     }
 
     /// One more change, by the finer rule.
-    fn corrected(&self, mut sought: [f64; SIZE], matrix: &Factors) -> Option<Solution> {
+    fn corrected(
+        &self,
+        mut sought: [f64; SIZE],
+        matrix: &Factors<LARGEST_DEGREE>,
+    ) -> Option<Solution> {
         let motion = self.moves(&sought)?;
         let mut residual = self.fresh_residual(self.march.level + 1);
         self.residual(&sought, &motion, &mut residual);
@@ -364,7 +374,7 @@ impl Equations<'_> {
             .then(|| self.solution(&sought, &motion, waves))
     }
 
-    /// Size of what is sought.
+    /// Size of the unknown.
     fn scale(&self, sought: &[f64; SIZE]) -> f64 {
         let n = self.march.nodes.degree;
         match self.known {
@@ -392,7 +402,7 @@ impl Equations<'_> {
     }
 
     /// Whether time rises and the radius stays positive; the last instants may be shorter than their error.
-    fn goes_on(&self, motion: &Motion) -> bool {
+    fn goes_on(&self, motion: &PieceMotion) -> bool {
         let n = self.march.nodes.degree;
         let closed = motion.radius[n] <= CLOSED;
         let slack = f64::from(closed) * SLACK * self.march.accuracy;
@@ -401,11 +411,11 @@ impl Equations<'_> {
         rises && positive && (closed || motion.time_slope[n] > 0.0)
     }
 
-    fn solution(&self, sought: &[f64; SIZE], motion: &Motion, waves: f64) -> Solution {
+    fn solution(&self, sought: &[f64; SIZE], motion: &PieceMotion, waves: f64) -> Solution {
         let (nodes, start) = (self.march.nodes, self.march.state);
         let n = nodes.degree;
         let weights = &nodes.integral[n];
-        let mut travel = [0.0; LARGEST];
+        let mut travel = [0.0; LARGEST_DEGREE];
         let mut dissipated = 0.0;
         for j in 1..=n {
             travel[j - 1] = motion.velocity[j] * motion.time_slope[j];
@@ -423,7 +433,7 @@ impl Equations<'_> {
         let [a, b, c] = [2, 1, 0].map(|k| modes[nodes.order() - k].abs());
         let continued = if b < a { b * b / a } else { b };
         Solution {
-            piece: Piece {
+            piece: ContactPiece {
                 law: self.march.law,
                 time,
                 radius,
@@ -449,7 +459,7 @@ impl Equations<'_> {
     }
 }
 
-/// Takes a part of a change from what is sought beyond the start; the size of the change.
+/// Subtracts a part of a change from the unknown beyond the start, and returns the size of the change.
 fn changed(sought: &mut [f64; SIZE], factor: f64, change: &[f64]) -> f64 {
     for (value, change) in sought[1..].iter_mut().zip(change) {
         *value -= factor * change;

@@ -1,39 +1,39 @@
 //! Pieces after pieces from the touch until the contact has mostly opened, then in the radius until it is zero.
 
 use crate::error::MarchError;
-use crate::growing::arrivals::{Piece, State};
+use crate::growing::arrivals::{ContactPiece, State};
 use crate::growing::equations::{Equations, Errors, Independent, March, Solution};
-use crate::growing::nodes::{Nodes, Polynomial, SIZE};
-use crate::growing::waves::{GrowingContact, LEVELS, PunchWaves};
+use crate::growing::nodes::{Polynomial, RadauNodes, SIZE};
+use crate::law::branch::{Branch, Law};
 use crate::law::hertz::CONTACT_TIME;
 use crate::numeric::quadrature::rising_root;
-use crate::plastic::branch::{Branch, Law};
 use crate::units::INVERSE_MASS;
+use crate::waves::punch::{GrowingContact, LEVELS, PunchWaves};
 use std::sync::LazyLock;
 
-/// What is left of a change by the finer rule over the waves, at most.
-const LEFT: f64 = 0.3;
+/// Largest error after a change by the finer rule over the waves, over that change.
+const LEFT_BY_FINER_RULE: f64 = 0.3;
 
 /// Error at the end of a smooth piece over that inside.
-const SMOOTH: f64 = 0.1;
+const ERROR_OF_SMOOTH_END: f64 = 0.1;
 
 /// Pieces of a load at most, tried ones included.
-const MOST: usize = 1500;
+const MOST_PIECES: usize = 1500;
 
 /// Radius over the largest from which on the radius is the variable.
-const SWITCH: f64 = 0.75;
+const SWITCH_TO_RADIUS: f64 = 0.75;
 
 /// Slope of the indentation below which the time to the expected end is the variable.
-const LATE: f64 = 0.5;
+const LATE_SLOPE: f64 = 0.5;
 
 /// Largest part of the root of the time left that a piece takes.
-const LONGEST: f64 = 0.45;
+const LONGEST_PIECE: f64 = 0.45;
 
 /// Change by the finer rule, over the error of a piece, below which the next piece takes a coarser rule.
-const COARSER: f64 = 1e-2;
+const COARSER_RULE: f64 = 1e-2;
 
 /// Pieces in the radius at most, tried ones included.
-const MOST_AT_END: usize = 200;
+const MOST_PIECES_IN_RADIUS: usize = 200;
 
 /// Error of the time left when it is taken from the power law of the last piece.
 const POWER_LAW: f64 = 0.2;
@@ -50,7 +50,7 @@ impl<'a> March<'a> {
         Self {
             contact,
             accuracy,
-            nodes: Nodes::of(degree as usize, false),
+            nodes: RadauNodes::of(degree as usize, false),
             pieces: Vec::with_capacity(32),
             state: State::TOUCH,
             law: Law::HERTZ,
@@ -84,7 +84,7 @@ impl<'a> March<'a> {
     ) -> Option<(Solution, f64)> {
         // where what is known has no slope and the indentation has one, nothing in the piece has
         let flat = given.jet(0.0)[1] == 0.0 && self.state.slope < 0.0;
-        self.nodes = Nodes::of(self.nodes.degree, flat);
+        self.nodes = RadauNodes::of(self.nodes.degree, flat);
         loop {
             let equations = Equations {
                 march: self,
@@ -101,7 +101,7 @@ impl<'a> March<'a> {
             let [error, miss] =
                 [solution.truncated, solution.waves].map(|size| size * weight / self.accuracy);
             if error > 1.0 || miss <= 1.0 || self.level + 2 >= LEVELS {
-                let coarser = error <= 1.0 && miss < COARSER && known == Independent::Time;
+                let coarser = error <= 1.0 && miss < COARSER_RULE && known == Independent::Time;
                 self.level -= usize::from(coarser && self.level > 0);
                 return Some((solution, error));
             }
@@ -110,7 +110,7 @@ impl<'a> March<'a> {
         }
     }
 
-    /// Why it cannot go on.
+    /// The error of a march that cannot go on.
     pub(crate) fn lost(&self) -> MarchError {
         MarchError::NotFollowed {
             time: self.state.time,
@@ -120,11 +120,11 @@ impl<'a> March<'a> {
         }
     }
 
-    /// Takes a piece.
+    /// Appends a piece.
     pub(crate) fn accept(&mut self, known: Independent, solution: &Solution) {
         let end = solution.piece.end;
         let duration = end.time - self.state.time;
-        let error = solution.truncated + LEFT * solution.waves;
+        let error = solution.truncated + LEFT_BY_FINER_RULE * solution.waves;
         let force = 3.0 * solution.widest * solution.widest;
         match known {
             Independent::Time => {
@@ -137,7 +137,11 @@ impl<'a> March<'a> {
                 self.errors.momentum += solution.widest.powi(3) * error;
                 // the end of a piece converges at twice the order, but in the layer of the last instants
                 let layer = end.radius < 3.0 * self.contact.wave_time;
-                self.errors.end += if layer { error } else { SMOOTH * error };
+                self.errors.end += if layer {
+                    error
+                } else {
+                    ERROR_OF_SMOOTH_END * error
+                };
             }
         }
         // the rate of the lag is a difference of slopes
@@ -167,21 +171,21 @@ impl<'a> March<'a> {
         let mut late = false;
         let piece = |march: &Self, length: &mut f64| {
             let State { time, slope, .. } = march.state;
-            if slope < 0.0 && march.state.radius < SWITCH * march.widest {
+            if slope < 0.0 && march.state.radius < SWITCH_TO_RADIUS * march.widest {
                 return None;
             }
             let expected = march.expected_end();
-            if late != (slope < LATE) {
+            if late != (slope < LATE_SLOPE) {
                 late = !late;
                 *length = 1.0;
             }
             let given = if late {
-                *length = length.min(LONGEST);
+                *length = length.min(LONGEST_PIECE);
                 let left = (expected - time).sqrt();
                 Polynomial::power(left, -*length * left, 2).below(expected)
             } else {
                 let since = time.sqrt();
-                *length = length.min(LONGEST * (expected.sqrt() - since));
+                *length = length.min(LONGEST_PIECE * (expected.sqrt() - since));
                 Polynomial::power(since, *length, 2)
             };
             let guess = if march.pieces.is_empty() {
@@ -201,16 +205,22 @@ impl<'a> March<'a> {
             let place = |above| rising_root(rising, [0.0, above], 0.5 * above, 1e-16)[1];
             (solution.widest > limit).then(|| place(above.unwrap_or(1.0)))
         };
-        if self.until(MOST, Independent::Time, self.first_length(), piece, reached)? {
+        if self.until(
+            MOST_PIECES,
+            Independent::Time,
+            self.first_length(),
+            piece,
+            reached,
+        )? {
             self.state.radius = limit;
         }
         Ok(())
     }
 
-    /// `most` pieces, tried ones included, of a length that is told, until there is none or something happens in one: whether
+    /// At most `most` pieces, tried ones included, from a first `length`, until there is none or an event in one: whether
     /// it has.
     ///
-    /// `piece` gives what is known over a length, a guess of the rest, and whether it is the last; `event` the place in a
+    /// `piece` returns the known variable over a length, a guess of the unknown, and whether it is the last; `event` the place in a
     /// solution, with its error over the allowed one, where the piece is to end when it is tried once more.
     ///
     /// # Errors
@@ -307,10 +317,12 @@ impl<'a> March<'a> {
             before = now;
             let middle = u + 0.5 * step * rate;
             let depth = middle.max(0.0);
-            let force = if let Branch::Hertzian { .. } = self.law.branch {
-                depth.powf(1.5)
-            } else {
-                self.law.branch.at(depth.sqrt()).force
+            let force = match self.law.branch {
+                Branch::Hertzian { .. } => depth.powf(1.5),
+                Branch::Line { .. }
+                | Branch::Fit(_)
+                | Branch::Truncated { .. }
+                | Branch::OnSpring { .. } => self.law.branch.at(depth.sqrt()).force,
             };
             rate -= step * INVERSE_MASS * force;
             u = (middle + 0.5 * step * rate).max(least);
@@ -336,7 +348,7 @@ impl<'a> March<'a> {
         let mut again = 0;
         let (phi, wave_time) = (self.contact.target_share, self.contact.wave_time);
         let bare = (self.accuracy / (0.01 * phi * wave_time)).max(0.3 * wave_time);
-        for _ in 0..MOST_AT_END {
+        for _ in 0..MOST_PIECES_IN_RADIUS {
             let from = self.state.radius;
             let rate = self.law.branch.at(from).depth_slope / -self.state.slope;
             let left = rate * from / power;
@@ -410,7 +422,7 @@ impl<'a> March<'a> {
             displacement: start.displacement + start.velocity * left,
             ..start
         };
-        self.pieces.push(Piece {
+        self.pieces.push(ContactPiece {
             law: self.law,
             time: self.nodes.polynomial(&times),
             radius,

@@ -1,8 +1,17 @@
 //! The contact whose radius follows the load, to any accuracy.
 //!
-//! `uniform` steps the equation of the contact as it stands, with the response of a flat punch.
-//! Here it is turned into another one, whose terms are all smooth.
-//! The relaxation of a flat punch is a superposition of triangles over the slowness of its waves
+//! In Hertz's contact an increment of load is carried by a flat punch of the radius at that moment, and deflects both bodies
+//! by du; the half-space gives its part phi of each increment not at once but as the punch's waves allow:
+//!
+//! ```text
+//! d(t) = u(t) - phi int_0^t V_p((t - t') c1/a(t')) du(t'),     phi = E* (1 - nu^2)/E,     u = a^2
+//! ```
+//!
+//! No radius is free, and no static part is counted twice.
+//! Because du carries phi <= 1 of itself at most, the equation is well posed for every pair of materials; with increments
+//! shaped like Hertz's pressure it would not be for phi > 2/3.
+//!
+//! It is turned into another one, whose terms are all smooth: the relaxation of a flat punch is a superposition of triangles over the slowness of its waves
 //! ([`PunchWaves`](crate::PunchWaves)), V_p(t) = int (1 - t/X)_+ dmu, so that with du = 2 a da the memory integral can be done:
 //!
 //! ```text
@@ -21,8 +30,9 @@
 //! The integral over the waves is Gauss's rule of their measure, of 3 to 220 nodes as each piece needs.
 //!
 //! In reading order: `waves`, `equations` of a piece, solved at the `nodes` of its polynomials, and the `arrivals` of its
-//! waves, `march` from piece to piece, `checks` for what was taken for granted, `solved`, `work`; `dashpot` for the models in
+//! waves, `march` from piece to piece, `checks` of the assumptions, `solved`, `work`; `dashpot` for the models in
 //! closed form.
+//! A contact that the surface strikes again, or whose waves overtake each other, is refused.
 //! Measured against superposition in time of punches by another kernel formula (`tests/reference/growing.csv`).
 
 pub(crate) mod arrivals;
@@ -31,16 +41,16 @@ pub(crate) mod dashpot;
 pub(crate) mod equations;
 pub(crate) mod march;
 pub(crate) mod nodes;
+pub(crate) mod quick;
 pub(crate) mod solved;
-pub(crate) mod uniform;
-pub(crate) mod waves;
 pub(crate) mod work;
+pub(crate) mod yielding;
 
-use crate::disc::refine::Accuracy;
+use crate::accuracy::Accuracy;
 use crate::error::MarchError;
 use crate::growing::equations::March;
 use crate::growing::solved::SolvedContact;
-use crate::growing::waves::GrowingContact;
+use crate::waves::punch::GrowingContact;
 use halfspace::check;
 
 /// Least and largest tolerance.
@@ -49,16 +59,16 @@ const TOLERANCES: [f64; 2] = [1e-11, 1e-2];
 /// Error of a piece over the tolerance on the results, from a tolerance of 1e-5 on and below.
 ///
 /// Where pieces are few a second attempt costs more than smaller errors.
-const PIECE: [f64; 2] = [0.1, 0.3];
-const COARSE: f64 = 1e-5;
+const ERROR_OF_PIECE: [f64; 2] = [0.1, 0.3];
+const COARSE_TOLERANCE: f64 = 1e-5;
 
 /// Times that error where the first attempt has no end.
-const COARSER: f64 = 3.0;
+const COARSER_PIECES: f64 = 3.0;
 
 /// Least error of a piece.
-const FINEST: f64 = 1e-11;
+const FINEST_PIECE: f64 = 1e-11;
 
-/// Times that the pieces are made finer where the estimate exceeds what is asked.
+/// Attempts with finer pieces while the estimate exceeds the tolerance.
 const ATTEMPTS: usize = 4;
 
 /// Fraction of the estimate before above which a further attempt is not worth while.
@@ -73,9 +83,9 @@ const LENIENT: f64 = 100.0;
 /// Solves the impact of a striker on a contact whose radius follows the load.
 ///
 /// Force, contact time, restitution and displacement meet `accuracy.tolerance` by their estimates; so do loss
-/// and deflection where they are asked for.
+/// and deflection, if they have a tolerance.
 /// Near the limits of double precision (phi within 1e-3 of one and tolerances of 1e-8 and below) the estimates
-/// may be up to a hundred times what was asked.
+/// may be up to a hundred times the tolerance.
 /// Valid for target shares in (0, 1] and wave times up to a few collision times; all scenes of
 /// `tests/growing.rs` are solved at 1e-4 to 1e-10.
 ///
@@ -101,7 +111,8 @@ pub fn solve_growing(
     let [least, largest] = TOLERANCES;
     let parts = [Some(accuracy.tolerance), accuracy.loss, accuracy.deflection];
     let asked = parts.into_iter().flatten().fold(largest, f64::min);
-    let mut piece = (PIECE[usize::from(asked < COARSE)] * asked.max(least)).max(FINEST);
+    let mut piece = (ERROR_OF_PIECE[usize::from(asked < COARSE_TOLERANCE)] * asked.max(least))
+        .max(FINEST_PIECE);
     let (mut best, mut before) = (None, f64::INFINITY);
     for attempt in 0..ATTEMPTS {
         let mut march = March::new(*contact, piece);
@@ -116,17 +127,17 @@ pub fn solve_growing(
                     return Ok(solved);
                 }
                 // finer pieces that hardly help cost seconds
-                let stuck = piece <= FINEST || excess > STUCK * before;
+                let stuck = piece <= FINEST_PIECE || excess > STUCK * before;
                 if excess < before {
                     (best, before) = (Some(solved), excess);
                 }
                 if stuck {
                     break;
                 }
-                piece = (piece * (0.3 / excess).max(0.1)).max(FINEST);
+                piece = (piece * (0.3 / excess).max(0.1)).max(FINEST_PIECE);
             }
             // pieces that are finer than the last instants allow
-            (Err(MarchError::NotFollowed { .. }), None) if attempt == 0 => piece *= COARSER,
+            (Err(MarchError::NotFollowed { .. }), None) if attempt == 0 => piece *= COARSER_PIECES,
             (Err(error), None) => return Err(error),
             // finer pieces than the last instants of a stiff striker allow
             (Err(_), Some(_)) => break,

@@ -1,7 +1,7 @@
-//! Polynomials on a piece and collocation at Radau's nodes: what a piece of degree n needs, made once for each n, and its
-//! small linear systems.
+//! Polynomials on a piece and collocation at Radau's nodes: the matrices of a degree n, made once for each n.
 
 use crate::numeric::gauss::radau;
+use crate::numeric::linear::dot;
 use halfspace::{gauss, lagrange};
 use std::sync::OnceLock;
 
@@ -57,7 +57,7 @@ impl Polynomial {
         self.jets(&[s]).map(|[one]| one)
     }
 
-    /// The same at some places together; inlined, so that what is not taken of it costs nothing.
+    /// The same at several places together; inlined, so that unused slopes cost nothing.
     #[inline]
     pub(crate) fn jets<const N: usize>(&self, places: &[f64; N]) -> [[f64; N]; 3] {
         let x = places.map(|s| 2.0 * s - 1.0);
@@ -74,21 +74,16 @@ impl Polynomial {
 }
 
 /// Largest degree of a piece.
-pub(crate) const LARGEST: usize = 16;
+pub(crate) const LARGEST_DEGREE: usize = 16;
 
 /// Values at 0 and the nodes of such a piece.
-pub(crate) const SIZE: usize = LARGEST + 1;
-
-/// Scalar product.
-pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(x, y)| x * y).sum()
-}
+pub(crate) const SIZE: usize = LARGEST_DEGREE + 1;
 
 /// Matrices of the polynomials of degree n through 0 and the n nodes of Radau's rule on (0, 1], or of those of a degree more
 /// that have no slope at 0.
 #[derive(Debug)]
-pub(crate) struct Nodes {
-    /// Nodes n; the degree is [`Self::order`].
+pub(crate) struct RadauNodes {
+    /// Number of nodes n; the degree is [`Self::order`].
     pub(crate) degree: usize,
     /// Whether they have no slope at 0.
     flat: bool,
@@ -106,11 +101,12 @@ pub(crate) struct Nodes {
     barycentric: Vec<f64>,
 }
 
-impl Nodes {
-    /// The nodes of a degree in [2, `LARGEST`], of polynomials that have no slope at 0 or may have one.
+impl RadauNodes {
+    /// The nodes of a degree in [2, `LARGEST_DEGREE`], of polynomials that have no slope at 0 or may have one.
     pub(crate) fn of(degree: usize, flat: bool) -> &'static Self {
-        static ALL: [[OnceLock<Nodes>; SIZE]; 2] = [const { [const { OnceLock::new() }; SIZE] }; 2];
-        let degree = degree.clamp(2, LARGEST - usize::from(flat));
+        static ALL: [[OnceLock<RadauNodes>; SIZE]; 2] =
+            [const { [const { OnceLock::new() }; SIZE] }; 2];
+        let degree = degree.clamp(2, LARGEST_DEGREE - usize::from(flat));
         ALL[usize::from(flat)][degree].get_or_init(|| Self::new(degree, flat))
     }
 
@@ -229,7 +225,7 @@ fn matrix([rows, columns]: [usize; 2], entry: impl Fn(usize, usize) -> f64) -> V
     (0..rows).map(row).collect()
 }
 
-/// Row k: what the Legendre polynomials of degree 0 to n > 0 hold of x^k.
+/// Row k: coefficients of x^k in the Legendre polynomials of degree 0 to n > 0.
 fn powers(n: usize) -> Vec<Vec<f64>> {
     let mut rows = vec![vec![0.0; n + 1]; n + 1];
     (rows[0][0], rows[1][1]) = (1.0, 1.0);
@@ -243,78 +239,14 @@ fn powers(n: usize) -> Vec<Vec<f64>> {
     rows
 }
 
-/// The triangular factors of a small dense matrix, rows exchanged.
-#[derive(Debug, Clone)]
-pub(crate) struct Factors {
-    size: usize,
-    matrix: [[f64; LARGEST]; LARGEST],
-    rows: [usize; LARGEST],
-}
-
-impl Factors {
-    /// Room for a matrix of `size` rows, filled by the caller.
-    pub(crate) fn room(size: usize) -> Self {
-        Self {
-            size,
-            matrix: [[0.0; LARGEST]; LARGEST],
-            rows: [0; LARGEST],
-        }
-    }
-
-    /// A row of the matrix, to be filled before [`Self::eliminate`].
-    pub(crate) fn row(&mut self, i: usize) -> &mut [f64] {
-        &mut self.matrix[i][..self.size]
-    }
-
-    /// Eliminates with row pivoting; false where the matrix is singular.
-    pub(crate) fn eliminate(&mut self) -> bool {
-        let n = self.size;
-        let matrix = &mut self.matrix[..n];
-        for k in 0..n {
-            let size = |i: usize| matrix[i][k].abs();
-            let pivot = (k + 1..n).fold(k, |best, i| if size(i) > size(best) { i } else { best });
-            self.rows[k] = pivot;
-            matrix.swap(k, pivot);
-            let (upper, lower) = matrix.split_at_mut(k + 1);
-            let (diagonal, top) = (upper[k][k], &upper[k][k + 1..n]);
-            if diagonal == 0.0 || !diagonal.is_finite() {
-                return false;
-            }
-            for row in lower {
-                let factor = row[k] / diagonal;
-                row[k] = factor;
-                for (a, b) in row[k + 1..n].iter_mut().zip(top) {
-                    *a -= factor * b;
-                }
-            }
-        }
-        true
-    }
-
-    /// Solves for a right side in place.
-    pub(crate) fn solve(&self, right: &mut [f64]) {
-        let n = self.size;
-        for k in 0..n {
-            right.swap(k, self.rows[k]);
-        }
-        for k in 0..n {
-            right[k] -= dot(&self.matrix[k][..k], &right[..k]);
-        }
-        for k in (0..n).rev() {
-            let row = &self.matrix[k];
-            right[k] = (right[k] - dot(&row[k + 1..n], &right[k + 1..n])) / row[k];
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn a_polynomial_is_met_with_its_slope_and_integral() {
-        for n in 2..=LARGEST {
-            let nodes = Nodes::of(n, false);
+        for n in 2..=LARGEST_DEGREE {
+            let nodes = RadauNodes::of(n, false);
             let f = |s: f64| 1.0 / (2.0 + s);
             let values: Vec<f64> = nodes.places.iter().map(|&s| f(s)).collect();
             let found = nodes.polynomial(&values);
@@ -344,8 +276,8 @@ mod tests {
 
     #[test]
     fn a_polynomial_without_a_slope_at_its_start_is_met() {
-        for n in 3..LARGEST {
-            let nodes = Nodes::of(n, true);
+        for n in 3..LARGEST_DEGREE {
+            let nodes = RadauNodes::of(n, true);
             let f = |s: f64| 1.0 / (2.0 + s * s);
             let values: Vec<f64> = nodes.places.iter().map(|&s| f(s)).collect();
             let found = nodes.polynomial(&values);
@@ -367,23 +299,6 @@ mod tests {
                 );
             }
         }
-    }
-
-    #[test]
-    fn a_system_that_needs_its_rows_exchanged() {
-        let matrix = [0.0, 2.0, 1.0, 1.0, 1.0, 0.0, 3.0, 0.0, 1.0];
-        let mut factors = Factors::room(3);
-        for i in 0..3 {
-            factors.row(i).copy_from_slice(&matrix[3 * i..3 * i + 3]);
-        }
-        assert!(factors.eliminate());
-        let mut found = [7.0, 3.0, 6.0];
-        factors.solve(&mut found);
-        for (x, expected) in found.iter().zip([1.0, 2.0, 3.0]) {
-            assert!((x - expected).abs() < 1e-14, "{found:?}");
-        }
-        let mut singular = Factors::room(2);
-        assert!(!singular.eliminate());
     }
 
     #[test]

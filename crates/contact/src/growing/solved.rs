@@ -1,34 +1,39 @@
 //! A contact that has been solved: its results, their errors, and its history at any time.
 
-use crate::growing::arrivals::Piece;
+use crate::growing::arrivals::ContactPiece;
 use crate::growing::equations::{Errors, March};
-use crate::growing::nodes::{LARGEST, Nodes};
+use crate::growing::nodes::{LARGEST_DEGREE, RadauNodes};
+use crate::law::branch::Branch;
+use crate::law::cut::nested;
+use crate::law::yielding::{Flow, FlowLaw, Yielding};
 use crate::numeric::quadrature::{GAUSS_8, find_root, gauss, rising_root};
-use crate::plastic::branch::{Branch, nested};
-use crate::plastic::{Flow, FlowLaw, Yielding};
 use crate::summary::{Estimates, Instant, SMALL_LOSS, Summary};
 use crate::units::INVERSE_MASS;
 
 /// A contact whose radius follows the load, in collision units.
 #[derive(Debug, Clone)]
 pub struct SolvedContact {
-    pub(crate) pieces: Vec<Piece>,
-    /// When each piece ends.
+    pub(crate) pieces: Vec<ContactPiece>,
+    /// Time at which each piece ends.
     pub ends: Vec<f64>,
     /// The results.
     pub summary: Summary,
     /// Their estimated errors.
     pub estimates: Estimates,
-    /// What has flowed, where the contact has yielded.
+    /// The plastic flow, if the contact has yielded.
     pub flow: Option<Flow>,
-    /// When the rate of the force jumps within the contact, or has a root: the onset of yield and the turning point of one
-    /// that yields, and where what is left of a cut pressure begins to open.
+    /// Times within the contact at which the rate of the force jumps or has a root: the onset of yield, the turning point, and
+    /// the instant at which the rest of a cut pressure begins to open.
     pub kinks: Vec<f64>,
     /// Work on the waves until each piece, over the kinetic energy.
     radiated: Vec<f64>,
 }
 
-/// Factors from the sums of the pieces' errors to those of the results, where they are not one.
+/// Factors from the sums of the pieces' errors to the estimated errors of the results, where they are not one.
+///
+/// Measured on random scenes at tolerances of 1e-4 to 1e-8: with these, 98 of 100 errors are below 0.2 (peak force), 0.7
+/// (contact time), 0.2 (restitution), 0.25 (loss), 1.1 (displacement) and 1.1 (force at any time) of their estimates.
+/// `cargo test -p hertzlamb-contact --test growing random -- --nocapture` prints them; it fails at a tenth of any factor.
 const PEAK_FORCE: f64 = 0.4;
 const CONTACT_TIME: f64 = 24.0;
 const RESTITUTION: f64 = 0.2;
@@ -68,7 +73,7 @@ impl SolvedContact {
     }
 
     /// With the difference of two routes to the loss.
-    fn of(pieces: Vec<Piece>, summary: Summary, errors: &Errors, energy: f64) -> Self {
+    fn of(pieces: Vec<ContactPiece>, summary: Summary, errors: &Errors, energy: f64) -> Self {
         let estimates = Estimates {
             peak_force: PEAK_FORCE * (errors.force + errors.momentum) / summary.peak_force,
             peak_force_time: errors.force + errors.momentum,
@@ -95,7 +100,7 @@ impl SolvedContact {
     pub(crate) fn with_dashpot(march: March<'_>) -> Self {
         let (mut pieces, contact_time) = (march.pieces, march.state.time);
         pieces.iter_mut().for_each(press);
-        let (peak_force, peak_force_time) = largest(&pieces, Piece::force);
+        let (peak_force, peak_force_time) = largest(&pieces, ContactPiece::force);
         let (peak_displacement, _) = largest(&pieces, |p, s| p.displacement.jet(s));
         let summary = Summary {
             peak_force,
@@ -117,7 +122,7 @@ impl SolvedContact {
     ) -> Self {
         let (mut pieces, contact_time) = (march.pieces, march.state.time);
         pieces.iter_mut().for_each(press);
-        let (peak_force, peak_force_time) = largest(&pieces, Piece::force);
+        let (peak_force, peak_force_time) = largest(&pieces, ContactPiece::force);
         let (peak_displacement, _) = largest(&pieces, |p, s| p.displacement.jet(s));
         let (mut radiated, mut lost) = (Vec::new(), 0.0);
         for piece in &pieces {
@@ -125,10 +130,10 @@ impl SolvedContact {
             lost += work_of(piece, 1.0);
         }
         // what a contact without force has not given back goes the way of the dashpot
-        let kept = march.law.branch.given_back(march.state.radius.max(0.0));
+        let kept = march.law.branch.work(march.state.radius.max(0.0));
         lost += 2.0 * INVERSE_MASS * kept;
         let (back, from) = yielding.unloading(top);
-        let flowed = 2.0 * INVERSE_MASS * (yielding.work(top) - back.given_back(from));
+        let flowed = 2.0 * INVERSE_MASS * (yielding.work(top) - back.work(from));
         let summary = Summary {
             peak_force,
             peak_force_time,
@@ -157,7 +162,7 @@ impl SolvedContact {
         let piece = self.pieces.get(index)?;
         let place = place_of(piece, time);
         let radius = piece.radius.value(place).max(0.0);
-        let stored = |branch: Branch, from| 2.0 * INVERSE_MASS * branch.given_back(from);
+        let stored = |branch: Branch, from| 2.0 * INVERSE_MASS * branch.work(from);
         let (stored, flowed) = if self.turned(time) {
             (stored(piece.law.branch, radius), flow.plastic_work)
         } else {
@@ -218,7 +223,7 @@ impl SolvedContact {
     }
 
     /// The piece that holds a time, and the place in it.
-    fn place(&self, time: f64) -> Option<(&Piece, f64)> {
+    fn place(&self, time: f64) -> Option<(&ContactPiece, f64)> {
         let piece = self.pieces.get(self.index(time))?;
         Some((piece, place_of(piece, time)))
     }
@@ -264,19 +269,20 @@ impl SolvedContact {
 }
 
 /// Places of a piece among which the largest deflection of a contact that yields is.
-const SAMPLES: u32 = 16;
+const SAMPLES_OF_DEFLECTION: u32 = 16;
 
 /// The largest deflection of the surface, among samples of the pieces.
-fn largest_deflection(pieces: &[Piece]) -> f64 {
+fn largest_deflection(pieces: &[ContactPiece]) -> f64 {
     let deflections = pieces.iter().flat_map(|piece| {
-        let places = (0..=SAMPLES).map(|i| f64::from(i) / f64::from(SAMPLES));
+        let places =
+            (0..=SAMPLES_OF_DEFLECTION).map(|i| f64::from(i) / f64::from(SAMPLES_OF_DEFLECTION));
         places.map(|place| deflected(piece, place))
     });
     deflections.fold(0.0, f64::max)
 }
 
 /// Deflection of the surface, which the indentation of the law does not contain.
-fn deflected(piece: &Piece, place: f64) -> f64 {
+fn deflected(piece: &ContactPiece, place: f64) -> f64 {
     let here = piece.law.branch.at(piece.radius.value(place).max(0.0));
     let displacement = piece.displacement.value(place);
     let hertz = || displacement - piece.force(place)[0].max(0.0).cbrt().powi(2);
@@ -284,13 +290,19 @@ fn deflected(piece: &Piece, place: f64) -> f64 {
         (None, _) => displacement - here.depth,
         (Some(_), Branch::OnSpring { .. }) => hertz(),
         // a dashpot has no displacement for it: by its force
-        (Some(lag), _) => -lag * here.stiffness * piece.velocity.value(place),
+        (
+            Some(lag),
+            Branch::Line { .. }
+            | Branch::Fit(_)
+            | Branch::Hertzian { .. }
+            | Branch::Truncated { .. },
+        ) => -lag * here.stiffness * piece.velocity.value(place),
     }
 }
 
 /// Makes the force of a piece, which is not the cube of its radius, a polynomial.
-fn press(piece: &mut Piece) {
-    let nodes = Nodes::of(LARGEST, false);
+fn press(piece: &mut ContactPiece) {
+    let nodes = RadauNodes::of(LARGEST_DEGREE, false);
     let force = |&s: &f64| {
         let radius = piece.radius.value(s).max(0.0);
         let here = piece.law.branch.at(radius);
@@ -301,14 +313,14 @@ fn press(piece: &mut Piece) {
 }
 
 /// Work on the waves from the start of a piece to a place, over the kinetic energy before the contact.
-fn work_of(piece: &Piece, place: f64) -> f64 {
+fn work_of(piece: &ContactPiece, place: f64) -> f64 {
     let half = 0.5 * place;
     let losing = |from| gauss(&GAUSS_8, from, from + half, |s| piece.losing(s));
     2.0 * INVERSE_MASS * (losing(0.0) + losing(half))
 }
 
 /// The place of a time in a piece: its time rises.
-pub(crate) fn place_of(piece: &Piece, time: f64) -> f64 {
+pub(crate) fn place_of(piece: &ContactPiece, time: f64) -> f64 {
     if piece.time.degree == 2 {
         let [middle, slope, half] = [0, 1, 2].map(|k| piece.time.powers[k]);
         let away = time - middle;
@@ -325,12 +337,12 @@ pub(crate) fn place_of(piece: &Piece, time: f64) -> f64 {
 }
 
 /// Parts of a piece in which an extremum is looked for.
-const PARTS: usize = 4;
+const PARTS_OF_PIECE: usize = 4;
 
 /// The largest of a quantity over pieces and its time: from its value, slope and curvature at a place of a piece.
-fn largest(pieces: &[Piece], curve: impl Fn(&Piece, f64) -> [f64; 3]) -> (f64, f64) {
+fn largest(pieces: &[ContactPiece], curve: impl Fn(&ContactPiece, f64) -> [f64; 3]) -> (f64, f64) {
     let mut best = (0.0, 0.0);
-    let mut candidate = |piece: &Piece, place: f64| {
+    let mut candidate = |piece: &ContactPiece, place: f64| {
         let [found, ..] = curve(piece, place);
         if found > best.0 {
             best = (found, piece.time.value(place));
@@ -338,10 +350,10 @@ fn largest(pieces: &[Piece], curve: impl Fn(&Piece, f64) -> [f64; 3]) -> (f64, f
     };
     for piece in pieces {
         candidate(piece, 1.0);
-        let rises = |part: usize| curve(piece, part as f64 / PARTS as f64)[1] > 0.0;
-        for part in 1..=PARTS {
+        let rises = |part: usize| curve(piece, part as f64 / PARTS_OF_PIECE as f64)[1] > 0.0;
+        for part in 1..=PARTS_OF_PIECE {
             if rises(part - 1) && !rises(part) {
-                let [from, to] = [part - 1, part].map(|part| part as f64 / PARTS as f64);
+                let [from, to] = [part - 1, part].map(|part| part as f64 / PARTS_OF_PIECE as f64);
                 let slope = |place: f64| {
                     let [_, slope, bend] = curve(piece, place);
                     [slope, bend]

@@ -13,30 +13,33 @@
 //!
 //! Theory: `docs/theory.md` (T47, T56).
 
-use crate::energy::work;
 use crate::growing::solved::SolvedContact;
-use crate::growing::waves::GrowingContact;
-use crate::numeric::quadrature::{GAUSS_4, GAUSS_8, Local, gauss};
+use crate::numeric::quadrature::{GAUSS_4, GAUSS_8, LocalPolynomial, gauss};
+use crate::numeric::work::work;
+use crate::waves::punch::GrowingContact;
 use std::f64::consts::PI;
 
 /// Samples of the contact, in the angle in which it is smooth at both ends, and the rule over the waves: for
-/// tolerances down to [`COARSE`] and below.
-const SAMPLES: [usize; 2] = [48, 192];
-const LEVELS: [usize; 2] = [1, 3];
-const COARSE: f64 = 1e-5;
+/// tolerances down to [`COARSE_TOLERANCE`] and below.
+const SAMPLES_OF_CONTACT: [usize; 2] = [48, 192];
+const LEVELS_OF_RULE: [usize; 2] = [1, 3];
+const COARSE_TOLERANCE: f64 = 1e-5;
 
 /// Work of a contact that was solved on the half-space, relative to the kinetic energy before, by superposition of the
 /// punches that carry its load: independent of the striker's momentum.
 ///
-/// Within 1e-3 of itself for tolerances down to 1e-5, within 2e-5 below, beside the error of the force; for memories up
+/// Relative error: 1e-3 for tolerances down to 1e-5, 2e-5 below, in addition to the error of the force; for memories up
 /// to the length of the contact.
 pub fn work_on_half_space(
     contact: &GrowingContact<'_>,
     solved: &SolvedContact,
     tolerance: f64,
 ) -> f64 {
-    let choice = usize::from(tolerance < COARSE);
-    let (samples, rule) = (SAMPLES[choice], contact.waves.rule(LEVELS[choice]));
+    let choice = usize::from(tolerance < COARSE_TOLERANCE);
+    let (samples, rule) = (
+        SAMPLES_OF_CONTACT[choice],
+        contact.waves.rule(LEVELS_OF_RULE[choice]),
+    );
     let points = [&GAUSS_4[..], &GAUSS_8[..]][choice];
     let duration = solved.summary.contact_time;
     let time_of = |i: usize| duration * (0.5 * PI * (i as f64 / samples as f64)).sin().powi(2);
@@ -51,7 +54,7 @@ pub fn work_on_half_space(
         }
         let place = 2.0 * part.sqrt().asin() / PI * samples as f64;
         let from = (place as usize).saturating_sub(1).min(samples - 3);
-        let radius = Local::<4>::at(&radii, from).value(place - from as f64);
+        let radius = LocalPolynomial::<4>::at(&radii, from).value(place - from as f64);
         radius.max(0.0).powi(3)
     };
     let met: Vec<f64> = (0..=samples)

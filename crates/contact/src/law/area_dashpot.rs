@@ -1,6 +1,6 @@
 //! Radiation as a dashpot that grows with the contact's area, to the second order in the memory.
 //!
-//! For a memory short beside the contact the equation of the growing contact
+//! For a memory that is short compared with the contact, the equation of the growing contact
 //! ([`solve_growing`](crate::growing::solve_growing)) is, by Lagrange's inversion of its delays,
 //!
 //! ```text
@@ -21,8 +21,8 @@
 //! the third order, fitted but for its e, which takes phi M_3 tau^3/24 int p'' (p^(5/3))'' dt from the loss; and the contact ends while the
 //! striker is still pressed in by 4 b f(phi) v^2, since the last instants are shorter than any memory.
 
-use crate::growing::waves::GrowingContact;
 use crate::summary::{Estimates, SMALL_LOSS, Summary};
+use crate::waves::punch::GrowingContact;
 use halfspace::chebyshev;
 
 /// The terms of the expansion in the memory, in collision units.
@@ -41,7 +41,7 @@ pub struct AreaDashpot {
 /// Largest lag of the tables.
 pub const LARGEST_LAG: f64 = 0.2;
 
-/// What the expansion leaves out, for a lag c and the punch's memory T, 2 tau/c_R at the largest approach, both in collision times: bounds that 99.5 of 100
+/// Truncation error of the expansion, for a lag c and the punch's memory T, 2 tau/c_R at the largest approach, both in collision times: bounds that 99.5 of 100
 /// random scenes keep (`tests/growing.rs`).
 ///
 /// ```text
@@ -160,7 +160,7 @@ fn depth_factor(target_share: f64, shape: f64) -> f64 {
     1.0 - fall * target_share + rest * target_share.powi(8)
 }
 
-/// What c^3, c b and e add to the results beyond the equation, fitted to [`solve_growing`](crate::growing::solve_growing).
+/// Terms of c^3, c b and e that the results have beyond the equation, fitted to [`solve_growing`](crate::growing::solve_growing).
 ///
 /// The part of e in the loss is -(1/24) int p'' (p^(5/3))'' dt of Hertz's pulse.
 const PEAK_FORCE: [f64; 3] = [6.57, -10.70, 0.072_7];
@@ -209,9 +209,9 @@ const BY_B: [[f64; 7]; 7] = [
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::growing::waves::PunchWaves;
     use crate::law::radiation::radiation;
     use crate::law::reference::Course;
+    use crate::waves::punch::PunchWaves;
     use halfspace::Medium;
 
     #[test]

@@ -1,13 +1,18 @@
-//! Contact laws in closed form or without memory, one file each.
+//! Contact laws, one file each: closed forms, and the branches of a contact that yields.
 //!
-//! [`radiation`] comes first, [`quasi_static`] is the same on a disc with a static spring of its own, [`area_dashpot`] goes
-//! to the next orders.
+//! In reading order: [`radiation`], [`quasi_static`] the same on a disc with a static spring of its own, [`area_dashpot`] to
+//! the next orders; `cut` and `fit`, the laws of flow, `branch` a law over the radius of contact, `yielding` the branches that
+//! follow each other.
 
 pub mod area_dashpot;
+pub(crate) mod branch;
+pub(crate) mod cut;
+pub(crate) mod fit;
 pub mod quasi_static;
 pub mod radiation;
 #[cfg(test)]
 pub(crate) mod reference;
+pub(crate) mod yielding;
 
 /// Hertz's closed form (45)-(47): no waves, restitution 1.
 ///

@@ -1,4 +1,4 @@
-//! Rules beside Gauss and Legendre's: Radau's, and Gauss's of a measure given by many point masses.
+//! Further rules of quadrature: Radau's, and Gauss's of a measure given by many point masses.
 
 /// The n nodes of Radau's rule on (0, 1] that holds the right end, ascending: eigenvalues of Legendre's Jacobi matrix whose
 /// last entry makes the end one of them.

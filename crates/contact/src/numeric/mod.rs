@@ -6,5 +6,7 @@
 
 pub(crate) mod cubic;
 pub(crate) mod gauss;
+pub(crate) mod linear;
 pub(crate) mod quadrature;
 pub(crate) mod series;
+pub(crate) mod work;

@@ -1,6 +1,8 @@
 //! Gauss-Legendre rules on [0, 1] and local polynomials on equidistant nodes.
 
 /// Node and weight pairs of the 4-point rule on [0, 1]; exact to degree 7.
+///
+/// Constants, not `halfspace::gauss`, whose rules are made at run time: sums over them are inlined.
 pub(crate) const GAUSS_4: [(f64, f64); 4] = [
     (0.069_431_844_202_973_71, 0.173_927_422_568_726_93),
     (0.330_009_478_207_571_87, 0.326_072_577_431_273_07),
@@ -67,12 +69,12 @@ pub(crate) fn in_panels(from: f64, to: f64, f: impl Fn(f64) -> f64) -> f64 {
 
 /// A polynomial through N values at x = 0, 1, .., N - 1 in Newton's form.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Local<const N: usize> {
+pub(crate) struct LocalPolynomial<const N: usize> {
     /// Forward differences over k!.
     differences: [f64; N],
 }
 
-impl<const N: usize> Local<N> {
+impl<const N: usize> LocalPolynomial<N> {
     pub(crate) fn new(values: [f64; N]) -> Self {
         let mut differences = values;
         for k in 1..N {
@@ -176,7 +178,10 @@ pub(crate) fn peak(samples: &[f64]) -> (f64, f64) {
         return (best as f64, largest);
     }
     let from = best.saturating_sub(2).min(samples.len() - 5);
-    let (local, centre) = (Local::<5>::at(samples, from), (best - from) as f64);
+    let (local, centre) = (
+        LocalPolynomial::<5>::at(samples, from),
+        (best - from) as f64,
+    );
     let [low, high] = [(centre - 1.0).max(0.0), (centre + 1.0).min(4.0)];
     let slope = |x: f64| {
         let [_, slope, half_curvature] = local.jet(x);
@@ -196,6 +201,17 @@ pub(crate) fn peak(samples: &[f64]) -> (f64, f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use halfspace::gauss::rule;
+
+    #[test]
+    fn the_constants_are_the_rules_of_gauss_and_legendre() {
+        for constants in [&GAUSS_4[..], &GAUSS_8[..]] {
+            let exact = rule(constants.len()).on(0.0, 1.0);
+            for (&(x, weight), (node, of_node)) in constants.iter().zip(exact) {
+                assert!((x - node).abs() < 1e-15 && (weight - of_node).abs() < 1e-15);
+            }
+        }
+    }
 
     #[test]
     fn rules_integrate_their_degree() {
@@ -220,7 +236,7 @@ mod tests {
     #[test]
     fn a_local_polynomial_is_exact() {
         let f = |x: f64| 1.0 - 2.0 * x + 0.5 * x * x - 0.25 * x.powi(3) + 0.125 * x.powi(4);
-        let local = Local::<5>::new(std::array::from_fn(|i| f(i as f64)));
+        let local = LocalPolynomial::<5>::new(std::array::from_fn(|i| f(i as f64)));
         let [value, slope, _] = local.jet(1.7);
         assert!((value - f(1.7)).abs() < 1e-13);
         let expected = -2.0 + 1.7 - 0.75 * 1.7 * 1.7 + 0.5 * 1.7_f64.powi(3);

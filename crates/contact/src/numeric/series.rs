@@ -3,12 +3,12 @@
 use std::f64::consts::PI;
 
 /// Most nodes along a variable.
-const MOST: usize = 8;
+const MOST_COEFFICIENTS: usize = 8;
 
 /// A series in Chebyshev polynomials of two variables between -1 and 1, of the second in rows, of N results side by side
 /// in vector registers.
 #[derive(Debug)]
-pub(crate) struct Series<const N: usize> {
+pub(crate) struct PlaneSeries<const N: usize> {
     /// Coefficients of each row that are kept.
     rows: Vec<usize>,
     coefficients: Vec<[f64; N]>,
@@ -32,7 +32,7 @@ fn weight(k: usize, i: usize, n: usize) -> f64 {
     2.0 * halved(k) * halved(i) * angle.cos() / (n - 1) as f64
 }
 
-impl<const N: usize> Series<N> {
+impl<const N: usize> PlaneSeries<N> {
     /// Through values at so many nodes of each variable, without the last coefficients of a row that are all below `least` of
     /// their result's mean; nothing where a value is missing.
     pub(crate) fn through(
@@ -71,7 +71,7 @@ impl<const N: usize> Series<N> {
     /// Its values.
     pub(crate) fn at(&self, [x, y]: [f64; 2]) -> [f64; N] {
         let mut polynomials = [1.0, x, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
-        for k in 2..MOST {
+        for k in 2..MOST_COEFFICIENTS {
             polynomials[k] = 2.0 * x * polynomials[k - 1] - polynomials[k - 2];
         }
         let mut rest = &self.coefficients[..];
@@ -106,7 +106,7 @@ mod tests {
             })
         };
         for nodes in [[5, 5], [7, 7]] {
-            let series = Series::through(nodes, 1e-15, |place| Some(of(place))).unwrap();
+            let series = PlaneSeries::through(nodes, 1e-15, |place| Some(of(place))).unwrap();
             for i in 0..40 {
                 let place =
                     [0.754_877, 0.569_84].map(|step| 2.0 * (f64::from(i) * step).fract() - 1.0);
@@ -115,14 +115,14 @@ mod tests {
                 }
             }
         }
-        let line = Series::through([7, 1], 1e-15, |[x, _]| Some([x.powi(6); 8])).unwrap();
+        let line = PlaneSeries::through([7, 1], 1e-15, |[x, _]| Some([x.powi(6); 8])).unwrap();
         assert!((line.at([0.3, 0.0])[7] - 0.3_f64.powi(6)).abs() < 1e-15);
-        assert!(Series::through([5, 1], 0.0, |[x, _]| (x > -0.9).then_some([x; 8])).is_none());
+        assert!(PlaneSeries::through([5, 1], 0.0, |[x, _]| (x > -0.9).then_some([x; 8])).is_none());
     }
 
     #[test]
     fn what_is_small_is_left_out() {
-        let series = Series::through([7, 7], 1e-6, |[x, y]| {
+        let series = PlaneSeries::through([7, 7], 1e-6, |[x, y]| {
             Some([1.0 + 0.1 * x + 0.1 * y + 1e-8 * x.powi(5) * y.powi(5); 8])
         });
         assert_eq!(series.unwrap().rows, [2, 1, 0, 0, 0, 0, 0]);

@@ -10,6 +10,7 @@ use crate::error::SceneError;
 use crate::scene::keys::{FINITE, POSITIVE, Range};
 use crate::scene::section::TomlSection;
 use contact::choice;
+use halfspace::random::mix;
 use std::f64::consts::{FRAC_1_SQRT_2, TAU};
 
 /// The draws of one key.
@@ -173,14 +174,6 @@ const LARGEST_NORMAL: f64 = 8.66;
 fn normal(stream: u64, index: u64) -> f64 {
     let [radius, angle] = [0, 1].map(|which| uniform(stream, index, which));
     (-2.0 * radius.ln()).sqrt() * (TAU * angle).cos()
-}
-
-/// The finaliser of splitmix64 after one step of its sequence.
-fn mix(state: u64) -> u64 {
-    let mut z = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
-    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    z ^ (z >> 31)
 }
 
 /// Open on both sides: keys that follow each other wholly are one key.

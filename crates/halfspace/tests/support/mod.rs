@@ -109,27 +109,5 @@ pub(crate) fn line(label: &str, errors: &[f64]) -> Quantiles {
     quantiles
 }
 
-/// A small reproducible stream of numbers in [0, 1).
-pub(crate) struct Stream(u64);
-
-impl Stream {
-    pub(crate) fn new(seed: u64) -> Self {
-        Self(seed)
-    }
-
-    pub(crate) fn next(&mut self) -> f64 {
-        // SplitMix64
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut x = self.0;
-        x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((x ^ (x >> 31)) >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    pub(crate) fn within(&mut self, from: f64, to: f64) -> f64 {
-        from + (to - from) * self.next()
-    }
-}
-
 /// The number of fields, to tie [`NAMES`] to [`FIELDS`].
 pub(crate) const COUNT: usize = FIELDS.len();

@@ -5,18 +5,15 @@
 
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 
-#[path = "../../../contact/tests/support/mod.rs"]
-mod support;
-
 use crate::excitation::Excitation;
 use crate::impact::Impact;
 use crate::kernels::KernelSource;
 use contact::{HalfSpace, Material, Model, Striker};
+use halfspace::random::Stream;
 use halfspace::{FIELDS, Kernel, Profile, Six};
 use rayon::prelude::*;
 use std::env;
 use std::f64::consts::PI;
-use support::Draws;
 
 /// Gauss-Kronrod rule of 7 and 15 nodes on [-1, 1]: node, weight of 15, weight of 7 (Piessens et al. 1983, QUADPACK).
 const KRONROD: [[f64; 3]; 8] = [
@@ -218,7 +215,7 @@ const REGIONS: [&str; 8] = [
 ];
 
 /// A place of a region, over the largest radius of the contact.
-fn place(region: usize, draws: &mut Draws) -> [f64; 2] {
+fn place(region: usize, draws: &mut Stream) -> [f64; 2] {
     match region {
         0 => [0.0, draws.log(0.03, 5.0)],
         1 => [0, 1].map(|_| draws.log(0.05, 1.0)),
@@ -248,13 +245,13 @@ const SOLIDS: [[f64; 3]; 10] = [
     [3e9, -0.3, 800.0],
 ];
 
-fn solid(draws: &mut Draws) -> Material {
+fn solid(draws: &mut Stream) -> Material {
     let [modulus, ratio, density] = SOLIDS[(draws.next() * SOLIDS.len() as f64) as usize];
     Material::elastic(modulus, ratio, density).unwrap()
 }
 
 /// A ball on a block; none where the model has no meaning.
-fn scene(draws: &mut Draws, tolerance: f64) -> Option<Excitation> {
+fn scene(draws: &mut Stream, tolerance: f64) -> Option<Excitation> {
     let target = HalfSpace::new(solid(draws)).unwrap();
     let ball = Striker::ball(solid(draws), draws.log(5e-4, 2e-2)).unwrap();
     let mut impact = Impact::new(target, ball, draws.log(0.05, 50.0));
@@ -268,7 +265,7 @@ fn instants(
     excitation: &Excitation,
     times: &[f64],
     place: [f64; 2],
-    draws: &mut Draws,
+    draws: &mut Stream,
 ) -> Vec<usize> {
     let (end, unit) = (excitation.end_s(), excitation.units().time_s());
     let fronts = excitation
@@ -349,7 +346,7 @@ fn fields_close_to_a_growing_contact() {
     let judged: Vec<_> = (0..scenes)
         .into_par_iter()
         .filter_map(|index| {
-            let mut draws = Draws(seed * 1_000_003 + index);
+            let mut draws = Stream::new(seed * 1_000_003 + index);
             let excitation = scene(&mut draws, tolerance)?;
             let fields_to = (1e-1 * tolerance).clamp(1e-12, 1e-3);
             let source = KernelSource::direct(excitation.medium(), fields_to).unwrap();

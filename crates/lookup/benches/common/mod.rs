@@ -1,5 +1,6 @@
 //! A table of the size of one slice of `standard`, filled with made-up numbers: what is timed is the lookup.
 
+use halfspace::random;
 use lookup::{Content, Origin, Role, Slice, Table, Verification};
 
 /// Cells of a trace.
@@ -67,11 +68,8 @@ pub fn table() -> Table {
 /// Bytes that a trace of plain averages reads off the grid: all nodes of the stencil, all fields and cells.
 pub const BYTES: usize = POINTS * POINTS * 6 * STORED * size_of::<f32>();
 
-/// Number `index` of a fixed sequence in [0, 1) (SplitMix64).
+/// Number `index` of a fixed sequence in [0, 1).
 #[allow(dead_code, reason = "not every bench draws numbers")]
 pub fn uniform(index: u64) -> f64 {
-    let mut x = (index + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
-    x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    ((x ^ (x >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+    random::unit(random::number(0, index))
 }

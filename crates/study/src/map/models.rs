@@ -1,4 +1,4 @@
-//! Which model a scene needs: the plane of the two dimensionless groups.
+//! Which model a scene needs: the plane of the two dimensionless regime.
 //!
 //! Static deflection over indentation is the half-space's part phi of the contact's compliance for a contact
 //! that follows the load, and the coupling of a fixed disc, the paper's, whose whole deflection is added to Hertz's
@@ -15,8 +15,8 @@ use contact::law::hertz::CONTACT_TIME;
 use contact::law::quasi_static::{quasi_static, quasi_static_radiation};
 use contact::law::radiation::{MOST_LOSS, radiation};
 use contact::{Accuracy, FixedDisc, GrowingContact, Library, MarchError, Material, PunchWaves};
-use contact::{Family, Groups, Rung};
-use contact::{StaticShare, Summary, march_growing, march_implicit, refine};
+use contact::{Memory, Physics, Regime};
+use contact::{StaticShare, Summary, march_implicit, refine, solve_growing};
 use fault::AnyError;
 use figure::{Interval, Layer, Style};
 use halfspace::{Deflection, Medium, SurfaceResponse, bisected};
@@ -28,14 +28,12 @@ pub(super) const TOLERANCES: [f64; 3] = [1e-2, 1e-3, 1e-4];
 /// Speeds of the built-in materials' points in m/s.
 pub(super) const SPEEDS_M_S: [f64; 3] = [1.0, 10.0, 100.0];
 
-/// A march that changes by more when its step is halved is said not to have converged.
-const UNSETTLED: f64 = 1e-2;
-
-/// How often a step that is too long is halved.
-const MOST_HALVINGS: usize = 5;
-
-/// Accuracy of the march that models of a fixed disc are compared with.
+/// Accuracy of the contact with memory that models are compared with.
 const ACCURACY: f64 = 1e-5;
+
+/// Largest part of the compliance of a growing contact that comes from the half-space: the contact of a rigid striker, 1,
+/// begins with a jump of its radius, which no march follows.
+const MOST_SHARE: f64 = 0.9999;
 
 /// Errors of the cheaper models at one place of a plane, largest over peak force, contact time, restitution
 /// and peak displacement; infinite where the program refuses the model.
@@ -47,16 +45,16 @@ pub(super) struct ModelErrors {
     pub(super) radiation: f64,
     /// Dashpot on the area of a contact that follows the load.
     pub(super) dashpot: f64,
-    /// Change of the march that they are compared with over the last halving of its step.
-    pub(super) march: f64,
+    /// Estimated error of the contact with memory that they are compared with; infinite where the program refuses it.
+    pub(super) memory: f64,
 }
 
 impl ModelErrors {
-    /// The cheapest model that meets a tolerance: 3 is the march, 4 the march where it has not converged.
+    /// The cheapest model that meets a tolerance: 3 is the contact with memory, 4 none.
     fn cheapest(&self, tolerance: f64) -> usize {
         let cheaper = [self.quasi_static, self.radiation, self.dashpot];
         let found = cheaper.into_iter().position(|error| error <= tolerance);
-        found.unwrap_or(if self.march <= UNSETTLED { 3 } else { 4 })
+        found.unwrap_or(if self.memory.is_finite() { 3 } else { 4 })
     }
 }
 
@@ -66,19 +64,19 @@ fn error(is_allowed: bool, found: &Summary, exact: &Summary) -> f64 {
     if is_allowed { error } else { f64::INFINITY }
 }
 
-/// The plane of a family at one Poisson ratio: of contacts that follow the load ([`Family::Growing`]), or of the paper's
-/// disc with other groups ([`Family::Full`]).
+/// The plane of one physics at one Poisson ratio: of contacts that follow the load ([`Physics::Growing`]), or of the paper's
+/// disc with other groups ([`Physics::Disc`] with the full share).
 pub(super) struct Plane {
-    family: Family,
+    physics: Physics,
     centre: SurfaceResponse,
     waves: PunchWaves,
 }
 
 impl Plane {
-    pub(super) fn new(family: Family, poisson_ratio: f64) -> Result<Self, AnyError> {
+    pub(super) fn new(physics: Physics, poisson_ratio: f64) -> Result<Self, AnyError> {
         let medium = Medium::new(poisson_ratio)?;
         Ok(Self {
-            family,
+            physics,
             waves: PunchWaves::new(&medium),
             centre: SurfaceResponse::new(&medium, Deflection::Centre),
         })
@@ -104,16 +102,16 @@ impl Plane {
     }
 
     /// What `auto` chooses by, as it forms them.
-    fn groups(&self, deflection: f64, memory: f64) -> Groups {
-        let (wave_time, memory) = if self.family == Family::Full {
+    fn regime(&self, deflection: f64, memory: f64) -> Regime {
+        let (wave_time, memory) = if self.physics == Physics::Disc(StaticShare::Full) {
             let disc = self.disc(deflection, memory);
             (disc.wave_time, disc.memory())
         } else {
             let wave_time = self.growing(deflection, memory).wave_time;
             (wave_time, memory * CONTACT_TIME)
         };
-        Groups {
-            family: self.family,
+        Regime {
+            physics: self.physics,
             coupling: deflection,
             lag: deflection * wave_time * self.centre.disc.relaxation_time,
             memory,
@@ -121,39 +119,32 @@ impl Plane {
     }
 
     /// What `auto` chooses at a place.
-    pub(super) fn chosen(&self, deflection: f64, memory: f64, tolerance: f64) -> Rung {
+    pub(super) fn chosen(&self, deflection: f64, memory: f64, tolerance: f64) -> Memory {
         let asked = Accuracy::of_contact(tolerance, None);
-        self.groups(deflection, memory).choose(&asked).0
+        self.regime(deflection, memory).choose(&asked).0
     }
 
-    /// Largest memory, up to 1e3, at which `auto` has not yet left a rung for the next.
-    pub(super) fn boundary(&self, deflection: f64, tolerance: f64, leaves: Rung) -> f64 {
-        let low: f64 = if self.family == Family::Full {
+    /// Largest memory, up to 1e3, at which `auto` has not yet left a memory for the next.
+    pub(super) fn boundary(&self, deflection: f64, tolerance: f64, leaves: Memory) -> f64 {
+        let low: f64 = if self.physics == Physics::Disc(StaticShare::Full) {
             1e-12
         } else {
             1e-9
         };
         let stays = |memory: f64| match self.chosen(deflection, memory.exp(), tolerance) {
-            Rung::QuasiStatic => true,
-            Rung::Radiation | Rung::AreaDashpot => leaves != Rung::QuasiStatic,
-            Rung::FullMemory => false,
+            Memory::None => true,
+            Memory::FirstOrder | Memory::Dashpot => leaves != Memory::None,
+            Memory::Full => false,
         };
         bisected(low.ln(), 1e3_f64.ln(), stays).exp()
     }
 
-    /// Errors of the cheaper models: against the growing contact with `steps` steps over Hertz's contact time, or against
-    /// the implicit march of a disc, which finds its own.
-    pub(super) fn errors(
-        &self,
-        deflection: f64,
-        memory: f64,
-        steps: usize,
-    ) -> Result<ModelErrors, MarchError> {
-        let is_disc = self.family == Family::Full;
-        // a growing contact has all of its compliance from the half-space at most
-        let deflection = deflection.min(if is_disc { f64::INFINITY } else { 1.0 });
-        let groups = self.groups(deflection, memory);
-        let lag_is_allowed = groups.first_order_loss() <= MOST_LOSS;
+    /// Errors of the cheaper models: against the growing contact, or against the implicit march of a disc.
+    pub(super) fn errors(&self, deflection: f64, memory: f64) -> Result<ModelErrors, MarchError> {
+        let is_disc = self.physics == Physics::Disc(StaticShare::Full);
+        let deflection = deflection.min(if is_disc { f64::INFINITY } else { MOST_SHARE });
+        let regime = self.regime(deflection, memory);
+        let lag_is_allowed = regime.first_order_loss() <= MOST_LOSS;
         if is_disc {
             let disc = self.disc(deflection, memory);
             let accuracy = Accuracy::of_contact(ACCURACY, None);
@@ -162,31 +153,37 @@ impl Plane {
             let with_loss = |lag| quasi_static_radiation(deflection, lag);
             return Ok(ModelErrors {
                 quasi_static: error(true, &with_loss(0.0), &exact),
-                radiation: error(lag_is_allowed, &with_loss(groups.lag), &exact),
+                radiation: error(lag_is_allowed, &with_loss(regime.lag), &exact),
                 dashpot: f64::INFINITY,
-                march: ACCURACY,
+                memory: ACCURACY,
             });
         }
         let growing = self.growing(deflection, memory);
-        let summary = |step| Summary::new(&march_growing(&growing, step)?);
-        let mut step = CONTACT_TIME / steps as f64;
-        let mut found = summary(step);
-        // too coarse to hold the start of a very fast contact: halved, as step control does
-        for _ in 0..MOST_HALVINGS {
-            if matches!(found, Err(MarchError::StepTooLong { .. })) {
-                step *= 0.5;
-                found = summary(step);
+        let solved = match solve_growing(&growing, &Accuracy::of_contact(ACCURACY, None)) {
+            Ok(solved) => solved,
+            Err(
+                MarchError::Overtaken { .. }
+                | MarchError::StrikesAgain { .. }
+                | MarchError::NotFollowed { .. }
+                | MarchError::NotReached { .. },
+            ) => {
+                return Ok(ModelErrors {
+                    quasi_static: f64::INFINITY,
+                    radiation: f64::INFINITY,
+                    dashpot: f64::INFINITY,
+                    memory: f64::INFINITY,
+                });
             }
-        }
-        let exact = found?;
-        let coarse = summary(2.0 * step);
+            Err(error) => return Err(error),
+        };
+        let exact = solved.summary;
         let dashpot = AreaDashpot::new(&growing);
-        let is_allowed = left_out(dashpot.lag, groups.memory).contact() < 1.0;
+        let is_allowed = left_out(dashpot.lag, regime.memory).contact() < 1.0;
         Ok(ModelErrors {
             quasi_static: error(true, &radiation(0.0), &exact),
-            radiation: error(lag_is_allowed, &radiation(groups.lag), &exact),
+            radiation: error(lag_is_allowed, &radiation(regime.lag), &exact),
             dashpot: error(is_allowed, &dashpot.summary(), &exact),
-            march: coarse.map_or(f64::INFINITY, |coarse| error(true, &coarse, &exact)),
+            memory: solved.estimates.contact(),
         })
     }
 
@@ -196,23 +193,22 @@ impl Plane {
         &self,
         map: &StabilityMap<'_>,
         names: [&'static str; 3],
-        steps: usize,
         advance: &dyn Fn(),
         add: impl Fn(&mut Picture, f64) -> Result<(), AnyError>,
     ) -> Result<Vec<Picture>, AnyError> {
-        let (what, points, leaves) = if self.family == Family::Full {
-            let loss = ("auto leaves the first-order loss", Rung::Radiation);
-            let leaves = [("auto leaves two springs", Rung::QuasiStatic), loss];
+        let (what, points, leaves) = if self.physics == Physics::Disc(StaticShare::Full) {
+            let loss = ("auto leaves the first-order loss", Memory::FirstOrder);
+            let leaves = [("auto leaves two springs", Memory::None), loss];
             ("Cheapest model of the paper's fixed disc", 60, leaves)
         } else {
-            let dashpot = ("auto leaves the area dashpot", Rung::AreaDashpot);
-            let leaves = [("auto leaves hertz", Rung::QuasiStatic), dashpot];
+            let dashpot = ("auto leaves the area dashpot", Memory::Dashpot);
+            let leaves = [("auto leaves hertz", Memory::None), dashpot];
             ("Cheapest model", 40, leaves)
         };
         let mut errors = Vec::new();
         for memory in map.plane[1].cells(map.shape[1]) {
             for deflection in map.columns() {
-                errors.push(self.errors(deflection, memory, steps)?);
+                errors.push(self.errors(deflection, memory)?);
             }
             advance();
         }
@@ -222,8 +218,8 @@ impl Plane {
             let class = |cell: usize, _| errors[cell].cheapest(tolerance).min(last);
             let mut figure = map.picture(name, &title, class);
             let styles = [Style::Heavy, Style::HeavyDashed];
-            for ((label, rung), style) in leaves.into_iter().zip(styles) {
-                let memory = |x| self.boundary(x, tolerance, rung);
+            for ((label, left), style) in leaves.into_iter().zip(styles) {
+                let memory = |x| self.boundary(x, tolerance, left);
                 figure.line(label, style, map.line(points, memory));
             }
             add(&mut figure, tolerance)?;
@@ -261,26 +257,25 @@ pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Picture>
 }
 
 fn growing_figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Picture>, AnyError> {
-    let plane = Plane::new(Family::Growing, 0.3)?;
+    let plane = Plane::new(Physics::Growing, 0.3)?;
     let shape = effort.pick([12, 14], [32, 40]);
     let [x, y] = [(0.01, 1.15), (1e-4, 3.0)].map(|(low, high)| Interval::logarithmic(low, high));
     let share = "static deflection of the half-space over indentation";
-    let unsettled = "growing, not yet converged to 1e-2";
+    let refused = "no model";
     let map = StabilityMap {
         plane: [x, y],
         quantities: [share, MEMORY],
         shape,
-        classes: &["hertz", "radiation", "area dashpot", "growing", unsettled],
+        classes: &["hertz", "radiation", "area dashpot", "growing", refused],
     };
-    let steps = effort.pick(128, 192);
     // `auto`'s estimate of what hertz leaves out over the error found, in the middle of the plane
     let [i, k] = shape.map(|cells| cells / 2);
     let (share, memory) = (x.cells(shape[0])[i], y.cells(shape[1])[k]);
     let any = Accuracy::of_contact(f64::INFINITY, None);
-    let (_, estimate) = plane.groups(share, memory).choose(&any);
-    let ratio = estimate / plane.errors(share, memory, steps)?.quasi_static;
+    let (_, estimate) = plane.regime(share, memory).choose(&any);
+    let ratio = estimate / plane.errors(share, memory)?.quasi_static;
     let names = ["models-1e-2", "models-1e-3", "models-1e-4"];
-    plane.pictures(&map, names, steps, advance, |figure, tolerance| {
+    plane.pictures(&map, names, advance, |figure, tolerance| {
         for speed in SPEEDS_M_S {
             let places = targets().map(|target| place_of(target, speed));
             let label = format!("steel ball on each material, {speed} m/s");
@@ -289,9 +284,8 @@ fn growing_figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Picture>, A
         figure.caption = format!(
             "Regions are computed: each model against the converged growing contact, largest error of peak force, \
              contact time, restitution and peak displacement. The lines are where `auto` changes model at a tolerance \
-             of {tolerance:.0e}. In the darkest region the contact at first grows faster than the waves: the force of \
-             `growing` starts with a spike there that does not stand still when {steps} steps are made twice as long, \
-             and step control refuses it. `auto` never takes a model that misses, and its estimate for hertz is {ratio:.1} times the error \
+             of {tolerance:.0e}. In the darkest region `growing` is refused: waves overtake each other or the surface strikes \
+             again, and no other model is good there. `auto` never takes a model that misses, and its estimate for hertz is {ratio:.1} times the error \
              found in the middle of the plane."
         );
         Ok(())
@@ -299,7 +293,7 @@ fn growing_figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Picture>, A
 }
 
 fn disc_figures(effort: Effort) -> Result<Vec<Picture>, AnyError> {
-    let plane = Plane::new(Family::Full, 0.3)?;
+    let plane = Plane::new(Physics::Disc(StaticShare::Full), 0.3)?;
     let response = &plane.centre;
     let paper = paper_disc(TABLE_1_PA, response)?;
     let map = StabilityMap {
@@ -309,7 +303,7 @@ fn disc_figures(effort: Effort) -> Result<Vec<Picture>, AnyError> {
         classes: &["two springs", "two springs and first-order loss", "wave"],
     };
     let names = ["models-disc-1e-2", "models-disc-1e-3", "models-disc-1e-4"];
-    plane.pictures(&map, names, 0, &|| (), |figure, tolerance| {
+    plane.pictures(&map, names, &|| (), |figure, tolerance| {
         // half of the first-order loss is the error of the restitution of two springs
         let loss = 2.0 * tolerance;
         let theory = map.line(60, |coupling| {

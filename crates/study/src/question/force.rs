@@ -9,13 +9,11 @@ use crate::method::ComparedMethod;
 use crate::record::{Question, Record};
 use crate::scenes::{ball, paper_disc, paper_response};
 use contact::law::area_dashpot::AreaDashpot;
-use contact::law::hertz::CONTACT_TIME;
 use contact::law::quasi_static::{quasi_static, quasi_static_radiation};
 use contact::law::radiation::radiation;
 use contact::{
     Accuracy, FixedDisc, GrowingContact, History, MarchError, Model, PunchWaves, ResponseTable,
-    Solver, Summary, Tabulated, march_explicit, march_growing, march_implicit, refine, solve_disc,
-    solve_growing,
+    Solver, Summary, Tabulated, march_explicit, march_implicit, refine, solve_disc, solve_growing,
 };
 use fault::AnyError;
 use halfspace::{Deflection, Medium, SurfaceResponse};
@@ -235,7 +233,7 @@ fn from_series(scene: &mut MeasuredScene<'_, Summary>, impact: &Impact) -> Resul
     Ok(())
 }
 
-/// A contact that follows the load: closed forms, the march with a uniform step, polynomial pieces.
+/// A contact that follows the load: closed forms and polynomial pieces.
 fn following(
     scene: &mut MeasuredScene<'_, Summary>,
     growing: &GrowingContact<'_>,
@@ -249,22 +247,6 @@ fn following(
     let third = "third order in the memory";
     let dashpot = || black_box(terms).summary();
     closed(scene, ComparedMethod::AreaDashpot, third, dashpot)?.default_path = true;
-    let memory = growing.waves.memory * growing.wave_time;
-    let steps: [&[usize]; 2] = [&[16, 64], &[12, 16, 24, 32, 64, 128, 256, 512]];
-    let march = |step| measured(&march_growing(growing, step)?, memory);
-    stepped(
-        scene,
-        ComparedMethod::GrowingUniform,
-        CONTACT_TIME,
-        steps,
-        march,
-    )?;
-    for tolerance in tolerances(3..=scene.effort.pick(4, 5)) {
-        // what is left where the pieces do not serve
-        let method = ComparedMethod::GrowingHalved;
-        let march = |step| march_growing(growing, step);
-        halved(scene, method, tolerance, [CONTACT_TIME, memory], march)?;
-    }
     let digits = scene.effort.pick(vec![4, 6], vec![3, 4, 5, 6, 7, 8]);
     for tolerance in tolerances(digits) {
         let solve = || {

@@ -31,7 +31,7 @@ impl Case {
             Failure::input("a force record has no rebound: give the scene a [striker]")
         })?;
         let settings = &scene.settings;
-        let on_disc = settings.model.row().1 && settings.model != Model::Auto;
+        let on_disc = settings.model.on_disc() && settings.model != Model::Auto;
         if on_disc || settings.disc_radius_m.is_some() || settings.scheme == Scheme::Explicit {
             return Err(Failure::input(
                 "the contact of a particle code follows the load: leave contact.disc_radius_m, and a model or scheme of a fixed disc, out",
@@ -91,7 +91,7 @@ impl Case {
     /// The lag c of the waves in collision times; zero where nothing is radiated.
     pub(super) fn lag(&self) -> f64 {
         match self.radiates {
-            true => self.run.solved.plan.groups.lag,
+            true => self.run.solved.chosen.regime.lag,
             false => 0.0,
         }
     }
@@ -164,7 +164,7 @@ impl Case {
         };
         format!(
             "model {}{flows} at {velocity}: restitution {:.8}, loss {:.6e}, contact time {time}, peak force {force}; estimated relative error {:.1e}",
-            run.solved.plan.model.name(),
+            run.solved.chosen.model.name(),
             run.restitution,
             run.loss,
             run.relative_error_estimate

@@ -143,7 +143,7 @@ impl Laws {
     fn text(&self, case: &Case) -> String {
         let (here, memory) = (
             short(case.impact.velocity_m_s, "m/s"),
-            case.run.solved.plan.groups.memory,
+            case.run.solved.chosen.regime.memory,
         );
         let dashpot = "law: F = 4/3 E* sqrt(R) d^1.5 + 4 C E*^2 R d d' >= 0";
         if let Some(range) = self.range_m_s {

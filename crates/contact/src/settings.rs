@@ -1,14 +1,10 @@
-//! What can be chosen about a contact: model, scheme, disc, tolerances.
-//!
-//! [`Model::row`] is the table of models; `choose` says which of them `auto` takes and what each leaves out.
-
-pub(crate) mod choose;
+//! Settings of a contact: model, scheme, disc, tolerances.
 
 use crate::names::choice;
 use halfspace::Deflection;
 
 choice! {
-    /// The contact model asked for.
+    /// Contact model.
     #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
     pub enum Model {
         /// Closed form, no waves.
@@ -30,32 +26,103 @@ choice! {
     }
 }
 
-/// How much of the half-space's memory a model has.
+/// Physics of a contact, as its scene states it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Physics {
+    /// The contact radius follows the load.
+    Growing,
+    /// The half-space is loaded on a disc of fixed radius, whose deflection is added to Hertz's indentation.
+    Disc(StaticShare),
+    /// The contact radius follows the load, and the softer body flows.
+    Yielding,
+}
+
+/// Memory of the half-space in a model; each is the limit of the next for a short memory.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Rung {
-    /// No waves at all.
-    QuasiStatic,
+pub enum Memory {
+    /// None: no waves at all.
+    None,
     /// First-order radiated loss.
-    Radiation,
+    FirstOrder,
     /// Dashpot on the contact's area.
-    AreaDashpot,
-    /// Full memory.
-    FullMemory,
+    Dashpot,
+    /// All of it.
+    Full,
+}
+
+impl Physics {
+    /// The table of models: physics x memory. Without the full memory a disc that adds no static deflection is no disc, and
+    /// no disc has a dashpot on its area.
+    pub fn model(self, memory: Memory) -> Model {
+        use StaticShare::{Dynamic, Full};
+        match (self, memory) {
+            (Self::Growing | Self::Yielding | Self::Disc(Dynamic), Memory::None) => Model::Hertz,
+            (Self::Disc(Full), Memory::None) => Model::QuasiStatic,
+            (Self::Growing | Self::Yielding | Self::Disc(Dynamic), Memory::FirstOrder) => {
+                Model::Radiation
+            }
+            (Self::Disc(Full), Memory::FirstOrder) => Model::QuasiStaticRadiation,
+            (Self::Growing | Self::Yielding | Self::Disc(Full | Dynamic), Memory::Dashpot) => {
+                Model::AreaDashpot
+            }
+            (Self::Growing | Self::Yielding, Memory::Full) => Model::Growing,
+            (Self::Disc(Full | Dynamic), Memory::Full) => Model::Wave,
+        }
+    }
 }
 
 impl Model {
-    /// The table of models: the memory that each has, and whether the half-space is loaded on a disc of fixed radius.
-    ///
-    /// `auto` is the paper's disc until it has chosen.
-    pub fn row(self) -> (Rung, bool) {
+    /// Memory of the half-space; `auto` has all of it until it has chosen.
+    pub fn memory(self) -> Memory {
         match self {
-            Self::Hertz => (Rung::QuasiStatic, false),
-            Self::Radiation => (Rung::Radiation, false),
-            Self::AreaDashpot => (Rung::AreaDashpot, false),
-            Self::Growing => (Rung::FullMemory, false),
-            Self::QuasiStatic => (Rung::QuasiStatic, true),
-            Self::QuasiStaticRadiation => (Rung::Radiation, true),
-            Self::Wave | Self::Auto => (Rung::FullMemory, true),
+            Self::Hertz | Self::QuasiStatic => Memory::None,
+            Self::Radiation | Self::QuasiStaticRadiation => Memory::FirstOrder,
+            Self::AreaDashpot => Memory::Dashpot,
+            Self::Growing | Self::Wave | Self::Auto => Memory::Full,
+        }
+    }
+
+    /// Whether the half-space is loaded on a disc of fixed radius; `auto` is the paper's disc until it has chosen.
+    pub fn on_disc(self) -> bool {
+        match self {
+            Self::QuasiStatic | Self::QuasiStaticRadiation | Self::Wave | Self::Auto => true,
+            Self::Hertz | Self::Radiation | Self::AreaDashpot | Self::Growing => false,
+        }
+    }
+
+    /// Whether it may be a march on a fixed disc, for which there are two schemes.
+    pub(crate) fn has_schemes(self) -> bool {
+        match self {
+            Self::Wave | Self::Auto => true,
+            Self::Hertz
+            | Self::Radiation
+            | Self::QuasiStatic
+            | Self::QuasiStaticRadiation
+            | Self::Growing
+            | Self::AreaDashpot => false,
+        }
+    }
+
+    /// Whether `disc_radius_m` may be given: as the disc of the contact, or as that of its fields.
+    fn allows_disc(self) -> bool {
+        match self {
+            Self::Growing => false,
+            Self::Hertz
+            | Self::Radiation
+            | Self::QuasiStatic
+            | Self::QuasiStaticRadiation
+            | Self::Wave
+            | Self::AreaDashpot
+            | Self::Auto => true,
+        }
+    }
+
+    /// Whether a body may flow by a law in it.
+    fn allows(self, law: Plasticity) -> bool {
+        match self {
+            Self::Hertz | Self::AreaDashpot | Self::Auto => true,
+            Self::Growing => law.has_memory(),
+            Self::Radiation | Self::QuasiStatic | Self::QuasiStaticRadiation | Self::Wave => false,
         }
     }
 }
@@ -113,12 +180,12 @@ impl Plasticity {
 }
 
 choice! {
-    /// Which part of the half-space's deflection is added to Hertz's indentation.
-    #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+    /// Part of the half-space's deflection that is added to Hertz's indentation.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
     pub enum StaticShare {
         /// All of it: the paper, whose K already holds the static compliance of the half-space.
         Full = "full",
-        /// Only what differs from the static deflection: nothing is counted twice.
+        /// Only the difference from the static deflection: nothing is counted twice.
         Dynamic = "dynamic",
     }
 }
@@ -128,7 +195,10 @@ choice!(Deflection: Centre = "centre", Mean = "mean");
 impl StaticShare {
     /// Part of the static deflection that enters.
     pub fn factor(self) -> f64 {
-        f64::from(self == Self::Full)
+        match self {
+            Self::Full => 1.0,
+            Self::Dynamic => 0.0,
+        }
     }
 }
 
@@ -149,7 +219,7 @@ pub struct Settings {
     pub deflection: Deflection,
     /// Relative tolerance on the results.
     pub tolerance: f64,
-    /// Relative tolerance on the loss 1 - e^2, if it is asked for.
+    /// Relative tolerance on the loss 1 - e^2, if there is one.
     pub loss_tolerance: Option<f64>,
     /// Fixed step in s.
     pub step_s: Option<f64>,
@@ -198,22 +268,24 @@ impl Settings {
     /// The first two settings that exclude each other, if there are any.
     pub fn conflict(&self) -> Option<Conflict> {
         let (law, model, disc) = (self.plasticity, self.model, self.disc_radius_m.is_some());
-        let explicit = self.scheme == Scheme::Explicit;
-        let dynamic = self.static_share == StaticShare::Dynamic;
-        let marched = matches!(model, Model::Wave | Model::Auto);
+        let explicit = match self.scheme {
+            Scheme::Implicit => false,
+            Scheme::Explicit => true,
+        };
+        let dynamic = match self.static_share {
+            StaticShare::Full => false,
+            StaticShare::Dynamic => true,
+        };
         let pressure = self.yield_pressure_pa.is_some();
         let yields = law.yields();
-        let is_elastic = match model.row() {
-            (Rung::QuasiStatic | Rung::AreaDashpot, on_disc) => on_disc,
-            (Rung::FullMemory, true) => model != Model::Auto,
-            (Rung::FullMemory, false) => !law.has_memory(),
-            (Rung::Radiation, _) => true,
-        };
-        let without = yields && (is_elastic || explicit);
+        let without = yields && (explicit || !model.allows(law));
         let conflicts = [
             (explicit && dynamic, Conflict::ExplicitDynamic),
-            (explicit && !marched, Conflict::ExplicitModel(model)),
-            (model == Model::Growing && disc, Conflict::GrowingDisc),
+            (
+                explicit && !model.has_schemes(),
+                Conflict::ExplicitModel(model),
+            ),
+            (disc && !model.allows_disc(), Conflict::GrowingDisc),
             (
                 pressure && !law.has_pressure(),
                 Conflict::PlasticPressure(law),

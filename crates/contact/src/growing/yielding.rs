@@ -3,37 +3,37 @@
 //!
 //! The lag is that of a dashpot on the contact's area, c F_u^2 u'; with it the force is gone before the radius is.
 
-use crate::disc::refine::Accuracy;
+use crate::accuracy::Accuracy;
 use crate::error::MarchError;
-use crate::growing::arrivals::{Piece, State};
+use crate::growing::arrivals::{ContactPiece, State};
 use crate::growing::checks;
 use crate::growing::equations::{Independent, March, Solution};
 use crate::growing::nodes::{Polynomial, SIZE};
 use crate::growing::solved::SolvedContact;
-use crate::growing::waves::GrowingContact;
+use crate::law::branch::Branch;
+use crate::law::yielding::Yielding;
 use crate::numeric::quadrature::rising_root;
-use crate::plastic::Yielding;
-use crate::plastic::branch::Branch;
 use crate::units::INVERSE_MASS;
+use crate::waves::punch::GrowingContact;
 
-/// Pieces of the flow, and of what opens, at most, tried ones included.
-const MOST: usize = 300;
+/// Pieces of the flow and of the unloading at most, tried ones included.
+const MOST_PIECES: usize = 300;
 
 /// First piece of the flow over the time until the striker turns: waves from before the yield arrive with another slope.
-const FIRST: f64 = 0.1;
+const FIRST_OF_FLOW: f64 = 0.1;
 
 /// Estimated time until the indentation turns at the touch, where there is no force to tell it, in collision times.
 const FROM_TOUCH: f64 = 1.0;
 
 /// Error of a piece without a memory.
-pub(crate) const DAMPED: f64 = 1e-11;
+pub(crate) const ERROR_WITH_DASHPOT: f64 = 1e-11;
 
 /// Part of a base at which the radius that falls from it is mostly gone.
-const LOW: f64 = 0.45;
+const LOW_RADIUS: f64 = 0.45;
 
 /// Error of a piece with memory over the tolerance, in the order in which they are tried, and the least.
-const PIECE: [f64; 3] = [0.3, 0.03, 0.003];
-const FINEST: f64 = 1e-10;
+const ERROR_OF_PIECE: [f64; 3] = [0.3, 0.03, 0.003];
+const FINEST_PIECE: f64 = 1e-10;
 
 impl Yielding {
     /// The contact with the memory of the half-space, to an accuracy; nothing where waves keep it from yielding.
@@ -46,23 +46,23 @@ impl Yielding {
         asked: &Accuracy,
     ) -> Result<Option<SolvedContact>, MarchError> {
         let tried = |part: f64| {
-            let march = March::new(*contact, (part * asked.tolerance).max(FINEST));
+            let march = March::new(*contact, (part * asked.tolerance).max(FINEST_PIECE));
             let found = march.follow(self)?;
             found
                 .map(|solved| checks::passed(solved, contact))
                 .transpose()
         };
         // a stiff striker's last instants may need finer pieces
-        let [first, second, last] = PIECE;
+        let [first, second, last] = ERROR_OF_PIECE;
         (tried(first).or_else(|_| tried(second))).or_else(|_| tried(last))
     }
 }
 
 impl March<'_> {
     /// Velocity, duration and the largest product of radius and velocity of a contact with a dashpot that opens along a
-    /// branch from rest at radius one, and what it gives back without a lag.
+    /// branch from rest at radius one, and the work that it gives back without a lag.
     pub(crate) fn from_rest(branch: Branch, lag: f64) -> Option<[f64; 4]> {
-        let mut march = Self::damped(lag, DAMPED);
+        let mut march = Self::damped(lag, ERROR_WITH_DASHPOT);
         march.law.branch = branch;
         march.state = State {
             radius: 1.0,
@@ -71,10 +71,10 @@ impl March<'_> {
             ..State::TOUCH
         };
         march.unload().ok()?;
-        let pull = |one: &Piece, s: f64| one.radius.value(s) * -one.velocity.value(s);
+        let pull = |one: &ContactPiece, s: f64| one.radius.value(s) * -one.velocity.value(s);
         let pieces = march.pieces.iter();
         let samples = pieces.flat_map(|one| (0..=64).map(move |i| pull(one, f64::from(i) / 64.0)));
-        let (pulled, stored) = (samples.fold(0.0, f64::max), branch.given_back(1.0));
+        let (pulled, stored) = (samples.fold(0.0, f64::max), branch.work(1.0));
         Some([-march.state.velocity, march.state.time, pulled, stored])
     }
 
@@ -105,15 +105,21 @@ impl March<'_> {
 
     /// Pieces from where the striker turned until the force is gone; when the branch has a root.
     fn unload(&mut self) -> Result<Option<f64>, MarchError> {
-        let (mut base, mut crossed) = (self.state.radius, None);
-        if let Branch::Truncated { edge, top } = self.law.branch {
-            // where the pressure was cut the branch has a root
-            let kink = ((top - edge) * (top + edge)).max(0.0).sqrt();
-            if self.open(base, kink, f64::INFINITY)? || self.state.radius > kink {
-                return self.close().map(|()| None);
+        let radius = self.state.radius;
+        let (base, crossed) = match self.law.branch {
+            Branch::Truncated { edge, top } => {
+                // where the pressure was cut the branch has a root
+                let kink = ((top - edge) * (top + edge)).max(0.0).sqrt();
+                if self.open(radius, kink, f64::INFINITY)? || self.state.radius > kink {
+                    return self.close().map(|()| None);
+                }
+                (kink, Some(self.state.time))
             }
-            (base, crossed) = (kink, Some(self.state.time));
-        }
+            Branch::Line { .. }
+            | Branch::Fit(_)
+            | Branch::Hertzian { .. }
+            | Branch::OnSpring { .. } => (radius, None),
+        };
         self.open(base, 0.0, f64::INFINITY)?;
         self.close().map(|()| crossed)
     }
@@ -124,7 +130,7 @@ impl March<'_> {
     pub(crate) fn flow(&mut self, longest: f64) -> Result<(), MarchError> {
         let (power, first) = match self.law.lag {
             Some(_) => (2, 1.0),
-            None => (1, FIRST),
+            None => (1, FIRST_OF_FLOW),
         };
         let root = |time: f64| if power == 2 { time.sqrt() } else { time };
         let left = |march: &Self| {
@@ -150,7 +156,7 @@ impl March<'_> {
             let turns = error <= 1.0 && solution.piece.end.slope < 0.0;
             turns.then(|| rising_root(slowing, [0.0, 1.0], 0.5, 1e-16)[1])
         };
-        self.until(MOST, Independent::Time, start, piece, turned)?;
+        self.until(MOST_PIECES, Independent::Time, start, piece, turned)?;
         self.state.slope = 0.0;
         if self.law.lag.is_some() {
             self.state.velocity = 0.0;
@@ -163,7 +169,7 @@ impl March<'_> {
     pub(crate) fn open(&mut self, base: f64, floor: f64, longest: f64) -> Result<bool, MarchError> {
         let goal = match self.law.lag {
             Some(_) => floor,
-            None => floor.max(LOW * base),
+            None => floor.max(LOW_RADIUS * base),
         };
         let piece = |march: &Self, rise: &mut f64| {
             let [from, to] = [march.state.radius, goal].map(|a| (base - a).max(0.0).sqrt());
@@ -177,7 +183,7 @@ impl March<'_> {
             let piece = Some(&solution.piece).filter(|_| error <= 1.0);
             piece.and_then(|piece| march.released(piece))
         };
-        let ends = self.until(MOST, Independent::Radius, f64::INFINITY, piece, gone)?;
+        let ends = self.until(MOST_PIECES, Independent::Radius, f64::INFINITY, piece, gone)?;
         if !ends {
             self.state.radius = goal;
         }
@@ -185,7 +191,7 @@ impl March<'_> {
     }
 
     /// Where in a piece the force of a dashpot's contact is gone, if it is.
-    fn released(&self, piece: &Piece) -> Option<f64> {
+    fn released(&self, piece: &ContactPiece) -> Option<f64> {
         let lag = self.law.lag?;
         // over the square of its slope, of one sign through a radius of zero
         let pull = |s: f64| {

@@ -10,22 +10,23 @@
 //! Theory: `docs/theory.md` (T65).
 
 use crate::growing::equations::March;
-use crate::growing::nodes::Nodes;
-use crate::numeric::series::Series;
-use crate::plastic::branch::{Branch, Fit};
-use crate::plastic::{Flow, FlowLaw, Yielding};
+use crate::growing::nodes::RadauNodes;
+use crate::law::branch::Branch;
+use crate::law::fit::Fit;
+use crate::law::yielding::{Flow, FlowLaw, Yielding};
+use crate::numeric::series::PlaneSeries;
 use crate::summary::Summary;
 use crate::units::INVERSE_MASS;
 use std::f64::consts::FRAC_PI_2;
 use std::sync::OnceLock;
 
 /// Nodes of a panel, and the part of the way to Hertz's turning point that one of the rise takes.
-const NODES: usize = 8;
-const PART: f64 = 0.6;
+const NODES_OF_RISE: usize = 8;
+const PART_OF_RISE: f64 = 0.6;
 
 /// Longest step of the flow of the fit in the logarithm of the angle, and columns of its extrapolation.
-const LONGEST: f64 = 0.65;
-const COLUMNS: usize = 5;
+const LONGEST_STEP: f64 = 0.65;
+const COLUMNS_OF_STEP: usize = 5;
 
 /// Results to 1e-9 for a lag, of the fit to 1e-8; nothing for a lag beyond the series, where waves keep the contact from yielding, and where
 /// the force is largest before it does.
@@ -45,10 +46,9 @@ pub(crate) fn quick(yielding: &Yielding, lag: f64) -> Option<(Summary, Flow)> {
     let fifth = from.powi(5);
     let ([speed, duration, pulled, stored], by) = match back {
         Branch::Truncated { edge, top } => (fall_of_cut(edge / top, own_lag)?, 1.0),
-        Branch::Hertzian { .. }
-        | Branch::Line { .. }
-        | Branch::Fit(_)
-        | Branch::OnSpring { .. } => (fall(own_lag)?, 1.0 / back.flatter()),
+        Branch::Hertzian { flatter, .. } => (fall(own_lag)?, 1.0 / flatter),
+        // no law unloads along these
+        Branch::Line { .. } | Branch::Fit(_) | Branch::OnSpring { .. } => return None,
     };
     let (v, stored) = (by * speed * fifth.sqrt(), by * by * stored * fifth);
     let spent = lost + flowing + 2.0 * INVERSE_MASS * stored;
@@ -69,7 +69,7 @@ pub(crate) fn quick(yielding: &Yielding, lag: f64) -> Option<(Summary, Flow)> {
     ))
 }
 
-/// What the flow on Thornton's line has come to where the indentation turns, from a velocity at its beginning: indentation,
+/// State of the flow on Thornton's line where the indentation turns, from a velocity at its beginning: indentation,
 /// time since then and energy radiated meanwhile, and the largest force with its time; nothing where the force falls at
 /// once.
 fn turned_on_line(edge: f64, lag: f64, v0: f64) -> Option<([f64; 3], [f64; 2])> {
@@ -117,7 +117,7 @@ fn turned_on_fit(fit: &Fit, depth: f64, lag: f64, v0: f64) -> ([f64; 3], [f64; 2
     };
     // no difference of near numbers: however small, the angle is no zero, whose logarithm would take steps without end
     let from = depth.powf(1.25).atan2(v0).ln();
-    let steps = ((FRAC_PI_2.ln() - from) / LONGEST).ceil();
+    let steps = ((FRAC_PI_2.ln() - from) / LONGEST_STEP).ceil();
     let step = (FRAC_PI_2.ln() - from) / steps;
     let turned = (0..steps as usize).fold([depth, 0.0, 0.0], |state, i| {
         extrapolated(rates, from + i as f64 * step, step, state)
@@ -145,8 +145,8 @@ fn extrapolated<const N: usize>(
         std::array::from_fn(|i| state[i] + by * rates[i])
     };
     let first = rates(from, &state);
-    let mut table = [[0.0; N]; COLUMNS];
-    for k in 0..COLUMNS {
+    let mut table = [[0.0; N]; COLUMNS_OF_STEP];
+    for k in 0..COLUMNS_OF_STEP {
         let parts = 2 * (k + 1);
         let part = step / parts as f64;
         let (mut before, mut now) = (state, moved(&state, part, first));
@@ -168,20 +168,21 @@ fn extrapolated<const N: usize>(
 
 /// Velocity, time and radiated energy where the radius of contact reaches that of yield.
 fn rise(edge: f64, lag: f64) -> Option<(f64, f64, f64)> {
-    static COLUMNS: OnceLock<[[f64; NODES]; NODES]> = OnceLock::new();
-    let rule = Nodes::of(NODES, false);
+    static COLUMNS_OF_STEP: OnceLock<[[f64; NODES_OF_RISE]; NODES_OF_RISE]> = OnceLock::new();
+    let rule = RadauNodes::of(NODES_OF_RISE, false);
     let column = |j| std::array::from_fn(|i| rule.integral[i + 1][j]);
-    let columns = COLUMNS.get_or_init(|| std::array::from_fn(column));
+    let columns = COLUMNS_OF_STEP.get_or_init(|| std::array::from_fn(column));
     let (mut from, mut time, mut lost) = (0.0, 0.0, 0.0);
     let factor = 11.25 * lag;
     while from < edge {
-        let to = edge.min(from + PART * (1.0 - from));
+        let to = edge.min(from + PART_OF_RISE * (1.0 - from));
         let width = to - from;
-        let x: [f64; NODES] = std::array::from_fn(|i| from + width * rule.places[i + 1]);
+        let x: [f64; NODES_OF_RISE] = std::array::from_fn(|i| from + width * rule.places[i + 1]);
         let rest = x.map(|x| 1.0 - x * x * x * x * x - factor * lost);
         let (mut v, mut before) = (rest.map(f64::sqrt), 1.0);
-        for _ in 0..ITERATIONS {
-            let lost: [f64; NODES] = std::array::from_fn(|j| factor * width * x[j].powi(3) * v[j]);
+        for _ in 0..MOST_ITERATIONS {
+            let lost: [f64; NODES_OF_RISE] =
+                std::array::from_fn(|j| factor * width * x[j].powi(3) * v[j]);
             let mut square = rest;
             for (weights, lost) in columns.iter().zip(lost) {
                 let each = square.iter_mut().zip(weights);
@@ -197,7 +198,7 @@ fn rise(edge: f64, lag: f64) -> Option<(f64, f64, f64)> {
             }
             before = change;
         }
-        for (weight, (x, v)) in rule.integral[NODES].iter().zip(x.iter().zip(v)) {
+        for (weight, (x, v)) in rule.integral[NODES_OF_RISE].iter().zip(x.iter().zip(v)) {
             time += 2.0 * width * weight * x / v;
             lost += width * weight * x * x * x * v;
         }
@@ -208,30 +209,30 @@ fn rise(edge: f64, lag: f64) -> Option<(f64, f64, f64)> {
 }
 
 /// Iterations of Picard at most: each is smaller by about the lag.
-const ITERATIONS: usize = 30;
+const MOST_ITERATIONS: usize = 30;
 
 /// Largest lag of the fall, and terms of its series.
 const LARGEST_LAG: f64 = 0.25;
-const TERMS: usize = 24;
+const TERMS_OF_FALL: usize = 24;
 
 /// Nodes of the series of a cut pressure in the lag and in the logarithm of the angle asin(y/a).
 const NODES_OF_CUT: [usize; 2] = [8, 32];
 
 /// Range of the angle, and the largest lag: the contact ends with less than the radius where the pressure was cut.
-const RANGE: [f64; 2] = [0.02, 1.3];
-const LARGEST: f64 = 0.1;
+const ANGLES_OF_CUT: [f64; 2] = [0.02, 1.3];
+const LARGEST_LAG_OF_CUT: f64 = 0.1;
 
 /// Part of a result below which the last coefficients are left out.
-const LEAST: f64 = 1e-12;
+const LEAST_COEFFICIENT: f64 = 1e-12;
 
-/// Velocity, duration and the largest radius times velocity of Hertz's contact from rest at radius one, and what it gives
-/// back without a lag.
+/// Velocity, duration and the largest radius times velocity of Hertz's contact from rest at radius one, and the work that
+/// it gives back without a lag.
 fn fall(lag: f64) -> Option<[f64; 4]> {
-    static MADE: OnceLock<Option<Series<4>>> = OnceLock::new();
+    static MADE: OnceLock<Option<PlaneSeries<4>>> = OnceLock::new();
     let made = MADE.get_or_init(|| {
         let lag = |x: f64| 0.5 * LARGEST_LAG * (1.0 + x);
         let at = |[_, x]: [f64; 2]| March::from_rest(Branch::HERTZ, lag(x));
-        Series::through([1, TERMS], LEAST, at)
+        PlaneSeries::through([1, TERMS_OF_FALL], LEAST_COEFFICIENT, at)
     });
     let x = 2.0 * lag / LARGEST_LAG - 1.0;
     Some(made.as_ref().filter(|_| lag <= LARGEST_LAG)?.at([0.0, x]))
@@ -239,20 +240,20 @@ fn fall(lag: f64) -> Option<[f64; 4]> {
 
 /// The same of the unloading of a cut pressure, by the radius at yield; nothing beyond the series.
 fn fall_of_cut(edge: f64, lag: f64) -> Option<[f64; 4]> {
-    static MADE: OnceLock<Option<Series<4>>> = OnceLock::new();
-    let [low, high] = RANGE.map(f64::ln);
+    static MADE: OnceLock<Option<PlaneSeries<4>>> = OnceLock::new();
+    let [low, high] = ANGLES_OF_CUT.map(f64::ln);
     let made = MADE.get_or_init(|| {
-        Series::through(NODES_OF_CUT, LEAST, |[x, y]| {
+        PlaneSeries::through(NODES_OF_CUT, LEAST_COEFFICIENT, |[x, y]| {
             let edge = (low + 0.5 * (high - low) * (1.0 + y)).exp().sin();
             let branch = Branch::Truncated { edge, top: 1.0 };
-            let lag = 0.5 * LARGEST * (1.0 + x);
+            let lag = 0.5 * LARGEST_LAG_OF_CUT * (1.0 + x);
             let [speed, duration, pulled, stored] = March::from_rest(branch, lag)?;
             let root = edge.sqrt();
             Some([speed / root, duration * root, pulled / root, stored / edge])
         })
     });
     let y = 2.0 * (edge.asin().ln() - low) / (high - low) - 1.0;
-    let x = 2.0 * lag / LARGEST - 1.0;
+    let x = 2.0 * lag / LARGEST_LAG_OF_CUT - 1.0;
     if !(y.abs() <= 1.0 && x <= 1.0) {
         return None;
     }

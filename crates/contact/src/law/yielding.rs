@@ -1,8 +1,8 @@
 //! Contacts that yield: loading until the indentation turns, unloading as a sphere on a dent.
 //!
-//! The laws are branches of a growing contact (`branch`); [`Yielding`] says which follows which.
-//! `march` follows them by the pieces of a contact that does not yield, with the memory of the half-space or with a dashpot
-//! on the contact's area; `quick` has the results of the dashpot without a march.
+//! The laws are branches of a growing contact; [`Yielding`] says which follows which.
+//! `growing/yielding` follows them by the pieces of a contact that does not yield, with the memory of the half-space or with
+//! a dashpot on the contact's area; `growing/quick` has the results of the dashpot without a march.
 //!
 //! ```text
 //! v' = -(5/4) p
@@ -15,13 +15,9 @@
 //!
 //! Theory: `docs/theory.md` (T62 to T67).
 
-pub(crate) mod branch;
-pub(crate) mod infer;
-pub(crate) mod march;
-pub(crate) mod quick;
-
-use crate::numeric::quadrature::in_panels;
-use crate::plastic::branch::{Branch, Fit, spread};
+use crate::law::branch::Branch;
+use crate::law::cut::spread;
+use crate::law::fit::Fit;
 use crate::units::INVERSE_MASS;
 
 /// The law of flow with its numbers.
@@ -70,11 +66,13 @@ impl Yielding {
     /// Whether anything is given back of the deepest indentation, without waves: the fit's dent grows faster than the
     /// indentation.
     pub(crate) fn rebounds(&self) -> bool {
-        let FlowLaw::Fit(fit) = self.law else {
-            return true;
-        };
-        let is_trusted = self.trusted_ratio().is_none_or(|ratio| ratio <= 1.0);
-        is_trusted || 2.0 * INVERSE_MASS * self.work(fit.deepest().sqrt()) > 1.0
+        match self.law {
+            FlowLaw::Thornton | FlowLaw::Recovery => true,
+            FlowLaw::Fit(fit) => {
+                let is_trusted = self.trusted_ratio().is_none_or(|ratio| ratio <= 1.0);
+                is_trusted || 2.0 * INVERSE_MASS * self.work(fit.deepest().sqrt()) > 1.0
+            }
+        }
     }
 
     /// Whether an elastic contact would yield.
@@ -98,15 +96,12 @@ impl Yielding {
     /// Work of the loading up to a radius of contact, int p du.
     pub(crate) fn work(&self, radius: f64) -> f64 {
         let edge = self.edge().min(radius);
-        let flow = match self.loading() {
-            Branch::Line { edge: y } => {
-                let [square, low] = [radius * radius, edge * edge];
+        let flow = match self.law {
+            FlowLaw::Thornton | FlowLaw::Recovery => {
+                let (y, [square, low]) = (self.edge(), [radius * radius, edge * edge]);
                 y * (0.75 * (square + low) - 0.5 * y * y) * (square - low)
             }
-            loading => in_panels(edge, radius, |a| {
-                let here = loading.at(a);
-                here.force * here.depth_slope
-            }),
+            FlowLaw::Fit(_) => self.loading().work_between(edge, radius),
         };
         0.4 * edge.powi(5) + flow
     }
@@ -133,7 +128,7 @@ impl Yielding {
     }
 }
 
-/// What has flowed, in collision units; works over the kinetic energy before.
+/// Plastic flow of a contact in collision units; works over the kinetic energy before.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Flow {
     /// Work of the plastic flow.
@@ -149,7 +144,7 @@ pub struct Flow {
     pub peak_indentation: f64,
     /// Indentation that stays.
     pub residual_indentation: f64,
-    /// R_p/R: what contact's relative curvature has become.
+    /// R_p/R: radius of relative curvature after the contact over that before.
     pub flatter: f64,
 }
 

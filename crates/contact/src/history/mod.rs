@@ -1,8 +1,9 @@
-//! Samples of a march, and the work that it may take.
+//! The history of a contact: samples of a march, or pieces, which `resample` reads at any time.
 
-use crate::error::MarchError;
+pub(crate) mod resample;
+
 use crate::growing::solved::SolvedContact;
-use crate::law::hertz::CONTACT_TIME;
+use crate::units::INVERSE_MASS;
 use std::sync::Arc;
 
 /// The end of the first contact, as the last samples in contact tell it.
@@ -29,25 +30,21 @@ pub struct History {
     pub displacement: Vec<f64>,
     /// Deflection of the half-space that enters the contact law.
     pub deflection: Vec<f64>,
-    /// What the trapezoidal rule misses of the impulse at the touch.
+    /// Error of the trapezoidal rule in the impulse at the touch.
     pub(crate) start: f64,
-    /// Velocity where the scheme computes it itself; empty otherwise.
+    /// Velocity, if the scheme computes it; empty otherwise.
     pub(crate) velocity: Vec<f64>,
     /// Compliance of the newest sample: d - w + compliance * p is smooth through the end of contact.
     pub(crate) compliance: f64,
-    /// The surface's part of it.
+    /// Elastic part of it, that of the surface.
     pub(crate) elastic: f64,
-    /// End of the first contact where the march finds it itself.
+    /// End of the first contact, if the march computes it.
     pub(crate) separation: Option<Separation>,
-    /// Work left in the half-space where the march finds it itself.
+    /// Work on the half-space, if the march computes it.
     pub(crate) dissipated: Option<f64>,
-    /// The last instants of a contact whose radius goes to zero, too short for the step: the displacement of the striker
-    /// at the end over the square of its velocity there, and their duration over the velocity; zeros where they are long
-    /// enough.
-    pub(crate) end_layer: Option<[f64; 2]>,
     /// The contact itself where it was solved by pieces; there are no samples then.
     pub pieces: Option<Arc<SolvedContact>>,
-    /// Estimated error of the force at any instant, over the largest; infinite where nobody has estimated it.
+    /// Estimated error of the force at any instant, over the largest force; infinite if there is no estimate.
     pub error: f64,
 }
 
@@ -59,7 +56,7 @@ impl History {
         history
     }
 
-    /// Forgets everything but the room that it takes.
+    /// Removes all samples, and keeps their memory.
     pub(crate) fn restart(&mut self, step: f64) {
         let begun = |samples: &mut Vec<f64>| {
             samples.clear();
@@ -76,7 +73,7 @@ impl History {
         };
     }
 
-    /// A contact that was solved by pieces: no samples, which [`Resampler`](crate::Resampler) reads of it at any time.
+    /// Of a contact that was solved by pieces: it has no samples, [`Resampler`](crate::Resampler) reads the pieces.
     pub fn of_pieces(solved: &SolvedContact) -> Self {
         Self {
             error: solved.estimates.force,
@@ -99,43 +96,35 @@ impl History {
             _ => 1.0,
         }
     }
-}
 
-/// A contact lasts at least this part of Hertz's.
-const SHORTEST: f64 = 0.5;
-
-/// Steps of a march, and products of steps and cells of the memory, at most: one takes 1 to 2 ns, a march 2 s at most.
-const STEPS: usize = 400_000;
-const WORK: usize = 1_000_000_000;
-
-/// Cells of a memory at a step, both in collision units.
-///
-/// # Errors
-/// [`MarchError::TooLong`], before a march begins whose work is out of bounds.
-pub(crate) fn memory_cells(memory: f64, step: f64) -> Result<usize, MarchError> {
-    let cells = (memory / step).min(1e9) as usize;
-    affordable(cells, cells, memory)?;
-    affordable(least_steps(step), cells, memory)?;
-    Ok(cells)
-}
-
-/// Steps over a contact at least.
-pub(crate) fn least_steps(step: f64) -> usize {
-    (SHORTEST * CONTACT_TIME / step).min(1e9) as usize
-}
-
-/// Whether so many steps with so many cells of a `memory` each are within bounds.
-///
-/// # Errors
-/// [`MarchError::TooLong`].
-pub(crate) fn affordable(steps: usize, cells: usize, memory: f64) -> Result<(), MarchError> {
-    let work = steps.saturating_mul(cells.min(steps));
-    if steps > STEPS || work > WORK {
-        return Err(MarchError::TooLong {
-            steps,
-            cells,
-            ratio: memory,
-        });
+    /// int_0^{t_k} p dt for a sample k that has two neighbours on both sides, error O(h^4).
+    pub(crate) fn impulse_until(&self, k: usize) -> f64 {
+        let sum: f64 = self.force[..k].iter().sum::<f64>() + 0.5 * self.force[k];
+        self.impulse_from_sum(k, sum)
     }
-    Ok(())
+
+    fn impulse_from_sum(&self, k: usize, sum: f64) -> f64 {
+        let at = |i: usize| self.force.get(i).copied().unwrap_or(0.0);
+        // h p' by central differences
+        let slope = match k {
+            0 => return 0.0,
+            1 => 0.5 * (at(2) - at(0)),
+            _ => (8.0 * (at(k + 1) - at(k - 1)) - (at(k + 2) - at(k - 2))) / 12.0,
+        };
+        self.step * (sum - slope / 12.0) + self.start
+    }
+
+    /// Velocity of the striker at every sample.
+    pub fn velocities(&self) -> Vec<f64> {
+        if !self.velocity.is_empty() {
+            return self.velocity.clone();
+        }
+        let mut sum = 0.0;
+        let mut velocity = Vec::with_capacity(self.force.len());
+        for (k, &p) in self.force.iter().enumerate() {
+            velocity.push(1.0 - INVERSE_MASS * self.impulse_from_sum(k, sum + 0.5 * p));
+            sum += p;
+        }
+        velocity
+    }
 }

@@ -1,5 +1,4 @@
-//! What the marches and the laws need of a disc's response, the exact response as they need it, and as a table of its time
-//! integrals.
+//! Response of a disc as the marches and the laws use it: exact, and as a table of its time integrals.
 //!
 //! One table serves every impact on half-spaces of the same Poisson's ratio, whatever the units.
 
@@ -23,10 +22,10 @@ pub trait DiscResponse {
 
     /// int t^k (1 - W) dt for k = 0 .. 3, and int W dt as a function of its upper limit.
     ///
-    /// Where the memory is resolved by the samples only the memory itself may be asked of what is returned.
+    /// If the samples resolve the memory, only the memory itself of the result may be used.
     fn relaxation(&self, resolved: bool) -> ([f64; 4], impl Fn(f64) -> f64 + '_);
 
-    /// int W and int W (x - middle) over adjoining cells of a width, asked for from 0 on.
+    /// int W and int W (x - middle) over adjoining cells of a width, in ascending order from 0.
     fn cells(&self, width: f64) -> impl FnMut(f64, f64) -> (f64, f64) + '_;
 }
 
@@ -102,8 +101,8 @@ pub struct ResponseTable {
 }
 
 /// Cells of the table, and the width of one in the memory.
-const CELLS: usize = 512;
-const WIDTH: f64 = 1.0 / CELLS as f64;
+const CELLS_OF_TABLE: usize = 512;
+const CELL_OF_TABLE: f64 = 1.0 / CELLS_OF_TABLE as f64;
 
 impl ResponseTable {
     /// Tabulates a response.
@@ -112,12 +111,13 @@ impl ResponseTable {
         let mut nodes = vec![[0.0; 3]];
         let mut twice = 0.0;
         let (mut step, mut once) = (0.0, 0.0);
-        for i in 1..=CELLS {
-            let t = i as f64 * WIDTH * memory;
+        for i in 1..=CELLS_OF_TABLE {
+            let t = i as f64 * CELL_OF_TABLE * memory;
             // at the end of the memory the limit from below is exact too: the response is continuous
             let (next_step, next_once) = (response.step(t), response.step_integral(t) / memory);
             // trapezoid with the end correction of Euler and Maclaurin: fourth order
-            twice += 0.5 * WIDTH * (once + next_once) - WIDTH * WIDTH / 12.0 * (next_step - step);
+            twice += 0.5 * CELL_OF_TABLE * (once + next_once)
+                - CELL_OF_TABLE * CELL_OF_TABLE / 12.0 * (next_step - step);
             (step, once) = (next_step, next_once);
             nodes.push([step, once, twice]);
         }
@@ -153,15 +153,15 @@ impl ResponseTable {
     #[inline]
     pub fn integral(&self, t: f64) -> f64 {
         let Some(([[w0, v0, _], [w1, v1, _]], x)) = self.cell(t) else {
-            return self.nodes[CELLS][1] * self.disc.memory + t - self.disc.memory;
+            return self.nodes[CELLS_OF_TABLE][1] * self.disc.memory + t - self.disc.memory;
         };
-        hermite([*v0, w0 * WIDTH], [*v1, w1 * WIDTH], x) * self.disc.memory
+        hermite([*v0, w0 * CELL_OF_TABLE], [*v1, w1 * CELL_OF_TABLE], x) * self.disc.memory
     }
 
     /// The cell that holds a time, its nodes and the place in it; none beyond the memory.
     #[inline]
     fn cell(&self, t: f64) -> Option<(&[[f64; 3]; 2], f64)> {
-        let place = (t / self.disc.memory * CELLS as f64).max(0.0);
+        let place = (t / self.disc.memory * CELLS_OF_TABLE as f64).max(0.0);
         let i = place as usize;
         Some((self.nodes.get(i..)?.first_chunk()?, place - i as f64))
     }
@@ -170,9 +170,9 @@ impl ResponseTable {
     #[inline]
     pub fn integrals(&self, t: f64) -> [f64; 2] {
         let m = self.disc.memory;
-        let jet = |[w, v, u]: &[f64; 3]| [*u, v * WIDTH, w * WIDTH * WIDTH];
+        let jet = |[w, v, u]: &[f64; 3]| [*u, v * CELL_OF_TABLE, w * CELL_OF_TABLE * CELL_OF_TABLE];
         let Some(([before, after], x)) = self.cell(t) else {
-            let [_, once, twice] = self.nodes[CELLS];
+            let [_, once, twice] = self.nodes[CELLS_OF_TABLE];
             let beyond = t - m;
             return [
                 once * m + beyond,
@@ -180,7 +180,7 @@ impl ResponseTable {
             ];
         };
         let [twice, once, _] = quintic(jet(before), jet(after), x);
-        [once * CELLS as f64 * m, twice * m * m]
+        [once * CELLS_OF_TABLE as f64 * m, twice * m * m]
     }
 }
 

@@ -10,7 +10,7 @@
 //! ```
 //!
 //! a positive measure of total mass one: each slowness brings the load on one rim to the other after X.
-//! What the contact needs are integrals over this measure of functions that are analytic in X,
+//! The contact needs integrals over this measure of functions that are analytic in X,
 //! so that Gauss's rule of the whole measure, Rayleigh's wave included, converges exponentially.
 
 use crate::numeric::gauss::gauss_rule;
@@ -18,10 +18,10 @@ use halfspace::{Medium, surface_measure};
 use std::sync::{Arc, OnceLock};
 
 /// Nodes of the rules, coarse to fine.
-const SIZES: [usize; 12] = [3, 5, 8, 12, 18, 26, 38, 56, 80, 112, 156, 220];
+const NODES_OF_RULES: [usize; 12] = [3, 5, 8, 12, 18, 26, 38, 56, 80, 112, 156, 220];
 
 /// Rules that there are.
-pub(crate) const LEVELS: usize = SIZES.len();
+pub(crate) const LEVELS: usize = NODES_OF_RULES.len();
 
 /// The waves under a flat punch; by default none, as of a half-space that answers at once.
 #[derive(Debug, Clone, Default)]
@@ -44,7 +44,7 @@ impl PunchWaves {
     /// The waves of a half-space.
     pub fn new(medium: &Medium) -> Self {
         let c = medium.rayleigh_speed();
-        let mut points = surface_measure(medium, HALVINGS, NODES);
+        let mut points = surface_measure(medium, HALVINGS_OF_SLOWNESS, NODES_OF_PANEL);
         let slowest = 1.0 / c;
         points.iter_mut().for_each(|(x, _)| *x /= slowest);
         let mut sum = [0.0; 3];
@@ -107,13 +107,13 @@ impl PunchWaves {
         [mass - x * rate, integral]
     }
 
-    /// The rule of a level, delays and rates; made when it is first asked for.
+    /// The rule of a level, delays and rates; computed at the first call.
     pub(crate) fn rule(&self, level: usize) -> &[(f64, f64)] {
         let level = level.min(LEVELS - 1);
         self.rules[level].get_or_init(|| match &self.neighbours {
             None if self.points.is_empty() => Vec::new(),
             None => {
-                let rule = gauss_rule(&self.points, SIZES[level]).into_iter();
+                let rule = gauss_rule(&self.points, NODES_OF_RULES[level]).into_iter();
                 rule.map(|(x, mass)| (x * self.memory, mass / (x * self.memory)))
                     .collect()
             }
@@ -151,11 +151,11 @@ fn moment(points: &[(f64, f64)], n: i32) -> f64 {
 }
 
 /// Nodes of a panel.
-const NODES: usize = 18;
+const NODES_OF_PANEL: usize = 18;
 
 /// Halvings of the panels toward the ends of the two intervals of slowness: they shrink toward slowness one, where a zero
 /// of the Rayleigh function on a neighbouring sheet may be near, and a little toward the shear slowness.
-const HALVINGS: [[i32; 2]; 2] = [[3, 16], [16, 4]];
+const HALVINGS_OF_SLOWNESS: [[i32; 2]; 2] = [[3, 16], [16, 4]];
 
 #[cfg(test)]
 mod tests {
@@ -227,7 +227,7 @@ mod tests {
     #[test]
     fn rules_have_the_moments_of_the_measure() {
         let waves = PunchWaves::new(&Medium::new(0.3).unwrap());
-        for (level, &size) in SIZES.iter().enumerate() {
+        for (level, &size) in NODES_OF_RULES.iter().enumerate() {
             let rule = waves.rule(level);
             for power in (0..2 * size as i32).step_by(1 + level) {
                 let sum: f64 = (rule.iter())

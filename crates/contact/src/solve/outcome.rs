@@ -6,7 +6,7 @@
 //! that on a fixed disc, for a given Poisson's ratio, on theta = r0/c1 and the coupling, and that on the fit, for a given
 //! material, on the lag and on sqrt(s^2 - 1), s the velocity over that at which the fit leaves Hertz's law.
 //! Over an octave of each it is nearly a polynomial of low degree in their logarithms, so the plane of these is cut into
-//! cells of an octave, each with a Chebyshev [`Series`] through marches at its nodes.
+//! cells of an octave, each with a Chebyshev [`PlaneSeries`] through marches at its nodes.
 //! The power that a result has to first order is divided out.
 //!
 //! A series serves where its certificate meets the tolerance: three times the largest difference from marches between
@@ -14,36 +14,37 @@
 //! Cells with a second contact or a refusal at one of their marches have none, nor have those in which the outcome is not
 //! smooth, with a new largest peak or a memory as long as the contact: contacts there are marched.
 //!
-//! Which cells have a series is known before the first row, from a sample of all rows; what they hold depends on the cell
-//! alone.
+//! The cells that have a series are known before the first row, from a sample of all rows; their content depends on the
+//! cell alone.
 //! So the numbers of a row depend neither on the order of rows nor on shards, threads and interruptions.
 
+use crate::accuracy::Accuracy;
 use crate::collision::Collision;
-use crate::disc::history::History;
-use crate::disc::refine::{Accuracy, solve_disc};
-use crate::disc::response::DiscResponse;
+use crate::disc::radiated::radiated;
+use crate::disc::refine::solve_disc;
 use crate::disc::{FixedDisc, stability};
-use crate::energy;
+use crate::growing::quick::quick;
 use crate::growing::solve_growing;
-use crate::growing::waves::GrowingContact;
-use crate::model::choose::{Family, Plan, disc_of};
-use crate::model::{Rung, Scheme, Settings, StaticShare};
-use crate::numeric::series::Series;
-use crate::plastic::branch::{FITTED, Fit};
-use crate::plastic::quick::quick;
-use crate::plastic::{FlowLaw, Yielding};
-use crate::responses::Responses;
+use crate::history::History;
+use crate::law::fit::{FITTED, Fit};
+use crate::law::yielding::{FlowLaw, Yielding};
+use crate::numeric::series::PlaneSeries;
+use crate::settings::{Memory, Physics, Scheme, Settings, StaticShare};
+use crate::solve::choose::{Chosen, disc_of};
 use crate::summary::{Summary, relative};
+use crate::waves::cache::Responses;
+use crate::waves::punch::GrowingContact;
+use crate::waves::response::DiscResponse;
 use halfspace::Deflection;
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
-/// A cell: an octave of each free group of a family of contacts, at given others.
+/// A cell: an octave of each free group of contacts of one physics, at given others.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct Cell {
     /// Logarithms to the base of two of the free groups, rounded down.
     octaves: [i32; 2],
-    family: Family,
+    physics: Physics,
     /// That of a fixed disc.
     deflection: Deflection,
     /// Poisson's ratio and, of a contact that follows the load, phi; C and e_y of the fit; in bits.
@@ -54,86 +55,102 @@ struct Cell {
 
 /// Where a contact lies: its cell, its free groups, and their place in it between -1 and 1.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Place {
+pub(crate) struct CellPlace {
     cell: Cell,
     groups: [f64; 2],
     inside: [f64; 2],
 }
 
-/// The series that the contacts of a sweep share, each with its certificate, made when it is first asked for.
+/// The series that the contacts of a sweep share, each with its certificate, made at its first use.
 #[derive(Debug, Default)]
 pub struct Outcomes {
-    cells: BTreeMap<Cell, OnceLock<Option<(Series<8>, f64)>>>,
+    cells: BTreeMap<Cell, OnceLock<Option<(PlaneSeries<8>, f64)>>>,
 }
 
-/// Rows in a cell over the marches of its series from which on it pays: one at a node takes as long as two or three rows.
-const PAYS: f64 = 4.0;
+/// Rows in a cell over the marches of its series from which on it pays: a march at a node, to a tenth of the tolerance, takes as
+/// long as two or three rows. `benches/impacts.rs` prints the time of rows with and without series.
+const ROWS_PER_MARCH: f64 = 4.0;
 
-/// Tolerance of the marches over that of the rows.
-const FINER: f64 = 0.1;
+/// Tolerance of the marches over that of the rows; `tests/outcome.rs` fails at 0.5.
+const FINER_MARCHES: f64 = 0.1;
 
 /// Tolerance from which on the lower degree serves, and the nodes along a group: of it, below, and of the fit.
-const COARSE: f64 = 1e-5;
-const NODES: [usize; 3] = [5, 7, 8];
+const COARSE_TOLERANCE: f64 = 1e-5;
+const NODES_OF_SERIES: [usize; 3] = [5, 7, 8];
 
 /// Marches between the nodes, of one free group, of two and of the fit; they are equidistributed, with these steps.
-const PROBES: [usize; 3] = [4, 8, 16];
-const STEPS: [f64; 2] = [0.754_877_666, 0.569_840_291];
+const MARCHES_BETWEEN: [usize; 3] = [4, 8, 16];
+const STEPS_OF_SEQUENCE: [f64; 2] = [0.754_877_666, 0.569_840_291];
 
-/// Times their largest difference that the certificate has.
-const CAUTION: f64 = 3.0;
+/// Certificate over the largest difference from the marches between the nodes: there are few of them. `tests/outcome.rs`
+/// fails at 1, for the series of the fit.
+const CAUTION_OF_CERTIFICATE: f64 = 3.0;
 
-/// Times the tolerance by which results may differ on which none is asked: loss, deflection, radiated energy.
-const BESIDE: f64 = 10.0;
+/// Allowed error, over the tolerance, of the results without a tolerance: loss, deflection, radiated energy. A choice, not a
+/// measurement: they are relative to small numbers.
+const ALLOWED_UNASKED: f64 = 10.0;
 
-/// Part of the tolerance below which a coefficient is left out.
-const LEFT_OUT: f64 = 5e-2;
+/// Coefficients left out of a series, over the tolerance. The certificate contains their effect, so that this sets the cost
+/// only.
+const COEFFICIENTS_LEFT_OUT: f64 = 5e-2;
 
-impl Place {
+impl CellPlace {
     /// Of a contact that would be marched with full memory, and its disc's response.
     pub(crate) fn of(
-        plan: &Plan,
+        chosen: &Chosen,
         collision: &Collision,
         settings: &Settings,
         response: &impl DiscResponse,
     ) -> Option<Self> {
-        let (rung, on_disc) = plan.model.row();
+        let is_marched = match chosen.memory() {
+            Memory::None | Memory::FirstOrder | Memory::Dashpot => false,
+            Memory::Full => true,
+        };
         let is_refined = settings.step_s.is_none() && settings.scheme == Scheme::Implicit;
-        if rung != Rung::FullMemory || !is_refined {
+        if !is_marched || !is_refined {
             return None;
         }
-        let (nu, memory) = (collision.target_poisson_ratio, plan.groups.memory);
-        let (fixed, groups) = if on_disc {
-            let disc = disc_of(settings, collision, response);
-            ([nu, 0.0], [memory / response.disc().memory, disc.coupling])
-        } else {
-            let fixed = [nu, collision.target_share()];
-            (fixed, [memory / response.punch_memory(), 1.0])
+        let (nu, memory) = (collision.target_poisson_ratio, chosen.regime.memory);
+        let physics = chosen.regime.physics;
+        let (fixed, groups) = match physics {
+            Physics::Disc(StaticShare::Full | StaticShare::Dynamic) => {
+                let disc = disc_of(settings, collision, response);
+                ([nu, 0.0], [memory / response.disc().memory, disc.coupling])
+            }
+            Physics::Growing | Physics::Yielding => {
+                let fixed = [nu, collision.target_share()];
+                (fixed, [memory / response.punch_memory(), 1.0])
+            }
         };
-        Some(Self::new(settings, plan.groups.family, fixed, groups))
+        Some(Self::new(settings, physics, fixed, groups))
     }
 
     /// Of a contact on Jackson and Green's fit with a dashpot.
-    pub(crate) fn of_fit(plan: &Plan, yielding: &Yielding, settings: &Settings) -> Option<Self> {
+    pub(crate) fn of_fit(
+        chosen: &Chosen,
+        yielding: &Yielding,
+        settings: &Settings,
+    ) -> Option<Self> {
         let fit = match yielding.law {
             FlowLaw::Fit(fit) => fit,
             // in closed form
             FlowLaw::Thornton | FlowLaw::Recovery => return None,
         };
-        if plan.model.row().0 != Rung::AreaDashpot {
-            return None;
+        match chosen.memory() {
+            Memory::Dashpot => {}
+            Memory::None | Memory::FirstOrder | Memory::Full => return None,
         }
-        let groups = [(yielding.edge().powi(-5) - 1.0).sqrt(), plan.groups.lag];
+        let groups = [(yielding.edge().powi(-5) - 1.0).sqrt(), chosen.regime.lag];
         let fixed = [fit.shape, fit.strain];
-        Some(Self::new(settings, Family::Yielding, fixed, groups))
+        Some(Self::new(settings, Physics::Yielding, fixed, groups))
     }
 
-    fn new(settings: &Settings, family: Family, fixed: [f64; 2], groups: [f64; 2]) -> Self {
+    fn new(settings: &Settings, physics: Physics, fixed: [f64; 2], groups: [f64; 2]) -> Self {
         let octaves = groups.map(octave);
         let tolerances = [settings.tolerance, settings.loss_tolerance.unwrap_or(0.0)];
         let cell = Cell {
             octaves: octaves.map(|(octave, _)| octave),
-            family,
+            physics,
             deflection: settings.deflection,
             fixed: fixed.map(f64::to_bits),
             tolerances: tolerances.map(f64::to_bits),
@@ -159,7 +176,7 @@ fn octave(number: f64) -> (i32, f64) {
 impl Outcomes {
     /// Those that pay for so many rows, of which these are a sample; rows that are not marched with full memory have no
     /// place.
-    pub(crate) fn of(rows: usize, sample: impl Iterator<Item = Option<Place>>) -> Self {
+    pub(crate) fn of(rows: usize, sample: impl Iterator<Item = Option<CellPlace>>) -> Self {
         let (mut counts, mut sampled) = (BTreeMap::new(), 0.0);
         for place in sample {
             sampled += 1.0;
@@ -169,7 +186,7 @@ impl Outcomes {
         }
         counts.retain(|cell: &Cell, count| {
             let ([across, along], probes) = cell.nodes();
-            *count * rows as f64 / sampled >= PAYS * (across * along + probes) as f64
+            *count * rows as f64 / sampled >= ROWS_PER_MARCH * (across * along + probes) as f64
         });
         let paying = counts.into_keys();
         Self {
@@ -177,10 +194,10 @@ impl Outcomes {
         }
     }
 
-    /// The outcome at a place, what it radiates over its kinetic energy, and its error; nothing where it has to be marched.
+    /// The outcome at a place, its radiated over its kinetic energy, and its error; none if it has to be marched.
     pub(crate) fn at(
         &self,
-        place: &Place,
+        place: &CellPlace,
         responses: &impl Responses,
     ) -> Option<(Summary, f64, f64)> {
         let series = self.cells.get(&place.cell)?;
@@ -194,26 +211,31 @@ impl Outcomes {
 impl Cell {
     /// Nodes along each group, and marches between them.
     fn nodes(&self) -> ([usize; 2], usize) {
-        let fine = usize::from(f64::from_bits(self.tolerances[0]) < COARSE);
-        match self.family {
-            Family::Growing => ([NODES[fine], 1], PROBES[0]),
-            Family::Full | Family::Dynamic => ([NODES[fine]; 2], PROBES[1]),
-            Family::Yielding => ([NODES[2]; 2], PROBES[2]),
+        let fine = usize::from(f64::from_bits(self.tolerances[0]) < COARSE_TOLERANCE);
+        match self.physics {
+            Physics::Growing => ([NODES_OF_SERIES[fine], 1], MARCHES_BETWEEN[0]),
+            Physics::Disc(_) => ([NODES_OF_SERIES[fine]; 2], MARCHES_BETWEEN[1]),
+            Physics::Yielding => ([NODES_OF_SERIES[2]; 2], MARCHES_BETWEEN[2]),
         }
     }
 
     /// The groups at a place in it.
     fn groups(&self, inside: [f64; 2]) -> [f64; 2] {
         let group = |k: usize| (f64::from(self.octaves[k]) + 0.5 * (inside[k] + 1.0)).exp2();
-        let one = self.family == Family::Growing;
-        [group(0), if one { 1.0 } else { group(1) }]
+        match self.physics {
+            Physics::Growing => [group(0), 1.0],
+            Physics::Disc(_) | Physics::Yielding => [group(0), group(1)],
+        }
     }
 
     /// The series with its certificate, where that meets the tolerance.
-    fn contract(&self, responses: &impl Responses) -> Option<(Series<8>, f64)> {
+    fn contract(&self, responses: &impl Responses) -> Option<(PlaneSeries<8>, f64)> {
         let [tolerance, of_loss] = self.tolerances.map(f64::from_bits);
         let of_loss = Some(of_loss).filter(|&asked| asked > 0.0);
-        let asked = Accuracy::of_contact(FINER * tolerance, of_loss.map(|asked| FINER * asked));
+        let asked = Accuracy::of_contact(
+            FINER_MARCHES * tolerance,
+            of_loss.map(|asked| FINER_MARCHES * asked),
+        );
         let (mut history, mut left) = (History::default(), 0.0_f64);
         let mut march = |inside: [f64; 2]| {
             let groups = self.groups(inside);
@@ -226,10 +248,10 @@ impl Cell {
             Some(lanes(&summary, radiated, groups))
         };
         let (nodes, probes) = self.nodes();
-        let series = Series::through(nodes, LEFT_OUT * tolerance, values)?;
+        let series = PlaneSeries::through(nodes, COEFFICIENTS_LEFT_OUT * tolerance, values)?;
         let mut missed = 0.0_f64;
         for k in 1..=probes {
-            let inside = STEPS.map(|step| 2.0 * (k as f64 * step).fract() - 1.0);
+            let inside = STEPS_OF_SEQUENCE.map(|step| 2.0 * (k as f64 * step).fract() - 1.0);
             let (exact, work, groups) = march(inside)?;
             let (found, radiated) = outcome(&series.at(inside), groups);
             let late = (found.peak_force_time - exact.peak_force_time).abs() / exact.contact_time;
@@ -238,10 +260,10 @@ impl Cell {
                 .max(relative(exact.peak_deflection, found.peak_deflection))
                 .max(relative(work, radiated));
             let loss = of_loss.map_or(0.0, |asked| exact.loss_distance(&found) / asked * tolerance);
-            let all = [exact.distance(&found), late, beside / BESIDE, loss];
+            let all = [exact.distance(&found), late, beside / ALLOWED_UNASKED, loss];
             missed = all.into_iter().fold(missed, f64::max);
         }
-        let error = CAUTION * missed + left;
+        let error = CAUTION_OF_CERTIFICATE * missed + left;
         (error <= tolerance).then_some((series, error))
     }
 
@@ -254,8 +276,8 @@ impl Cell {
         history: &mut History,
     ) -> Option<(Summary, f64, f64)> {
         let fixed = self.fixed.map(f64::from_bits);
-        let share = match self.family {
-            Family::Growing => {
+        let share = match self.physics {
+            Physics::Growing => {
                 let waves = responses.waves(fixed[0]).ok()?;
                 let contact = GrowingContact {
                     waves: &waves,
@@ -266,7 +288,7 @@ impl Cell {
                 let summary = solved.summary;
                 return Some((summary, summary.loss, solved.estimates.contact()));
             }
-            Family::Yielding => {
+            Physics::Yielding => {
                 let depth = (1.0 + first * first).powf(-0.4);
                 let [shape, strain] = fixed;
                 let yielding = Yielding {
@@ -277,8 +299,7 @@ impl Cell {
                 let (summary, flow) = quick(&yielding, second)?;
                 return Some((summary, flow.radiated, 0.0));
             }
-            Family::Full => StaticShare::Full,
-            Family::Dynamic => StaticShare::Dynamic,
+            Physics::Disc(share) => share,
         };
         let of_mean = responses.disc(fixed[0], Deflection::Mean).ok()?;
         let response = responses.disc(fixed[0], self.deflection).ok()?;
@@ -291,12 +312,12 @@ impl Cell {
         stability::check(&impact, history).ok()?;
         let found = solve_disc(history, &impact, None, asked).ok()?;
         let summary = found.summary;
-        let radiated = || energy::radiated(&impact, &*of_mean, history, summary.contact_time);
+        let radiated = || radiated(&impact, &*of_mean, history, summary.contact_time);
         (summary.contacts == 1).then(|| (summary, radiated(), found.error))
     }
 }
 
-/// What a series has of an outcome: without the power of the groups that it has to first order.
+/// Results of an outcome as a series holds them: without the power of the groups that they have to first order.
 fn lanes(summary: &Summary, radiated: f64, [time, coupling]: [f64; 2]) -> [f64; 8] {
     let first = time * coupling;
     [

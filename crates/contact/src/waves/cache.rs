@@ -1,7 +1,7 @@
 //! Surface responses by Poisson's ratio: exact ones, and tabulated ones that all threads share.
 
-use crate::disc::response::{DiscResponse, ResponseTable};
-use crate::growing::waves::PunchWaves;
+use crate::waves::punch::PunchWaves;
+use crate::waves::response::{DiscResponse, ResponseTable};
 use halfspace::{Deflection, DomainError, Medium, SurfaceResponse};
 use std::collections::HashMap;
 use std::sync::{Arc, PoisonError, RwLock};
@@ -24,7 +24,7 @@ pub trait Responses {
     fn waves(&self, ratio: f64) -> Result<Arc<PunchWaves>, DomainError>;
 }
 
-/// Exact responses, made when they are asked for: what a single impact takes.
+/// Exact responses, computed at each call, for single impacts.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Exact;
 
@@ -43,7 +43,7 @@ impl Responses for Exact {
     }
 }
 
-/// Tabulated responses, made once and shared by all threads: what a sweep takes.
+/// Tabulated responses, computed once and shared by all threads, for sweeps.
 ///
 /// By default each Poisson's ratio has its own.
 #[derive(Debug, Default)]
@@ -58,7 +58,7 @@ pub struct Tabulated {
 const LATTICE: f64 = 4096.0;
 
 /// Lattice points next to nu = 1/2 that are not used: the memory grows like 1/sqrt(1/2 - nu) there.
-const FIRST: f64 = 512.0;
+const FIRST_OF_LATTICE: f64 = 512.0;
 
 impl Tabulated {
     /// For any number of Poisson's ratios, as random draws have: responses of a lattice, linear between two of them.
@@ -77,11 +77,11 @@ impl Tabulated {
         let place = (0.5 - ratio).max(0.0).sqrt() * LATTICE;
         let below = place.floor();
         let at = |i: f64| 0.5 - (i / LATTICE).powi(2);
-        let inside = below >= FIRST && at(below + 1.0) > -1.0;
+        let inside = below >= FIRST_OF_LATTICE && at(below + 1.0) > -1.0;
         (self.lattice && inside).then(|| (at(below), at(below + 1.0), place - below))
     }
 
-    /// What belongs to a ratio: made for it once, or between the two of the lattice.
+    /// The response of a ratio: computed once for it, or interpolated between two ratios of the lattice.
     fn at<V>(
         &self,
         cache: &RwLock<HashMap<u64, Arc<V>>>,

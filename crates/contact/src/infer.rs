@@ -1,4 +1,4 @@
-//! Yield pressure or velocity from what was measured of a contact that yields.
+//! Yield pressure or velocity from a measured restitution, contact time or peak force of a contact that yields.
 //!
 //! The unknown is bracketed between the onset of yield and as far beyond as the law goes, and the bracket halved in its
 //! logarithm.
@@ -8,16 +8,16 @@
 
 use crate::collision::Collision;
 use crate::error::ContactError;
-use crate::model::Settings;
 use crate::names::{Choice, choice};
-use crate::responses::Exact;
 use crate::results::Results;
-use crate::solver::Solver;
+use crate::settings::Settings;
+use crate::solve::Solver;
+use crate::waves::cache::Exact;
 use fault::{Class, Culprit, Fault};
 use thiserror::Error;
 
 choice! {
-    /// What was measured.
+    /// Measured quantity.
     #[derive(Debug, Clone, Copy, PartialEq)]
     pub enum Measure {
         /// Velocity of departure over that of approach.
@@ -30,7 +30,7 @@ choice! {
 }
 
 choice! {
-    /// What is to be found.
+    /// Unknown quantity.
     #[derive(Debug, Clone, Copy, PartialEq, Eq)]
     pub enum Unknown {
         /// Mean pressure of the flow in Pa.
@@ -49,7 +49,7 @@ impl Unknown {
         }
     }
 
-    /// What it is in words.
+    /// Name in words.
     pub fn words(self) -> &'static str {
         match self {
             Self::YieldPressure => "yield pressure",
@@ -58,7 +58,7 @@ impl Unknown {
     }
 }
 
-/// What was found.
+/// An unknown that was found.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Inferred {
     /// The unknown.
@@ -90,7 +90,7 @@ pub enum InferError {
     NoLaw {
         /// Name of the law.
         law: &'static str,
-        /// What was sought.
+        /// Name of the unknown.
         unknown: &'static str,
     },
     /// A measure that no contact has that yields.
@@ -98,7 +98,7 @@ pub enum InferError {
         "{measure} = {} is outside [{:.4e}, {:.4e}], the range of contacts that yield by this law, {}", fault::number(*value), limits[0], limits[1], reach(*most)
     )]
     Outside {
-        /// What was measured.
+        /// Name of the measure.
         measure: &'static str,
         /// Its value.
         value: f64,
@@ -143,13 +143,13 @@ impl Fault for InferError {
 /// Velocity of approach over that of yield, at most: the restitution of `thornton` is 0.006 there.
 ///
 /// `tests/beyond.rs` (`every_rebound_is_inferred_that_an_impact_gives`) goes near it.
-const MOST: f64 = 1e9;
+const MOST_OVER_YIELD: f64 = 1e9;
 
 /// Bisections of the logarithm of that ratio, where the law ends before it: to a thousandth.
 const BISECTIONS: usize = 15;
 
 /// Halvings of the bracket: to 2e-11 of the unknown.
-const HALVINGS: usize = 40;
+const HALVINGS_OF_BRACKET: usize = 40;
 
 /// A contact that varies with one unknown.
 struct Varied<'a> {
@@ -179,10 +179,10 @@ impl Varied<'_> {
 
     /// The largest velocity over that of yield: where the law, or a velocity that any contact law serves, ends.
     fn most(&self, by_ratio: impl Fn(f64) -> f64) -> f64 {
-        if self.at(by_ratio(MOST)).is_ok() {
-            return MOST;
+        if self.at(by_ratio(MOST_OVER_YIELD)).is_ok() {
+            return MOST_OVER_YIELD;
         }
-        let [mut near, mut far] = [0.0, MOST.ln()];
+        let [mut near, mut far] = [0.0, MOST_OVER_YIELD.ln()];
         for _ in 0..BISECTIONS {
             let middle = 0.5 * (near + far);
             match self.at(by_ratio(middle.exp())) {
@@ -217,7 +217,7 @@ impl Varied<'_> {
 
 /// The yield pressure or the velocity of a contact that gives a measured value, with the interval of its absolute error.
 ///
-/// What is not sought is that of the collision and its settings.
+/// All other numbers are those of the collision and its settings.
 ///
 /// # Errors
 /// [`InferError`].
@@ -255,7 +255,7 @@ pub fn infer(
             return Ok(None);
         }
         let [mut near, mut far] = bracket.map(f64::ln);
-        for _ in 0..HALVINGS {
+        for _ in 0..HALVINGS_OF_BRACKET {
             let middle = 0.5 * (near + far);
             if (at(middle.exp())?.1 > value) == (ends[0] > ends[1]) {
                 near = middle;

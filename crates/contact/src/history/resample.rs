@@ -1,7 +1,7 @@
 //! A contact read at any time: between samples, within the pieces of a growing contact, after the striker has left.
 
-use crate::disc::history::History;
-use crate::numeric::quadrature::{Local, find_root, hermite, quintic};
+use crate::history::History;
+use crate::numeric::quadrature::{LocalPolynomial, find_root, hermite, quintic};
 use crate::summary::Instant;
 use crate::units::INVERSE_MASS;
 use std::sync::OnceLock;
@@ -12,18 +12,18 @@ use std::sync::OnceLock;
 /// 3/2 there; force, rate and second rate are those of one function.
 #[derive(Debug, Clone, Default)]
 pub struct Resampler {
-    /// What is read.
+    /// The history that is read.
     pub history: History,
     /// Indentation with its slope and curvature over a step, at each sample.
     indentation: Vec<[f64; 3]>,
-    /// At each sample, once the striker's motion is asked for.
+    /// Velocity at each sample, computed with the first state.
     velocity: OnceLock<Vec<f64>>,
     /// Where each contact begins and ends, in collision units, ascending.
     pub breaks: Vec<f64>,
 }
 
 /// Samples through which slopes and curvatures are taken.
-const POINTS: usize = 5;
+const SAMPLES_OF_SLOPE: usize = 5;
 
 impl Resampler {
     /// Of a history.
@@ -38,13 +38,14 @@ impl Resampler {
         }
         let (d, w) = (&made.history.displacement, &made.history.deflection);
         let values: Vec<f64> = d.iter().zip(w).map(|(d, w)| d - w).collect();
-        let most = values.len().saturating_sub(POINTS);
+        let most = values.len().saturating_sub(SAMPLES_OF_SLOPE);
         let jet = |i: usize| {
-            let from = i.saturating_sub(POINTS / 2).min(most);
-            let [_, slope, half] = Local::<POINTS>::at(&values, from).jet((i - from) as f64);
+            let from = i.saturating_sub(SAMPLES_OF_SLOPE / 2).min(most);
+            let [_, slope, half] =
+                LocalPolynomial::<SAMPLES_OF_SLOPE>::at(&values, from).jet((i - from) as f64);
             [values[i], slope, 2.0 * half]
         };
-        let enough = values.len() >= POINTS;
+        let enough = values.len() >= SAMPLES_OF_SLOPE;
         made.indentation = (0..values.len()).filter(|_| enough).map(jet).collect();
         made.breaks = made.crossings();
         made
