@@ -21,22 +21,25 @@
 #![cfg_attr(doctest, doc = include_str!("../README.md"))]
 #![warn(missing_docs)]
 
+// From the bottom up: a module uses those above it alone.
+mod error;
+mod quantity;
+mod sampled;
+pub mod record;
+pub mod kernels;
+pub mod excitation;
+pub mod scene;
+mod grid;
 mod convolution;
 mod cost;
-pub mod energy;
-mod error;
-pub mod excitation;
+pub mod source;
 mod fields;
-mod grid;
+pub mod energy;
 pub mod impact;
-pub mod kernels;
-pub mod numbers;
 pub mod outcome;
-pub mod record;
-pub(crate) mod sampled;
-pub mod scene;
 pub mod simulate;
 pub mod sweep;
+pub mod numbers;
 
 pub use contact::{HalfSpace, Material, Settings, Striker};
 pub use convolution::Trace;
@@ -45,16 +48,16 @@ pub use energy::EnergySeries;
 pub use error::ImpactError;
 pub use excitation::{Excitation, Motion, PressureRadius};
 pub use fields::probes::{Peaks, ProbeFields, ProbePeaks, SectionFields};
-pub use fields::quantity::Quantity;
 pub use fields::{FieldHistory, Fields};
 pub use halfspace::Field;
 pub use impact::{Impact, Run};
 pub use kernels::KernelSource;
-pub use kernels::source::{self, KernelChoice, Shared, Tables};
 pub use outcome::{Cause, FieldsUsed, Outcome, RecordResults, Series, StrikerSeries};
+pub use quantity::Quantity;
 pub use record::condition::TreatmentError;
 pub use record::jump::{Jump, follows};
 pub use record::{ASCENDING, ForceRecord, Reading, RecordError, Treated};
 pub use sampled::convolve;
 pub use scene::{Load, Probe, Scene, Section, Strike};
 pub use simulate::{simulate, simulate_within};
+pub use source::{KernelChoice, Shared, Tables};

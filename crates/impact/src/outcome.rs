@@ -3,7 +3,7 @@
 use crate::energy::EnergySeries;
 use crate::error::{ImpactError, finite};
 use crate::fields::probes::{ProbeFields, SectionFields};
-use crate::fields::quantity::Quantity;
+use crate::quantity::Quantity;
 use crate::sampled::convolve::Method;
 use contact::{Choice, Model, Results, Scheme};
 use lookup::schema::FIELD_NAMES;

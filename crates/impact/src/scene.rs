@@ -1,6 +1,6 @@
 //! A scene: what loads which half-space, and what is asked.
 
-use crate::fields::quantity::{Derivative, Quantity};
+use crate::quantity::{Derivative, Quantity};
 use crate::record::ForceRecord;
 use contact::{HalfSpace, Settings, Striker};
 

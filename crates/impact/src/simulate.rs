@@ -10,12 +10,12 @@ use crate::fields::probes::{at_probes, frames, on_section};
 use crate::grid::{Grid, Wanted};
 use crate::impact::Impact;
 use crate::kernels::KernelSource;
-use crate::kernels::source::{KernelChoice, choose_source};
 use crate::outcome::{Cause, FieldsUsed, Outcome, RecordResults, Series, StrikerSeries, checked};
 use crate::record::ForceRecord;
 use crate::sampled::convolve::{Method, rises};
 use crate::sampled::projection::Projection;
 use crate::scene::{Load, Scene, Strike};
+use crate::source::{KernelChoice, choose_source};
 use contact::{Model, Scheme, StaticShare};
 use halfspace::Medium;
 

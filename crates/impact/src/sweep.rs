@@ -5,8 +5,8 @@ use crate::fields::probes::{ProbePeaks, peaks_at_probes};
 use crate::grid::{Grid, Wanted};
 use crate::impact::solve;
 use crate::kernels::KernelSource;
-use crate::kernels::source::KernelChoice;
 use crate::scene::{Load, Scene};
+use crate::source::KernelChoice;
 use contact::{Collision, ContactError, Model, Outcomes, Results, Settings, Solver, Tabulated};
 
 /// A contact of many: its results, the model that gave them, and what the probes see.

@@ -31,9 +31,9 @@ pub(crate) use exact::Past;
 
 use crate::error::ImpactError;
 use crate::excitation::PressureRadius;
-use crate::fields::quantity::{Derivative, Quantity};
 use crate::grid::Grid;
 use crate::kernels::{CellPlan, Cells, KernelSource};
+use crate::quantity::{Derivative, Quantity};
 use crate::sampled::convolve::Method;
 use crate::sampled::projection::largest;
 use halfspace::Six;
@@ -267,10 +267,9 @@ impl<'a> Convolution<'a> {
     ) -> Vec<Trace> {
         let follows = forcing.follows();
         let zones = f64::from(u8::from(kernels.are_traces()));
+        // the last terms of the integrals of fields are counted one by one
         let over_past = match (is_integrated && self.past.is_some(), forcing.derivative) {
-            (false, _) => 0.0,
-            // the last terms of the integrals of fields are counted one by one
-            (true, Derivative::Field) => 0.0,
+            (false, _) | (true, Derivative::Field) => 0.0,
             (true, Derivative::First | Derivative::Second) => 1.0,
         };
         let quadrature = (zones + over_past) * tuning::QUADRATURE * forcing.tolerance;

@@ -4,7 +4,7 @@ use super::discs::Discs;
 use super::fronts::Fronts;
 use super::tuning;
 use crate::excitation::{Excitation, PressureRadius};
-use crate::fields::quantity::Derivative;
+use crate::quantity::Derivative;
 
 /// Sets of discs from which points choose.
 pub(crate) struct Sets {

@@ -6,10 +6,10 @@ use crate::convolution::discs::Discs;
 use crate::convolution::loads::Forcing;
 use crate::convolution::tests::contact;
 use crate::convolution::{Convolution, Past};
-use crate::fields::quantity::Derivative;
-use crate::fields::quantity::Quantity;
 use crate::grid::{Grid, Wanted};
 use crate::kernels::KernelSource;
+use crate::quantity::Derivative;
+use crate::quantity::Quantity;
 
 /// A displacement's rate at an instant, from the sum over the radii, and how sure it is.
 struct Reference<'a> {

@@ -7,8 +7,8 @@ use super::ends::departures;
 use super::loads::{Forcing, Loads};
 use super::tuning;
 use crate::excitation::PressureRadius;
-use crate::fields::quantity::Derivative;
 use crate::kernels::Cells;
+use crate::quantity::Derivative;
 use crate::record::jump::rounded_up;
 use crate::sampled::projection::largest;
 use halfspace::{DomainError, Six};
@@ -331,8 +331,8 @@ impl Sums {
         }
         for i in (0..done.len()).filter(|&i| done[i]) {
             let change = by_zones(forcing, loads, kernels, i, &(0..usize::MAX));
-            for f in 0..components(forcing) {
-                self.values[f][i] += change[f];
+            for (f, change) in change.into_iter().enumerate().take(components(forcing)) {
+                self.values[f][i] += change;
                 self.residual[f][i] = 0.0;
             }
         }

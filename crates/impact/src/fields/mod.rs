@@ -1,11 +1,10 @@
 //! Fields of an excitation at points of the half-space.
 //!
-//! At the probes of a scene and on its section (`probes`), and what follows from them (`quantity`); `faces` warns of those
-//! faces of a block that a half-space does not have.
+//! `probes` has those at the probes of a scene and on its section; `faces` warns of the faces of a block that a half-space does
+//! not have.
 
 pub(crate) mod faces;
 pub(crate) mod probes;
-pub(crate) mod quantity;
 
 use crate::convolution::{Convolution, Past, Trace};
 use crate::error::ImpactError;

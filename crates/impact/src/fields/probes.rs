@@ -4,11 +4,11 @@ use crate::convolution::{Convolution, Trace};
 use crate::cost::Forecast;
 use crate::error::{ImpactError, finite};
 use crate::excitation::Excitation;
-use crate::fields::quantity::Quantity;
 use crate::grid::{Grid, Wanted};
 use crate::kernels::KernelSource;
-use crate::kernels::source::{KernelChoice, choose_source};
+use crate::quantity::Quantity;
 use crate::scene::{Probe, Scene, Section};
+use crate::source::{KernelChoice, choose_source};
 use contact::HalfSpace;
 use rayon::prelude::*;
 

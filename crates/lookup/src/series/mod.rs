@@ -165,7 +165,7 @@ impl Series {
     pub fn averages(&self, width: f64, count: usize) -> Vec<Six> {
         let mut found = Vec::with_capacity(count);
         self.dispatch(width / self.width, 0..count, |_, [average]: [Six; 1]| {
-            found.push(average)
+            found.push(average);
         });
         found
     }

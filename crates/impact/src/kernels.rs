@@ -1,8 +1,4 @@
 //! Kernels as cell averages at a point: computed, or looked up.
-//!
-//! Which kernels a scene takes is chosen in [`source`].
-
-pub mod source;
 
 use crate::error::ImpactError;
 use halfspace::{DomainError, Kernel, Medium, Profile, Six, Trace};

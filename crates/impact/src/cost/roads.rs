@@ -1,0 +1,213 @@
+//! The road of each point of a scene, as its plan has it, and the time that it takes.
+//!
+//! Constants are seconds of one thread, measured with the jobs of `scripts/time-impacts`.
+
+use crate::convolution::plan::{PointPlan, Sets};
+use crate::excitation::{Excitation, PressureRadius};
+use crate::grid::Wanted;
+use crate::quantity::Derivative;
+use crate::sampled::convolve::{direct_ns, transform_ns};
+use crate::scene::{Scene, Section};
+
+/// A kernel, and kernels of a trace whatever its tolerance, and for each digit; for fields with rates so many times more.
+const KERNEL_S: f64 = 4e-6;
+const KERNELS: f64 = 16.0;
+const KERNELS_A_DIGIT: f64 = 16.0;
+const WITH_RATES: f64 = 1.5;
+
+/// Moments of a cell, and the lookup of a cell.
+const CELL_S: f64 = 4e-7;
+const LOOKED_UP_S: f64 = 1.5e-7;
+
+/// A static field, and a step response at an instant for each jump of a record.
+const STATIC_S: f64 = 3e-7;
+const STEP_S: f64 = 6e-8;
+
+/// Kernels of a sample that is integrated over all of the past, and over parts of it, over the square of the digits; on the
+/// axis they are continued from so many radii.
+const KERNELS_OF_WHOLE: f64 = 12.0;
+const KERNELS_OF_PARTS: f64 = 6.0;
+const AXIS: f64 = 0.03;
+const RADII_ON_AXIS: f64 = 2.0;
+
+/// Points of a section whose plans are made for a forecast, at most.
+const MOST_PLANS: usize = 4096;
+
+/// How the fields of a probe, or of the points of the section, are computed: known before any kernel is.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Road {
+    /// Number of the probe from 0; none for the section.
+    pub probe: Option<usize>,
+    /// How many points there are.
+    pub points: usize,
+    /// Discs of fixed radii that stand for the load, at most.
+    pub discs: usize,
+    /// Whether their kernels are looked up rather than computed.
+    pub looked_up: bool,
+    /// Samples in time of each point.
+    pub samples: usize,
+    /// Samples of all points at which the past of the force is integrated, which discs do not serve.
+    pub integrated: f64,
+    /// Seconds of one thread.
+    pub seconds: f64,
+}
+
+/// Places of a scene, each with the number of its probe or none in the section, and how many points it stands for.
+fn planned(scene: &Scene) -> Vec<([f64; 2], Option<usize>, f64)> {
+    let probes = scene.probes.iter().enumerate();
+    let probes = probes.map(|(i, probe)| ([probe.r_m, probe.z_m], Some(i), 1.0));
+    let section = scene.section.iter().flat_map(|section| {
+        let Section {
+            r_max_m,
+            z_max_m,
+            points,
+            ..
+        } = section;
+        let all = points[0] * points[1];
+        let stride = (all as f64 / MOST_PLANS as f64).sqrt().ceil().max(1.0) as usize;
+        let axis = move |most_m: f64, count: usize| {
+            let place_m = move |i: usize| most_m * i as f64 / (count as f64 - 1.0).max(1.0);
+            (0..count)
+                .step_by(stride)
+                .map(place_m)
+                .collect::<Vec<f64>>()
+        };
+        let (r_m, z_m) = (axis(*r_max_m, points[0]), axis(*z_max_m, points[1]));
+        let each = all as f64 / (r_m.len() * z_m.len()) as f64;
+        let places = r_m
+            .into_iter()
+            .flat_map(move |r| z_m.clone().into_iter().map(move |z| [r, z]));
+        places.map(move |place_m| (place_m, None, each))
+    });
+    probes.chain(section).collect()
+}
+
+/// Samples of the output, at probes and on the section.
+struct Asked {
+    /// How many in all, and how many frames.
+    counts: [f64; 2],
+    /// Times in s at which short waves may pass; empty where nothing is integrated.
+    times_s: [Vec<f64>; 2],
+}
+
+impl Asked {
+    fn of(scene: &Scene, excitation: &Excitation, may_integrate: bool) -> Self {
+        let wanted = Wanted::of(scene);
+        let samples = wanted.cells(excitation);
+        let (duration_s, step_s) = wanted.duration_and_step_s(excitation);
+        let [frames, count_of_frames] = match &scene.section {
+            Some(Section { frames, .. }) if !scene.peaks => [(*frames as f64).min(samples); 2],
+            Some(_) => [samples, duration_s / step_s + 1.0],
+            None => [samples, 0.0],
+        };
+        let of_probes = if scene.probes.is_empty() {
+            0.0
+        } else {
+            duration_s / step_s + 1.0
+        };
+        let times_s = [of_probes, count_of_frames].map(|count| {
+            let gaps = (count - 1.0).max(1.0);
+            let count = if may_integrate { count as usize } else { 0 };
+            (0..count).map(|n| duration_s * n as f64 / gaps).collect()
+        });
+        let counts = [samples, frames];
+        Self { counts, times_s }
+    }
+}
+
+/// The roads of the points of a scene whose excitation is known, with kernels of a table that reaches to `reach` or, without it,
+/// computed ones.
+pub(crate) fn roads(scene: &Scene, excitation: &Excitation, reach: Option<[f64; 2]>) -> Vec<Road> {
+    let tolerance = scene.settings.tolerance;
+    let follows = matches!(excitation.radius(), PressureRadius::Following { .. });
+    let asked = Asked::of(scene, excitation, follows && reach.is_none());
+    let samples = asked.counts[0];
+    let sets = Sets::new(
+        excitation,
+        tolerance,
+        reach,
+        (samples as usize, scene.rates() > 0),
+    );
+    let digits = -tolerance.log10();
+    let more = if scene.rates() > 0 { WITH_RATES } else { 1.0 };
+    let kernels_s = match reach {
+        None => more * (KERNELS + KERNELS_A_DIGIT * digits) * KERNEL_S + samples * CELL_S,
+        Some(_) => samples * LOOKED_UP_S,
+    };
+    let radius_m = excitation.units().disc_radius_m;
+    let mut roads: Vec<Road> = Vec::new();
+    for (place_m, probe, points) in planned(scene) {
+        let kind = usize::from(probe.is_none());
+        let (times_s, count) = (&asked.times_s[kind][..], asked.counts[kind]);
+        let forcings: Vec<_> = derivatives(scene).map(|one| (one, times_s)).collect();
+        let plan = PointPlan::new(&sets, (excitation, tolerance), &forcings, place_m);
+        let discs = sets.get(plan.set).count();
+        let still_s = if follows { count * STATIC_S } else { 0.0 };
+        let sums_s = (discs as f64 + 1.0) * convolved_s(scene, samples, count) + still_s;
+        let is_on_axis = place_m[0] < AXIS * place_m[1].hypot(radius_m);
+        let axis = if is_on_axis { RADII_ON_AXIS } else { 1.0 };
+        let each = |whole| {
+            if whole {
+                KERNELS_OF_WHOLE
+            } else {
+                KERNELS_OF_PARTS
+            }
+        };
+        let past: f64 = plan
+            .integrated
+            .iter()
+            .flatten()
+            .map(|one| each(one.whole))
+            .sum();
+        let past_s = axis * past * digits.powi(2) * KERNEL_S;
+        let seconds = discs as f64 * kernels_s + forcings.len() as f64 * sums_s + past_s;
+        let integrated = plan.integrated.iter().map(Vec::len).sum::<usize>() as f64;
+        let (looked_up, samples) = (reach.is_some(), count as usize);
+        match roads
+            .last_mut()
+            .filter(|last| last.probe.is_none() && probe.is_none())
+        {
+            Some(last) => {
+                last.discs = last.discs.max(discs);
+                last.integrated += points * integrated;
+                last.seconds += points * seconds;
+            }
+            None => roads.push(Road {
+                probe,
+                points: 1,
+                discs,
+                looked_up,
+                samples,
+                integrated: points * integrated,
+                seconds: points * seconds,
+            }),
+        }
+    }
+    if let (Some(last), Some(section)) = (roads.last_mut(), &scene.section) {
+        last.points = section.points[0] * section.points[1];
+    }
+    roads
+}
+
+/// The fields, and the rates of them that a scene asks for.
+fn derivatives(scene: &Scene) -> impl Iterator<Item = Derivative> {
+    let rates = [Derivative::First, Derivative::Second];
+    let mut own: Vec<Derivative> = vec![Derivative::Field];
+    let asked = scene.quantities.iter().filter_map(|one| one.rate());
+    let asked: Vec<Derivative> = asked.map(|(derivative, _)| derivative).collect();
+    own.extend(rates.into_iter().filter(|rate| asked.contains(rate)));
+    own.into_iter()
+}
+
+/// Seconds of the convolutions of a point of which some samples are wanted. Slopes and bends of a record are summed wherever
+/// lines meet, or transformed as its rises are.
+fn convolved_s(scene: &Scene, samples: f64, wanted: f64) -> f64 {
+    let (corners, jumps) = scene.record().map_or((0.0, 0.0), |record| {
+        let rows = (record.time_s().len() as f64).min(samples);
+        (rows, record.jumps().len() as f64)
+    });
+    let transform_ns = transform_ns(2.0 * samples);
+    let rises_ns = direct_ns(wanted, samples).min(transform_ns);
+    let bends_ns = direct_ns(wanted, 2.0 * corners).min(2.0 * transform_ns);
+    1e-9 * (rises_ns + bends_ns) + jumps * wanted * STEP_S
+}
