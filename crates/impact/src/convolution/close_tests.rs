@@ -92,39 +92,44 @@ fn adaptive(of: &dyn Fn(f64) -> Six, parts: &[f64], allowed: &Six) -> (Six, Six)
     (sum, error)
 }
 
-/// The exact fields at a place and a time with the error of the quadrature, by (T55) over the instants' punches; near the axis,
-/// where their fronts from opposite edges meet, by [`linear`].
+/// The exact fields at a place and a time with the error of the quadrature, by (T55) over the instants' punches. Near the axis,
+/// where kernels of a punch lose digits, the waves of Hertz's pressure are differenced over the square of its radius.
 fn exact(excitation: &Excitation, place: [f64; 2], time: f64) -> (Six, Six) {
     /// Radii below this fraction of the distance from the largest edge are near the axis.
     const NEAR: f64 = 0.03;
-    const COARSE: usize = 3;
+    const DIFFERENCE: f64 = 3e-5;
     const QUADRATURE: f64 = 3e-8;
     let cuts = cuts(excitation, place, time);
     let units = excitation.units();
-    let kernel = |profile| Kernel::new(excitation.medium(), profile, 1e-11).unwrap();
-    if place[0] < NEAR * place[1].hypot(units.disc_radius_m) {
-        let kernel = kernel(Profile::Hertz);
-        let [coarse, fine] = [COARSE, 2 * COARSE].map(|n| {
-            let instants = subdivided(&cuts, n);
-            linear(excitation, &kernel, place, time, &instants)
-        });
-        let best: Six = std::array::from_fn(|f| (4.0 * fine[f] - coarse[f]) / 3.0);
-        return (best, std::array::from_fn(|f| (best[f] - fine[f]).abs()));
-    }
-    let kernel = kernel(Profile::Punch);
+    let near_axis = place[0] < NEAR * place[1].hypot(units.disc_radius_m);
+    let profile = if near_axis {
+        Profile::Hertz
+    } else {
+        Profile::Punch
+    };
+    let kernel = Kernel::new(excitation.medium(), profile, 1e-12).unwrap();
     let of = |angle: f64| {
         let at = past(excitation, angle);
         let one = excitation.pressures(at)[0];
-        let over = one.square.sqrt();
-        if over == 0.0 {
+        if one.square == 0.0 {
             return Six::default();
         }
-        let [r, z] = place.map(|x| x / (over * units.disc_radius_m));
-        let since = ((time - at) / (over * units.time_s())).max(0.0);
-        let kernel = kernel.remainder(r, z, since).unwrap().value;
-        let unit = excitation.units_si(over);
-        let weight = one.rate * 0.5 * excitation.end_s() * angle.sin();
-        std::array::from_fn(|f| weight * unit[f] * kernel[f])
+        let waves = |part: f64| -> Six {
+            let over = (part * one.square).sqrt();
+            let [r, z] = place.map(|x| x / (over * units.disc_radius_m));
+            let since = ((time - at) / (over * units.time_s())).max(0.0);
+            let value = kernel.remainder(r, z, since).unwrap().value;
+            let unit = excitation.units_si(over);
+            std::array::from_fn(|f| unit[f] * value[f])
+        };
+        let weight = 0.5 * excitation.end_s() * angle.sin();
+        let now = waves(1.0);
+        if !near_axis {
+            return now.map(|own| weight * one.rate * own);
+        }
+        let [above, below] = [1.0 + DIFFERENCE, 1.0 - DIFFERENCE].map(waves);
+        let grows = one.force_n * one.square_rate / (2.0 * DIFFERENCE * one.square);
+        std::array::from_fn(|f| weight * (one.rate * now[f] + grows * (above[f] - below[f])))
     };
     let still = |time: f64| {
         excitation
@@ -138,71 +143,6 @@ fn exact(excitation: &Excitation, place: [f64; 2], time: f64) -> (Six, Six) {
     let (waves, error) = adaptive(&of, &cuts, &allowed);
     let still = still(time);
     (std::array::from_fn(|f| still[f] + waves[f]), error)
-}
-
-fn subdivided(cuts: &[f64], parts: usize) -> Vec<f64> {
-    let inside = |pair: &[f64]| {
-        let [from, to] = [pair[0], pair[1]];
-        (0..parts)
-            .map(move |i| from + (to - from) * i as f64 / parts as f64)
-            .collect::<Vec<_>>()
-    };
-    cuts.windows(2)
-        .flat_map(inside)
-        .chain(cuts.last().copied())
-        .collect()
-}
-
-/// The fields under a load that is linear in time between some instants, given as angles of [`past`], each of Hertz's pressure
-/// on the radius of its instant:
-///
-/// ```text
-/// p(r, t') = sum_i w_i(t') P_i Z(r; a_i),     u(t) = P(t) static(a(t)) + sum_i P_i int w_i'(t') R(t - t'; a_i) dt'
-/// ```
-///
-/// with the integrals of R in closed form.
-fn linear(
-    excitation: &Excitation,
-    kernel: &Kernel,
-    place: [f64; 2],
-    time: f64,
-    angles: &[f64],
-) -> Six {
-    let units = excitation.units();
-    let instants: Vec<f64> = angles
-        .iter()
-        .map(|&angle| past(excitation, angle))
-        .collect();
-    let mut sum = excitation
-        .static_si(place, excitation.pressures(time))
-        .unwrap();
-    for (i, &at) in instants.iter().enumerate().skip(1) {
-        let one = excitation.pressures(at)[0];
-        let over = one.square.sqrt();
-        if over == 0.0 {
-            continue;
-        }
-        let [r, z] = place.map(|x| x / (over * units.disc_radius_m));
-        let (unit, unit_s) = (excitation.units_si(over), over * units.time_s());
-        let integral = |past: f64| {
-            kernel
-                .step_integral(r, z, (time - past).max(0.0) / unit_s)
-                .unwrap()
-                .value
-        };
-        let now = integral(at);
-        let mut add = |other: f64| {
-            let (width, beside) = ((at - other).abs() / unit_s, integral(other));
-            for f in 0..6 {
-                sum[f] += one.force_n * unit[f] * (beside[f] - now[f]) / width;
-            }
-        };
-        add(instants[i - 1]);
-        if let Some(&next) = instants.get(i + 1) {
-            add(next);
-        }
-    }
-    sum
 }
 
 /// An instant of a contact by an angle: the root of the time from its beginning and from its end is smooth in it.

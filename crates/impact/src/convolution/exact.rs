@@ -17,7 +17,7 @@
 use super::loads::Reading;
 use super::tuning;
 use crate::error::ImpactError;
-use crate::excitation::{Excitation, PressureRadius};
+use crate::excitation::Excitation;
 use crate::sampled::projection::largest;
 use halfspace::{Estimate, Kernel, Profile, Six, gauss, leja_nodes, leja_series, weights_off_axis};
 use std::f64::consts::PI;
@@ -28,6 +28,15 @@ use std::sync::LazyLock;
 const LEAST: usize = 5;
 const MOST: usize = 21;
 const HALVINGS: usize = 5;
+
+/// Radius over the distance from the largest edge below which kernels of a punch lose digits.
+const NEAR_AXIS: f64 = 0.031;
+
+/// Part of the square of a radius over which kernels near the axis are differenced, and their tolerance: 1e-7 of them is lost in
+/// rounding, and beside fronts the square of this part over the distance to them (`scripts/check-close`, regions `axis` and
+/// `centre`).
+const DIFFERENCE: f64 = 1e-5;
+const LEAST_TOLERANCE: f64 = 1e-12;
 
 /// What the integrals of a series' terms are: its argument x stands for an angle (1 + x) pi/2, and it is that of a function
 /// times 1 - x^2, since stresses of a punch grow as 1/angle toward a front.
@@ -57,8 +66,8 @@ pub(crate) struct Past<'a> {
     hertz: [Kernel; 2],
     /// Of the fields, over their peaks.
     tolerance: f64,
-    /// Radii from which the axis is continued.
-    radii: usize,
+    /// Of Hertz's pressure, to all digits, for differences near the axis.
+    axial: Kernel,
 }
 
 impl<'a> Past<'a> {
@@ -77,7 +86,7 @@ impl<'a> Past<'a> {
             punch: kernels(Profile::Punch)?,
             hertz: kernels(Profile::Hertz)?,
             tolerance,
-            radii: if tolerance < 1e-5 { 4 } else { 2 },
+            axial: Kernel::new(excitation.medium(), Profile::Hertz, LEAST_TOLERANCE)?,
         })
     }
 
@@ -239,7 +248,7 @@ impl<'a> Past<'a> {
                     place_m,
                     [time_s, past_s],
                     sign,
-                    Reading::Force,
+                    (Reading::Force, false),
                     &mut sum.value,
                 )?;
             }
@@ -249,9 +258,8 @@ impl<'a> Past<'a> {
 
     /// The integral over some of the past by series whose last terms are within what is allowed, and what these may leave.
     ///
-    /// Near the axis of a punch, where fronts from opposite edges meet and it has no kernel of its own, fields are r to
-    /// their parity times a function of r^2, which their values at a few larger radii continue; their error is taken from the
-    /// difference to a continuation without the farthest.
+    /// At the axis, where fronts from opposite edges meet, fields are r to their parity times a function of r^2, which their
+    /// values at two larger radii continue; their error is taken from the difference to the nearer one alone.
     fn integral(
         &self,
         allowed: &Six,
@@ -260,18 +268,22 @@ impl<'a> Past<'a> {
         span_s: [f64; 2],
         reading: Reading,
     ) -> Result<Estimate, ImpactError> {
-        /// Radii below this fraction of the distance from the largest edge are continued, and how many times the difference of
-        /// two continuations counts: behind a front they agree better than either is. `scripts/check-close` measures it.
-        const NEAR: f64 = 0.031;
-        const CONTINUED: f64 = 16.0;
-        let step_m = NEAR * z_m.hypot(self.excitation.units().disc_radius_m);
-        let follows = matches!(self.excitation.radius(), PressureRadius::Following { .. });
-        if r_m >= step_m || !follows {
+        /// Radius over the distance from the largest edge from which the axis is continued, and the part of the difference of
+        /// two continuations that is their error (`scripts/check-close`, regions `axis` and `centre`).
+        const AXIS: f64 = 0.008;
+        const CONTINUED: f64 = 0.3;
+        // rates are those of a punch, which are not differenced
+        let part = match reading {
+            Reading::Force => AXIS,
+            Reading::Rate => NEAR_AXIS,
+        };
+        let step_m = part * z_m.hypot(self.excitation.units().disc_radius_m);
+        if r_m >= step_m {
             return self.off_axis(allowed, [r_m, z_m], time_s, span_s, reading);
         }
-        let radii: Vec<f64> = (1..=self.radii).map(|i| step_m * i as f64).collect();
-        let fewer = &radii[..self.radii - 1];
-        let (mut sum, mut without) = (Estimate::default(), Six::default());
+        let radii = [step_m, 2.0 * step_m];
+        let mut sum = Estimate::default();
+        let mut nearer = Six::default();
         for (i, &radius) in radii.iter().enumerate() {
             let found = self.off_axis(allowed, [radius, z_m], time_s, span_s, reading)?;
             let weights = weights_off_axis(r_m, &radii, i);
@@ -279,13 +291,13 @@ impl<'a> Past<'a> {
                 sum.value[f] += weight * found.value[f];
                 sum.error[f] += (weight * found.error[f]).abs();
             }
-            if i < fewer.len() {
-                let weights = weights_off_axis(r_m, fewer, i);
-                without = std::array::from_fn(|f| without[f] + weights[f] * found.value[f]);
+            if i == 0 {
+                let weights = weights_off_axis(r_m, &radii[..1], 0);
+                nearer = std::array::from_fn(|f| weights[f] * found.value[f]);
             }
         }
-        for (f, without) in without.into_iter().enumerate() {
-            sum.error[f] += CONTINUED * (sum.value[f] - without).abs();
+        for (f, nearer) in nearer.into_iter().enumerate() {
+            sum.error[f] += CONTINUED * (sum.value[f] - nearer).abs();
         }
         Ok(sum)
     }
@@ -299,6 +311,7 @@ impl<'a> Past<'a> {
         reading: Reading,
     ) -> Result<Estimate, ImpactError> {
         let cuts = self.cuts(place_m, time_s, span_s);
+        let differenced = reading == Reading::Force && self.is_near_axis(place_m);
         // between two cuts, and how often they may be halved
         let pairs = cuts.windows(2).map(|pair| ([pair[0], pair[1]], HALVINGS));
         let mut panels: Vec<_> = pairs.rev().collect();
@@ -312,7 +325,7 @@ impl<'a> Past<'a> {
                     let mut value = Six::default();
                     if weight > 0.0 {
                         let times_s = [time_s, at_node(pair, node)];
-                        self.add(place_m, times_s, weight, reading, &mut value)?;
+                        self.add(place_m, times_s, weight, (reading, differenced), &mut value)?;
                     }
                     values.push(value);
                 }
@@ -358,47 +371,81 @@ impl<'a> Past<'a> {
     }
 
     /// Adds the waves of what an instant changes, or their rate: a pressure grows by that of a punch of its radius, and scales
-    /// as it is.
+    /// as it is. Near the axis the kernels of a punch lose digits, because its fronts from opposite edges meet there; there the
+    /// kernels of Hertz's pressure are `differenced` over the square of their radius.
     fn add(
         &self,
-        [r_m, z_m]: [f64; 2],
-        [time_s, past_s]: [f64; 2],
+        place_m: [f64; 2],
+        times_s: [f64; 2],
         weight: f64,
-        reading: Reading,
+        (reading, differenced): (Reading, bool),
         sum: &mut Six,
     ) -> Result<(), ImpactError> {
         /// Part of the rate that is not told from rounding.
         const NOTHING: f64 = 1e-12;
-        let units = self.excitation.units();
-        let level = usize::from(!self.is_far([r_m, z_m]));
-        for one in self.excitation.pressures(past_s) {
-            let over = one.square.sqrt();
-            if over == 0.0 {
+        let level = usize::from(!self.is_far(place_m));
+        for one in self.excitation.pressures(times_s[1]) {
+            if one.square == 0.0 {
                 continue;
             }
-            let radius_m = over * units.disc_radius_m;
-            let unit_s = over * units.time_s();
-            let since = (time_s - past_s) / unit_s;
-            let unit = self.excitation.units_si(over);
             let grown = 1.5 * one.force_n * one.square_rate / one.square;
-            for (rate, kernel) in [(grown, &self.punch), (one.rate - grown, &self.hertz)] {
-                if rate.abs() <= NOTHING * one.rate.abs() {
-                    continue;
+            let of = |kernel: &Kernel, square: f64| {
+                self.waves(kernel, place_m, times_s, square, reading)
+            };
+            let mut add = |rate: f64, waves: Six| {
+                for (sum, waves) in sum.iter_mut().zip(waves) {
+                    *sum += weight * rate * waves;
                 }
-                let (kernel, [r, z]) = (&kernel[level], [r_m, z_m].map(|x| x / radius_m));
-                let value = match reading {
-                    Reading::Force => kernel.remainder(r, z, since)?.value,
-                    Reading::Rate => {
-                        let [u, w] = kernel.displacement_impulse(r, z, since)?;
-                        [u / unit_s, w / unit_s, 0.0, 0.0, 0.0, 0.0]
-                    }
-                };
-                for (f, value) in value.into_iter().enumerate() {
-                    sum[f] += weight * rate * unit[f] * value;
+            };
+            if differenced {
+                let [above, below] =
+                    [1.0 + DIFFERENCE, 1.0 - DIFFERENCE].map(|part| part * one.square);
+                let slope = one.force_n * one.square_rate / (2.0 * DIFFERENCE * one.square);
+                add(one.rate, of(&self.axial, one.square)?);
+                add(slope, of(&self.axial, above)?);
+                add(-slope, of(&self.axial, below)?);
+                continue;
+            }
+            for (rate, kernel) in [
+                (grown, &self.punch[level]),
+                (one.rate - grown, &self.hertz[level]),
+            ] {
+                if rate.abs() > NOTHING * one.rate.abs() {
+                    add(rate, of(kernel, one.square)?);
                 }
             }
         }
         Ok(())
+    }
+
+    /// The waves of a unit force with a kernel's pressure, or their rate in SI units, since an instant; of a radius with this
+    /// square, over that of the largest.
+    fn waves(
+        &self,
+        kernel: &Kernel,
+        place_m: [f64; 2],
+        [time_s, past_s]: [f64; 2],
+        square: f64,
+        reading: Reading,
+    ) -> Result<Six, ImpactError> {
+        let (units, over) = (self.excitation.units(), square.sqrt());
+        let [r, z] = place_m.map(|x| x / (over * units.disc_radius_m));
+        let unit_s = over * units.time_s();
+        let since = (time_s - past_s) / unit_s;
+        let value = match reading {
+            Reading::Force => kernel.remainder(r, z, since)?.value,
+            Reading::Rate => {
+                let [u, w] = kernel.displacement_impulse(r, z, since)?;
+                [u / unit_s, w / unit_s, 0.0, 0.0, 0.0, 0.0]
+            }
+        };
+        let unit = self.excitation.units_si(over);
+        Ok(std::array::from_fn(|f| unit[f] * value[f]))
+    }
+
+    /// Whether fronts from opposite edges of the contact nearly meet at a point.
+    fn is_near_axis(&self, [r_m, z_m]: [f64; 2]) -> bool {
+        r_m < NEAR_AXIS * z_m.hypot(self.excitation.units().disc_radius_m)
     }
 
     /// Instants of a span of the past between which the integrand is smooth, ascending.
