@@ -65,13 +65,6 @@ impl Wanted {
         Ok(())
     }
 
-    /// Samples that will be needed, before the step is rounded.
-    pub(crate) fn cells(&self, excitation: &Excitation) -> f64 {
-        let (duration_s, step_s) = self.duration_and_step_s(excitation);
-        let runs = self.runs(excitation, duration_s, step_s);
-        runs.iter().map(|run| run.count as f64).sum()
-    }
-
     /// Duration and largest step in s.
     pub(crate) fn duration_and_step_s(&self, excitation: &Excitation) -> (f64, f64) {
         let passed_s = || 1.1 * excitation.end_s() + self.passing_s(excitation);

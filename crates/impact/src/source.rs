@@ -5,7 +5,7 @@ use crate::convolution::tuning;
 use crate::cost::{busy, computed_s};
 use crate::error::ImpactError;
 use crate::excitation::{Excitation, PressureRadius};
-use crate::grid::Wanted;
+use crate::grid::{Grid, Wanted};
 use crate::kernels::{KernelSource, table_error};
 use crate::scene::Scene;
 use fault::AnyError;
@@ -201,11 +201,11 @@ pub(crate) fn choose_source(
         KernelChoice::Table(tables) => return Ok(Some((load(tables)?, "asked for".to_owned()))),
         KernelChoice::Within(tables) => (tables, 0.0, Default::default()),
         KernelChoice::Auto(tables) => {
-            let cells = Wanted::of(scene).cells(excitation);
-            let count = scene.points();
-            let cost_s = computed_s(scene, excitation) / busy(count);
+            let grid = Grid::new(&Wanted::of(scene), excitation, None)?;
+            let (cells, count) = (grid.count(), scene.points());
+            let cost_s = computed_s(scene, &grid) / busy(count);
             let cost =
-                format!("{count} points of {cells:.0} cells take about {cost_s:.1e} s to compute");
+                format!("{count} points of {cells} cells take about {cost_s:.1e} s to compute");
             if cost_s <= CHEAP_S {
                 return direct(format!("{cost}: computed"));
             }

@@ -8,7 +8,6 @@ mod roads;
 pub use roads::Road;
 
 use crate::error::ImpactError;
-use crate::excitation::Excitation;
 use crate::grid::Grid;
 use crate::kernels::KernelSource;
 use crate::sampled::convolve::transform_ns;
@@ -20,9 +19,9 @@ const OUTPUT_S: f64 = 1.4e-2;
 const TABLE_S: f64 = 1e-2;
 const DECODED_S: f64 = 2.7e-9;
 
-/// Seconds of one thread that the fields of a scene take with kernels that are computed.
-pub(crate) fn computed_s(scene: &Scene, excitation: &Excitation) -> f64 {
-    let roads = roads(scene, excitation, None);
+/// Seconds of one thread that the fields of a scene take at the times of a grid with kernels that are computed.
+pub(crate) fn computed_s(scene: &Scene, grid: &Grid<'_>) -> f64 {
+    let roads = roads(scene, grid, None);
     OUTPUT_S + roads.iter().map(|road| road.seconds).sum::<f64>()
 }
 
@@ -128,7 +127,7 @@ impl Forecast {
         let cells = memory_s / grid.step_s;
         let products = samples * cells.min(samples);
         let reach = source.and_then(KernelSource::table_reach);
-        let roads = source.map_or_else(Vec::new, |_| roads(scene, excitation, reach));
+        let roads = source.map_or_else(Vec::new, |_| roads(scene, grid, reach));
         let loaded_s = match source {
             None => 0.0,
             Some(KernelSource::Direct(_)) => OUTPUT_S,

@@ -3,8 +3,8 @@
 //! Constants are seconds of one thread, measured with the jobs of `scripts/time-impacts`.
 
 use crate::convolution::plan::{PointPlan, Sets};
-use crate::excitation::{Excitation, PressureRadius};
-use crate::grid::Wanted;
+use crate::excitation::PressureRadius;
+use crate::grid::Grid;
 use crate::quantity::Derivative;
 use crate::sampled::convolve::{direct_ns, transform_ns};
 use crate::scene::{Scene, Section};
@@ -91,36 +91,32 @@ struct Asked {
 }
 
 impl Asked {
-    fn of(scene: &Scene, excitation: &Excitation, may_integrate: bool) -> Self {
-        let wanted = Wanted::of(scene);
-        let samples = wanted.cells(excitation);
-        let (duration_s, step_s) = wanted.duration_and_step_s(excitation);
-        let [frames, count_of_frames] = match &scene.section {
-            Some(Section { frames, .. }) if !scene.peaks => [(*frames as f64).min(samples); 2],
-            Some(_) => [samples, duration_s / step_s + 1.0],
-            None => [samples, 0.0],
+    fn of(scene: &Scene, grid: &Grid<'_>, may_integrate: bool) -> Self {
+        let all_s: Vec<f64> = match may_integrate {
+            true => grid.times_s().collect(),
+            false => Vec::new(),
         };
-        let of_probes = if scene.probes.is_empty() {
-            0.0
-        } else {
-            duration_s / step_s + 1.0
+        let samples = grid.count() as f64;
+        let frames = match &scene.section {
+            Some(Section { frames, .. }) if !scene.peaks => (*frames as f64).min(samples),
+            Some(_) | None => samples,
         };
-        let times_s = [of_probes, count_of_frames].map(|count| {
-            let gaps = (count - 1.0).max(1.0);
-            let count = if may_integrate { count as usize } else { 0 };
-            (0..count).map(|n| duration_s * n as f64 / gaps).collect()
-        });
-        let counts = [samples, frames];
-        Self { counts, times_s }
+        let every = (samples / frames).max(1.0);
+        let frame = |i: usize| all_s.get((i as f64 * every) as usize).copied();
+        let frames_s = (0..frames as usize).filter_map(frame).collect();
+        Self {
+            counts: [samples, frames],
+            times_s: [all_s, frames_s],
+        }
     }
 }
 
-/// The roads of the points of a scene whose excitation is known, with kernels of a table that reaches to `reach` or, without it,
+/// The roads of the points of a scene at the times of a grid, with kernels of a table that reaches to `reach` or, without it,
 /// computed ones.
-pub(crate) fn roads(scene: &Scene, excitation: &Excitation, reach: Option<[f64; 2]>) -> Vec<Road> {
-    let tolerance = scene.settings.tolerance;
+pub(crate) fn roads(scene: &Scene, grid: &Grid<'_>, reach: Option<[f64; 2]>) -> Vec<Road> {
+    let (excitation, tolerance) = (grid.excitation, grid.tolerance);
     let follows = matches!(excitation.radius(), PressureRadius::Following { .. });
-    let asked = Asked::of(scene, excitation, follows && reach.is_none());
+    let asked = Asked::of(scene, grid, follows && reach.is_none());
     let samples = asked.counts[0];
     let sets = Sets::new(
         excitation,
