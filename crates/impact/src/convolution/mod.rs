@@ -214,7 +214,7 @@ impl<'a> Convolution<'a> {
             .into_iter()
             .filter(|s| s.is_finite())
             .fold(0.0, f64::max);
-        let until = (last_s / grid.step_s) as usize + 2;
+        let until = ((last_s / grid.step_s) as usize).saturating_add(2);
         let plan = CellPlan {
             parts: [self.forcings[0].parts, until.min(grid.longest())],
             step: grid.step_s / (over * units.time_s()),

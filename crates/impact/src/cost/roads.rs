@@ -24,11 +24,15 @@ const STATIC_S: f64 = 3e-7;
 const STEP_S: f64 = 6e-8;
 
 /// Kernels of a sample that is integrated over all of the past, and over parts of it, over the square of the digits; on the
-/// axis they are continued from so many radii.
+/// axis so many times more, three of a difference at two radii.
 const KERNELS_OF_WHOLE: f64 = 12.0;
 const KERNELS_OF_PARTS: f64 = 6.0;
 const AXIS: f64 = 0.03;
-const RADII_ON_AXIS: f64 = 2.0;
+const ON_AXIS: f64 = 6.0;
+
+/// Power of the longitudinal over the shear speed, over that of a ratio of 1/4: a block that is nearly incompressible has as many
+/// more fronts between which its waves are integrated.
+const OF_SPEEDS: f64 = 0.25;
 
 /// Points of a section whose plans are made for a forecast, at most.
 const MOST_PLANS: usize = 4096;
@@ -131,6 +135,10 @@ pub(crate) fn roads(scene: &Scene, grid: &Grid<'_>, reach: Option<[f64; 2]>) -> 
         Some(_) => samples * LOOKED_UP_S,
     };
     let radius_m = excitation.units().disc_radius_m;
+    let speeds = excitation.speeds();
+    let harder = (speeds.p / speeds.s / 3.0_f64.sqrt())
+        .max(1.0)
+        .powf(OF_SPEEDS);
     let mut roads: Vec<Road> = Vec::new();
     for (place_m, probe, points) in planned(scene) {
         let kind = usize::from(probe.is_none());
@@ -141,7 +149,7 @@ pub(crate) fn roads(scene: &Scene, grid: &Grid<'_>, reach: Option<[f64; 2]>) -> 
         let still_s = if follows { count * STATIC_S } else { 0.0 };
         let sums_s = (discs as f64 + 1.0) * convolved_s(scene, samples, count) + still_s;
         let is_on_axis = place_m[0] < AXIS * place_m[1].hypot(radius_m);
-        let axis = if is_on_axis { RADII_ON_AXIS } else { 1.0 };
+        let axis = if is_on_axis { ON_AXIS } else { 1.0 };
         let each = |whole| {
             if whole {
                 KERNELS_OF_WHOLE
@@ -155,7 +163,7 @@ pub(crate) fn roads(scene: &Scene, grid: &Grid<'_>, reach: Option<[f64; 2]>) -> 
             .flatten()
             .map(|one| each(one.whole))
             .sum();
-        let past_s = axis * past * digits.powi(2) * KERNEL_S;
+        let past_s = harder * axis * past * digits.powi(2) * KERNEL_S;
         let seconds = discs as f64 * kernels_s + forcings.len() as f64 * sums_s + past_s;
         let integrated = plan.integrated.iter().map(Vec::len).sum::<usize>() as f64;
         let (looked_up, samples) = (reach.is_some(), count as usize);
