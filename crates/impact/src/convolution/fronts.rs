@@ -24,6 +24,8 @@ pub(crate) struct Fronts<'a> {
     arrivals_s: [f64; 3],
     /// The first arrival from the largest contact, in s.
     pub(crate) first_s: f64,
+    /// Arrivals in s of the same waves from the nearest and the farthest edge of the largest contact.
+    edges_s: [[f64; 3]; 2],
 }
 
 impl<'a> Fronts<'a> {
@@ -31,14 +33,21 @@ impl<'a> Fronts<'a> {
     pub(crate) fn new(excitation: &'a Excitation, place_m: [f64; 2]) -> Self {
         let units = excitation.units();
         let crossing_s = units.time_s() / excitation.medium().rayleigh_speed();
+        let [r_m, z_m] = place_m;
+        let from = |distance_m: f64| excitation.speeds().arrivals_s(distance_m, z_m, 0.0);
         Self {
             excitation,
             place_m,
-            distance: place_m[0].hypot(place_m[1]) / units.disc_radius_m,
+            distance: r_m.hypot(z_m) / units.disc_radius_m,
             chi: crossing_s / excitation.end_s(),
             crossing_s,
             first_s: excitation.arrivals_s(place_m)[0],
-            arrivals_s: excitation.speeds().arrivals_s(place_m[0], place_m[1], 0.0),
+            arrivals_s: from(r_m),
+            edges_s: [
+                (r_m - units.disc_radius_m).max(0.0),
+                r_m + units.disc_radius_m,
+            ]
+            .map(from),
         }
     }
 
@@ -83,11 +92,8 @@ impl<'a> Fronts<'a> {
     }
 
     fn of_kink(&self, time_s: f64) -> bool {
-        let (excitation, [r_m, z_m]) = (self.excitation, self.place_m);
-        let (speeds, radius_m) = (excitation.speeds(), excitation.units().disc_radius_m);
-        let near_s = speeds.arrivals_s((r_m - radius_m).max(0.0), z_m, 0.0);
-        let far_s = speeds.arrivals_s(r_m + radius_m, z_m, 0.0);
-        let mut kinks_s = excitation.kinks_s().iter();
+        let [near_s, far_s] = self.edges_s;
+        let mut kinks_s = self.excitation.kinks_s().iter();
         kinks_s.any(|kink_s| {
             let mut fronts = near_s.iter().zip(far_s);
             fronts.any(|(near_s, far_s)| {

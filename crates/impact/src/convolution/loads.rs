@@ -188,14 +188,7 @@ impl<'a> Forcing<'a> {
 
     /// The same at a time.
     fn load_at(&self, discs: &Discs, degree: usize, time_s: f64) -> f64 {
-        if self.follows() {
-            return self.load(discs, degree, &self.excitation.pressures(time_s));
-        }
-        let [force, rate] = self.excitation.force_and_rate(time_s);
-        match self.reading {
-            Reading::Force => force,
-            Reading::Rate => rate,
-        }
+        self.load(discs, degree, &self.excitation.pressures(time_s))
     }
 
     /// The force on disc `k` at a time.
@@ -262,7 +255,6 @@ impl<'a> Forcing<'a> {
 
     fn loads_in(&self, sampled: &SampledRun, discs: &Discs) -> RunLoads {
         let (run, needed) = (&sampled.run, &sampled.needed);
-        let follows = !sampled.pressures[0].is_empty() || run.count == 0;
         let base_n = match self.reading {
             Reading::Force => self.excitation.continuous_base_n(run),
             Reading::Rate => 0.0,
@@ -271,7 +263,7 @@ impl<'a> Forcing<'a> {
         let each = (0..discs.count()).map(|j| {
             let base = base_n * discs.newton(j, 1.0);
             let time_s = |n: f64| run.start_s + n * self.step_s;
-            let [samples, nodes] = if follows {
+            let [samples, nodes] = if self.follows() {
                 sampled.pressures.each_ref().map(|all| {
                     let loads = all.iter().map(|pressures| self.load(discs, j, pressures));
                     loads.collect::<Vec<f64>>()
@@ -291,7 +283,7 @@ impl<'a> Forcing<'a> {
             Sampled::new(base, &samples, &nodes, needed, least)
         });
         let each: Vec<Sampled> = each.collect();
-        let next = follows.then(|| self.next(sampled, discs));
+        let next = self.follows().then(|| self.next(sampled, discs));
         let (mut zones, mut sharp): (Vec<Zone>, Vec<SharpCell>) = Default::default();
         if self.excitation.record().is_none() {
             let spans_s = self.excitation.smooth_s();

@@ -64,7 +64,7 @@ impl Sets {
                 let [outside, inside] = tuning::DISCS_A_DIGIT.map(count);
                 vec![
                     Discs::between(tuning::SMALLEST, outside),
-                    Discs::between(tuning::SMALLEST, 2.min(most)),
+                    Discs::between(tuning::SMALLEST, 2),
                     Discs::between(tuning::SMALLEST, inside),
                     Discs::between(tuning::SMALLEST_AT_CENTRE, inside),
                     Discs::between(tuning::SMALLEST_FAR, outside),

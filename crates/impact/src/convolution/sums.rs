@@ -46,37 +46,38 @@ impl<'a> PointKernels<'a> {
             .iter()
             .map(|over| forcing.excitation.units_si(*over));
         let units: Vec<Six> = units.collect();
-        let of = |j: usize| {
-            let blend = |of: fn(&Cells) -> &Vec<Six>| {
-                let mut sum = vec![Six::default(); of(&cells[0]).len()];
-                for (k, (own, unit)) in cells[..=j].iter().zip(&units).enumerate() {
-                    let weight = discs.weight(j, k);
-                    let unit = unit.map(|unit| weight * unit);
-                    for (sum, own) in sum.iter_mut().zip(of(own)) {
-                        for f in 0..6 {
-                            sum[f] += unit[f] * own[f];
-                        }
-                    }
-                }
-                sum
-            };
-            Difference {
-                smooth: blend(|own| &own.smooth),
-                moments: Moments {
-                    averages: blend(|own| &own.moments.averages),
-                    first: blend(|own| &own.moments.first),
-                    second: blend(|own| &own.moments.second),
-                },
-            }
-        };
-        let differences = (1..discs.count()).map(of).collect();
-        Self {
+        let mut made = Self {
             place_m,
             discs,
-            differences,
+            differences: Vec::new(),
             units,
             cells,
+        };
+        let of = |order: usize| Difference {
+            smooth: made.blend(order, |own| &own.smooth),
+            moments: Moments {
+                averages: made.blend(order, |own| &own.moments.averages),
+                first: made.blend(order, |own| &own.moments.first),
+                second: made.blend(order, |own| &own.moments.second),
+            },
+        };
+        made.differences = (1..discs.count()).map(of).collect();
+        made
+    }
+
+    /// The divided difference of an order of some list of the kernels, in SI units.
+    fn blend(&self, order: usize, list: fn(&Cells) -> &Vec<Six>) -> Vec<Six> {
+        let mut sum = vec![Six::default(); list(&self.cells[0]).len()];
+        for (k, (cells, unit)) in self.cells[..=order].iter().zip(&self.units).enumerate() {
+            let weight = self.discs.weight(order, k);
+            let unit = unit.map(|unit| weight * unit);
+            for (sum, own) in sum.iter_mut().zip(list(cells)) {
+                for f in 0..6 {
+                    sum[f] += unit[f] * own[f];
+                }
+            }
         }
+        sum
     }
 
     /// The difference of an order: cells for a smooth load, moments, and their unit.
@@ -87,23 +88,55 @@ impl<'a> PointKernels<'a> {
         }
     }
 
-    /// Averages of the difference of an order over parts of the first cells in SI units, where the table has them.
-    fn fine(&self, order: usize) -> Vec<Six> {
-        let mut sum = vec![Six::default(); self.cells[0].fine.len()];
-        for (k, cells) in self.cells[..=order].iter().enumerate() {
-            let weight = self.discs.weight(order, k);
-            for (sum, own) in sum.iter_mut().zip(&cells.fine) {
-                for f in 0..6 {
-                    sum[f] += weight * self.units[k][f] * own[f];
-                }
-            }
-        }
-        sum
-    }
-
     /// Whether kernels are known at each instant, rather than in cells alone.
     pub(crate) fn are_traces(&self) -> bool {
         self.cells.iter().all(|cells| cells.trace.is_some())
+    }
+}
+
+/// A divided difference of the kernels as the sharp cells of a load meet it, in SI units.
+struct SharpKernel {
+    /// How far it departs from a parabola in each cell.
+    departures: Vec<Six>,
+    /// Averages over parts of the first cells, where a table has them.
+    fine: Vec<Six>,
+    /// Parts of a cell.
+    parts: usize,
+}
+
+impl SharpKernel {
+    fn new(kernels: &PointKernels<'_>, order: usize, parts: usize) -> Self {
+        let (_, moments, unit) = kernels.difference(order);
+        let mut departures = departures(moments);
+        for own in &mut departures {
+            *own = std::array::from_fn(|f| unit[f] * own[f]);
+        }
+        Self {
+            departures,
+            fine: kernels.blend(order, |own| &own.fine),
+            parts,
+        }
+    }
+
+    /// Adds the response to the residual of a load in a cell `lag` cells before, summed over the parts of the cell where the
+    /// kernel has them, and a bound on what is left out: the residual times the departure from a parabola, or its rises over
+    /// the parts times the changes of the kernel to both sides.
+    fn add(&self, lag: usize, (residual, rises): (f64, &[f64]), [sum, bound]: &mut [Six; 2]) {
+        if (lag + 1) * self.parts > self.fine.len() {
+            for (bound, departure) in bound.iter_mut().zip(self.departures[lag]) {
+                *bound += residual * departure;
+            }
+            return;
+        }
+        for (m, rise) in rises.iter().rev().enumerate() {
+            let place = lag * self.parts + m;
+            let next = &self.fine[(place + 1).min(self.fine.len() - 1)];
+            let before = &self.fine[place.saturating_sub(1)];
+            for f in 0..6 {
+                sum[f] += rise * self.fine[place][f];
+                bound[f] += tuning::WITHIN_PARTS * rise.abs() * (next[f] - before[f]).abs();
+            }
+        }
     }
 }
 
@@ -195,53 +228,28 @@ impl Sums {
         }
     }
 
-    /// Adds the residuals of the load in sharp cells, summed over the fine cells of a table where there are any, and a bound on
-    /// what is left out then: the residual times the departure of the kernel, from a parabola in a cell or from its average in a
-    /// part of one.
+    /// Adds the residuals of the load in sharp cells, and a bound on what is left out then.
     fn add_sharp(&mut self, forcing: &Forcing<'_>, loads: &Loads, kernels: &PointKernels<'_>) {
         if loads.runs.iter().all(|run| run.sharp.is_empty()) {
             return;
         }
-        let parts = forcing.parts;
-        let count = components(forcing);
-        let of = |order: usize| {
-            let (_, moments, unit) = kernels.difference(order);
-            let mut found = departures(moments);
-            for own in &mut found {
-                *own = std::array::from_fn(|f| unit[f] * own[f]);
-            }
-            (found, kernels.fine(order))
-        };
-        let orders: Vec<(Vec<Six>, Vec<Six>)> = (0..kernels.discs.count()).map(of).collect();
+        let orders = 0..kernels.discs.count();
+        let of = |order: usize| SharpKernel::new(kernels, order, forcing.parts);
+        let orders: Vec<SharpKernel> = orders.map(of).collect();
         let mut first = 0;
         for (run, sampled) in loads.runs.iter().zip(&forcing.runs) {
             for (i, &n) in sampled.needed.iter().enumerate() {
-                let (mut sum, mut bound) = (Six::default(), Six::default());
+                let mut found = [Six::default(); 2];
                 for sharp in run.sharp.iter().take_while(|sharp| sharp.cell <= n) {
-                    let lag = n - sharp.cell;
-                    for (order, (departures, fine)) in orders.iter().enumerate() {
-                        if (lag + 1) * parts > fine.len() {
-                            let residual = run.each[order].projection.taken(sharp.cell).left;
-                            for f in 0..count {
-                                bound[f] += residual * departures[lag][f];
-                            }
-                            continue;
-                        }
-                        for (m, rise) in sharp.rises[order].iter().rev().enumerate() {
-                            let place = lag * parts + m;
-                            let next = (place + 1).min(fine.len() - 1);
-                            let before = place.saturating_sub(1);
-                            for f in 0..count {
-                                sum[f] += rise * fine[place][f];
-                                let change = (fine[next][f] - fine[before][f]).abs();
-                                bound[f] += tuning::WITHIN_PARTS * rise.abs() * change;
-                            }
-                        }
+                    for (order, kernel) in orders.iter().enumerate() {
+                        let residual = run.each[order].projection.taken(sharp.cell).left;
+                        let rises = &sharp.rises[order];
+                        kernel.add(n - sharp.cell, (residual, rises), &mut found);
                     }
                 }
-                for f in 0..count {
-                    self.values[f][first + i] += sum[f];
-                    self.residual[f][first + i] = bound[f];
+                for f in 0..components(forcing) {
+                    self.values[f][first + i] += found[0][f];
+                    self.residual[f][first + i] = found[1][f];
                 }
             }
             first += sampled.needed.len();
@@ -251,7 +259,7 @@ impl Sums {
     /// Adds the response to each jump of the force, a step, at the instants after it; at an arrival it is that after it.
     fn add_jumps(&mut self, forcing: &Forcing<'_>, kernels: &PointKernels<'_>) {
         let (excitation, cells) = (forcing.excitation, &kernels.cells[0]);
-        let (unit, unit_s) = (excitation.units_si(1.0), excitation.units().time_s());
+        let (unit, unit_s) = (kernels.units[0], excitation.units().time_s());
         for jump in excitation.jumps() {
             for (i, &time_s) in forcing.times_s.iter().enumerate() {
                 if !jump.is_past(time_s) {
@@ -272,7 +280,7 @@ impl Sums {
         let excitation = forcing.excitation;
         let (settled, changed_n) = forcing.left_out;
         for (k, cells) in kernels.cells.iter().enumerate() {
-            let unit = excitation.units_si(kernels.discs.radii[k]);
+            let unit = kernels.units[k];
             let tail = cells.smooth.get(settled).copied().unwrap_or_default();
             let read = match excitation.jumps() {
                 [] => Six::default(),
@@ -371,9 +379,8 @@ pub(crate) fn by_zones(
             let Some(trace) = &cells.trace else {
                 continue;
             };
-            let over = kernels.discs.radii[k];
-            let unit = forcing.excitation.units_si(over);
-            let unit_s = over * forcing.excitation.units().time_s();
+            let unit = kernels.units[k];
+            let unit_s = kernels.discs.radii[k] * forcing.excitation.units().time_s();
             let exact = zone.by_trace(k, forcing.times_s[i], past_s, (trace, unit_s));
             for f in 0..6 {
                 change[f] += unit[f] * exact[f];

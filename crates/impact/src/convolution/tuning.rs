@@ -8,8 +8,8 @@
 /// 1e-4. More lose digits to kernels of small discs, fewer leave smooth waves (`scripts/check-close`).
 pub(crate) const DISCS_A_DIGIT: [f64; 2] = [0.75, 1.5];
 
-/// Error of two discs between fronts is chi^2/distance over this fraction of the tolerance's inverse; with more than this product
-/// of tolerance and distance over chi^2 two discs serve (`scripts/check-close`).
+/// Two discs serve between fronts where chi^2 over the distance is below this fraction of the tolerance: their error is about
+/// ten times chi^2 over the distance (`scripts/check-close`).
 pub(crate) const TWO_SERVE: f64 = 0.03;
 
 /// Discs more for rates of the fields, which have shorter waves (`rates_of_growing_contacts_are_within_their_estimates`).
@@ -44,7 +44,7 @@ pub(crate) const LOOKED_UP_A_DIGIT: f64 = 0.75;
 pub(crate) const COVERED: [f64; 4] = [0.2, 0.4, 0.6, 0.8];
 
 /// Ratio of the largest term left out to its estimate for long waves, which fronts make shorter; 3 to 10.
-/// `few_discs_are_enough_far_away` fails below.
+/// `far_away_few_discs_are_enough` fails below.
 pub(crate) const CAUTION: f64 = 6.0;
 
 /// The same inside the contact, and at depths below one radius beside it, where Rayleigh's waves are shorter
@@ -117,7 +117,7 @@ pub(crate) const AT_INSTANTS: f64 = 4.0;
 pub(crate) const NEGLIGIBLE_SLOPE: f64 = 1e-9;
 pub(crate) const NEGLIGIBLE_OF_ERROR: f64 = 1e-3;
 
-/// Part of the force over which a static field is differenced, a smooth function of it.
+/// Fraction of the force over which a static field is differenced; it is a smooth function of the force.
 pub(crate) const STATIC_DIFFERENCE: f64 = 1e-4;
 
 /// Sensitivity of a rate to the tolerance of the history, and to the instant at which a march ends, which is off as the power

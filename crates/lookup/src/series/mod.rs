@@ -124,10 +124,7 @@ impl Series {
         let (part, count) = (f64::from(coarsening).exp2(), cells.len());
         match smoothness {
             Smoothness::Linear => {
-                let whole = self.whole(part, count);
-                cells[..whole].copy_from_slice(&self.cells[0][..whole]);
-                let keep = |j: usize, [average]: [Six; 1]| cells[j] = average;
-                self.dispatch(part, whole..count, keep);
+                self.fill_averages(part, cells);
             }
             Smoothness::Smooth => {
                 let moments = self.moments(part * self.width, count + smooth::BEYOND);
@@ -144,16 +141,10 @@ impl Series {
     ///
     /// Where an edge cuts a table cell, R is the parabola of its three numbers there.
     pub fn moments(&self, width: f64, count: usize) -> Moments {
-        let part = width / self.width;
-        // a width that is a whole number of cells to rounding is exactly that
-        let whole = part.round();
-        let part = if (part - whole).abs() < 1e-9 * part {
-            whole
-        } else {
-            part
-        };
+        let part = self.part(width);
         let mut found = Moments::with_capacity(count);
-        let whole = self.whole(part, count);
+        // moments may have been left out
+        let whole = self.whole(part, count).min(self.cells[1].len());
         found.averages.extend_from_slice(&self.cells[0][..whole]);
         found.first.extend_from_slice(&self.cells[1][..whole]);
         found.second.extend_from_slice(&self.cells[2][..whole]);
@@ -163,11 +154,29 @@ impl Series {
 
     /// Averages over `count` cells of any width, in r0/c1.
     pub fn averages(&self, width: f64, count: usize) -> Vec<Six> {
-        let mut found = Vec::with_capacity(count);
-        self.dispatch(width / self.width, 0..count, |_, [average]: [Six; 1]| {
-            found.push(average);
-        });
+        let mut found = vec![Six::default(); count];
+        self.fill_averages(self.part(width), &mut found);
         found
+    }
+
+    /// Fills `cells` with averages over cells that are `part` table cells wide.
+    fn fill_averages(&self, part: f64, cells: &mut [Six]) {
+        let count = cells.len();
+        let whole = self.whole(part, count);
+        cells[..whole].copy_from_slice(&self.cells[0][..whole]);
+        let keep = |j: usize, [average]: [Six; 1]| cells[j] = average;
+        self.dispatch(part, whole..count, keep);
+    }
+
+    /// A width over that of a table cell; one that is a whole number of cells to rounding is exactly that.
+    fn part(&self, width: f64) -> f64 {
+        let part = width / self.width;
+        let whole = part.round();
+        if (part - whole).abs() < 1e-9 * part {
+            whole
+        } else {
+            part
+        }
     }
 
     /// How many of `count` cells that are `part` table cells wide are those of the table.
