@@ -247,9 +247,10 @@ impl Sums {
                         kernel.add(n - sharp.cell, (residual, rises), &mut found);
                     }
                 }
+                let [sum, bound] = found;
                 for f in 0..components(forcing) {
-                    self.values[f][first + i] += found[0][f];
-                    self.residual[f][first + i] = found[1][f];
+                    self.values[f][first + i] += sum[f];
+                    self.residual[f][first + i] = bound[f];
                 }
             }
             first += sampled.needed.len();

@@ -48,7 +48,7 @@ pub struct Road {
     pub discs: usize,
     /// Whether their kernels are looked up rather than computed.
     pub looked_up: bool,
-    /// Samples in time of each point.
+    /// Samples in time of each point: those of the fields, and of each rate that is asked for.
     pub samples: usize,
     /// Samples of all points at which the past of the force is integrated, which discs do not serve.
     pub integrated: f64,
@@ -166,7 +166,7 @@ pub(crate) fn roads(scene: &Scene, grid: &Grid<'_>, reach: Option<[f64; 2]>) -> 
         let past_s = harder * axis * past * digits.powi(2) * KERNEL_S;
         let seconds = discs as f64 * kernels_s + forcings.len() as f64 * sums_s + past_s;
         let integrated = plan.integrated.iter().map(Vec::len).sum::<usize>() as f64;
-        let (looked_up, samples) = (reach.is_some(), count as usize);
+        let (looked_up, samples) = (reach.is_some(), forcings.len() * count as usize);
         match roads
             .last_mut()
             .filter(|last| last.probe.is_none() && probe.is_none())
