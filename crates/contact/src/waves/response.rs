@@ -3,6 +3,7 @@
 //! One table serves every impact on half-spaces of the same Poisson's ratio, whatever the units.
 
 use crate::numeric::quadrature::{GAUSS_4, GAUSS_8, gauss, hermite, quintic};
+use crate::waves::compliance::negative_compliance;
 use halfspace::{Deflection, LoadedDisc, SurfaceResponse};
 
 /// The step response S W(t) of a disc's deflection under unit force: S its static value, W = 1 after its memory.
@@ -27,6 +28,10 @@ pub trait DiscResponse {
 
     /// int W and int W (x - middle) over adjoining cells of a width, in ascending order from 0.
     fn cells(&self, width: f64) -> impl FnMut(f64, f64) -> (f64, f64) + '_;
+
+    /// The largest -C(i w) at frequencies at which the dynamic compliance C, over the static one, is real; zero where it is
+    /// nowhere negative. To 1e-3.
+    fn negative_compliance(&self) -> f64;
 }
 
 /// int s^k (1 - W) ds for k = 0 .. 3, from int W ds.
@@ -85,6 +90,10 @@ impl DiscResponse for SurfaceResponse {
             (rise, moment)
         }
     }
+
+    fn negative_compliance(&self) -> f64 {
+        negative_compliance(self.disc.memory, self.cells(0.0))
+    }
 }
 
 /// Step response of a disc's deflection with its first and second time integral, by quintic interpolation.
@@ -96,6 +105,8 @@ pub struct ResponseTable {
     pub disc: LoadedDisc,
     /// int t^k (1 - W) dt for k = 0 .. 3, the first of them the relaxation time.
     moments: [f64; 4],
+    /// See [`DiscResponse::negative_compliance`].
+    negative_compliance: f64,
     /// W, int W/memory and int int W/memory^2 at equal steps of the memory.
     nodes: Vec<[f64; 3]>,
 }
@@ -123,6 +134,10 @@ impl ResponseTable {
         }
         Self {
             disc: response.disc,
+            negative_compliance: match response.disc.deflection {
+                Deflection::Centre => response.negative_compliance(),
+                Deflection::Mean => 0.0,
+            },
             moments: moments(response, |t| response.step_integral(t)),
             nodes,
         }
@@ -145,6 +160,7 @@ impl ResponseTable {
                 ..*one
             },
             moments: std::array::from_fn(|k| mix(near.moments[k], far.moments[k])),
+            negative_compliance: mix(near.negative_compliance, far.negative_compliance),
             nodes: near.nodes.iter().zip(&far.nodes).map(mixed).collect(),
         }
     }
@@ -202,6 +218,10 @@ impl DiscResponse for ResponseTable {
             before = after;
             (rise, moment)
         }
+    }
+
+    fn negative_compliance(&self) -> f64 {
+        self.negative_compliance
     }
 }
 
