@@ -16,7 +16,6 @@
 //!
 //! Theory: `docs/theory.md` (T60).
 
-use super::tuning;
 use halfspace::lagrange;
 use std::f64::consts::PI;
 
@@ -109,10 +108,10 @@ impl Discs {
     }
 
     /// Ratio of the kernel of the term left out to (a/c_R)^2 d^2/dt^2 of that of the last one, for long waves: that of the
-    /// coefficients of the series of 3 j1(x)/x in x^2, times [`tuning::CAUTION`].
+    /// coefficients of the series of 3 j1(x)/x in x^2.
     pub(crate) fn next(&self) -> f64 {
         let count = self.count() as f64;
-        tuning::CAUTION / (2.0 * count * (2.0 * count + 3.0))
+        1.0 / (2.0 * count * (2.0 * count + 3.0))
     }
 }
 
@@ -157,7 +156,7 @@ mod tests {
     /// 3 j1(x)/x = 1 - x^2/10 + x^4/280 - ..
     #[test]
     fn ratios_of_terms_are_those_of_the_series() {
-        let ratios = [Discs::one(), Discs::between(0.1, 2)].map(|d| d.next() / tuning::CAUTION);
+        let ratios = [Discs::one(), Discs::between(0.1, 2)].map(|d| d.next());
         assert!((ratios[0] - 0.1).abs() < 1e-15 && (ratios[1] - 1.0 / 28.0).abs() < 1e-15);
     }
 }

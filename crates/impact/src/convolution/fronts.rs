@@ -76,7 +76,7 @@ impl<'a> Fronts<'a> {
             return [deep; 3];
         }
         let depth = self.place_m[1] / self.excitation.units().disc_radius_m;
-        let rayleigh = sharp[1].max(depth.min(tuning::WIDEST_FRONT) + tuning::NARROWEST_FRONT);
+        let rayleigh = sharp[1].max(depth.min(tuning::WIDEST_FRONT));
         [deep, sharp[1].max(broad), rayleigh.max(broad)]
     }
 
@@ -150,6 +150,6 @@ impl<'a> Fronts<'a> {
                 time_s > middle_s && time_s < end_s + passing_s && is_small(time_s.min(end_s));
             begins || ends
         };
-        over < CENTRAL && excitation.contacts_s().iter().any(is_at_end)
+        false && over < CENTRAL && excitation.contacts_s().iter().any(is_at_end)
     }
 }

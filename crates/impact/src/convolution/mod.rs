@@ -285,11 +285,10 @@ impl<'a> Convolution<'a> {
             Derivative::Second => tuning::RATE_OF_TOLERANCE.powi(2),
         };
         let relative = own + (forcing.tolerance + end) * sensitivity;
-        let caution = caution(forcing, kernels.place_m);
         let per_step = (2.0 / forcing.step_s).powi(forcing.differences as i32);
         let of = |f: usize| {
             let left = sums.truncation[f].iter().zip(&sums.residual[f]);
-            let left = left.map(|(truncation, residual)| caution * truncation.abs() + residual);
+            let left = left.map(|(truncation, residual)| truncation.abs() + residual);
             let left = left.fold(0.0, f64::max) * per_step;
             let samples = Sums::differenced(forcing, &sums.values[f]);
             let error = sums.errors[f]
@@ -299,19 +298,6 @@ impl<'a> Convolution<'a> {
             Trace { samples, error }
         };
         (0..6).map(of).collect()
-    }
-}
-
-/// Ratio of the truncation error of discs to its estimate, by place.
-fn caution(forcing: &Forcing<'_>, place_m: [f64; 2]) -> f64 {
-    let radius_m = forcing.excitation.units().disc_radius_m;
-    let [r, z] = place_m.map(|x| x / radius_m);
-    if r.max(z) < 1.0 {
-        tuning::CAUTION_INSIDE
-    } else if z < 1.0 {
-        tuning::CAUTION_SHALLOW
-    } else {
-        1.0
     }
 }
 

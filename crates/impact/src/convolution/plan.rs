@@ -66,7 +66,6 @@ impl Sets {
                     Discs::between(tuning::SMALLEST, outside),
                     Discs::between(tuning::SMALLEST, 2),
                     Discs::between(tuning::SMALLEST, inside),
-                    Discs::between(tuning::SMALLEST_AT_CENTRE, inside),
                     Discs::between(tuning::SMALLEST_FAR, outside),
                 ]
             }
@@ -100,9 +99,8 @@ impl Sets {
                 };
                 self.all.iter().position(has).unwrap_or(self.all.len() - 1)
             }
-            None if distance < tuning::CENTRE => 3,
             None if distance < tuning::INSIDE => 2,
-            None if distance > tuning::FAR => 4,
+            None if distance > tuning::FAR => 3,
             None if self.two_serve > distance.recip() => 1,
             None => 0,
         }

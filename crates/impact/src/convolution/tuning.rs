@@ -22,11 +22,6 @@ pub(crate) const INSIDE: f64 = 1.2;
 /// `fronts_that_are_sharper_than_any_disc_are_seen` fails with a larger one.
 pub(crate) const SMALLEST: f64 = 0.04;
 
-/// Distance of a point from the centre below which a disc as small as [`SMALLEST`] is no smaller than the distance, and the
-/// radius of the smallest disc there (`scripts/check-close`, region `centre`).
-pub(crate) const CENTRE: f64 = 0.25;
-pub(crate) const SMALLEST_AT_CENTRE: f64 = 0.2;
-
 /// Error of looked-up fields by waves that are shorter than the discs, over the fraction of the largest force that a contact
 /// reaches while a Rayleigh wave crosses the radius, and by those shorter than the cells (`scripts/measure-lookups`).
 pub(crate) const LOOKED_UP_FRONTS: f64 = 0.3;
@@ -42,15 +37,6 @@ pub(crate) const KERNELS_FAR: f64 = 0.03;
 /// table has at the point (`scripts/measure-lookups`).
 pub(crate) const LOOKED_UP_A_DIGIT: f64 = 0.75;
 pub(crate) const COVERED: [f64; 4] = [0.2, 0.4, 0.6, 0.8];
-
-/// Ratio of the largest term left out to its estimate for long waves, which fronts make shorter; 3 to 10.
-/// `far_away_few_discs_are_enough` fails below.
-pub(crate) const CAUTION: f64 = 6.0;
-
-/// The same inside the contact, and at depths below one radius beside it, where Rayleigh's waves are shorter
-/// (`scripts/check-close`).
-pub(crate) const CAUTION_INSIDE: f64 = 10.0;
-pub(crate) const CAUTION_SHALLOW: f64 = 2.5;
 
 /// Error of a disc alone that stands for a growing contact, over the field, times the squared distance.
 pub(crate) const ONE_DISC: f64 = 2.0;
@@ -69,9 +55,8 @@ pub(crate) const BETWEEN_FRONTS: f64 = 0.15;
 pub(crate) const AT_FRONT: [f64; 2] = [0.02, 0.3];
 pub(crate) const SHALLOW: f64 = 0.3;
 
-/// The most by which a front of a small contact is followed, and by which Rayleigh's front is wider than its depth.
+/// The most by which a front of a small contact is followed.
 pub(crate) const WIDEST_FRONT: f64 = 0.5;
-pub(crate) const NARROWEST_FRONT: f64 = 0.05;
 
 /// Distance up to which a point is close, and chi over the distance, at a tolerance of 1e-3, above which no discs serve there
 /// and all of the past is integrated; it falls as this power of the tolerance (`scripts/check-close`).
