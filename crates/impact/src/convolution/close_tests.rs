@@ -257,9 +257,50 @@ fn cuts(excitation: &Excitation, place: [f64; 2], time: f64) -> Vec<f64> {
             }
         }
     }
+    cuts.extend(passings(excitation, place, time).map(angle));
     cuts.sort_by(f64::total_cmp);
     cuts.dedup_by(|b, a| *b - *a < 1e-12);
     cuts
+}
+
+/// Instants whose waves' fronts from the edge of the contact pass a place at a time, with others beside them on a scale that
+/// falls to a hundred-thousandth of a/c1: near the axis a front is as narrow as the contact is small.
+fn passings(excitation: &Excitation, place: [f64; 2], time: f64) -> impl Iterator<Item = f64> {
+    const TRIALS: i32 = 600;
+    let units = excitation.units();
+    let ahead = |past: f64, side: f64, wave: usize| {
+        let over = excitation.pressures(past)[0].square.sqrt();
+        let radius = (place[0] + side * over * units.disc_radius_m).abs();
+        time - past - excitation.speeds().arrivals_s(radius, place[1], 0.0)[wave]
+    };
+    let last = time.min(excitation.end_s());
+    let at = |i: i32| last * (0.5 * PI * f64::from(i) / f64::from(TRIALS)).sin().powi(4);
+    let mut found = Vec::new();
+    for (side, wave) in [-1.0, 1.0]
+        .into_iter()
+        .flat_map(|side| [0, 1, 2].map(|wave| (side, wave)))
+    {
+        for i in 0..TRIALS {
+            let [mut low, mut high] = [at(i), at(i + 1)];
+            let sign = ahead(low, side, wave) > 0.0;
+            if (ahead(high, side, wave) > 0.0) == sign {
+                continue;
+            }
+            for _ in 0..60 {
+                let middle = 0.5 * (low + high);
+                match (ahead(middle, side, wave) > 0.0) == sign {
+                    true => low = middle,
+                    false => high = middle,
+                }
+            }
+            let beside = (-16..0).map(|k| units.time_s() * 2.0_f64.powi(k));
+            found.push(low);
+            found.extend(beside.flat_map(|s| [low - s, low + s]));
+        }
+    }
+    found
+        .into_iter()
+        .filter(move |past| 0.0 < *past && *past < last)
 }
 
 /// Of one region: errors over peaks, errors over estimates where above, estimates over errors.

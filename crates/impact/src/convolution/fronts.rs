@@ -106,24 +106,16 @@ impl<'a> Fronts<'a> {
     /// Whether waves of a time come from the first or last instants of a contact, seen from close to it: the whole contact is
     /// integrated then.
     ///
-    /// Their fronts are as sharp as the contact is small, and the waves behind them, too. Near the centre, before they have
-    /// passed, the static field of a contact hardly larger than the distance from its centre, with which its waves begin, is no
-    /// polynomial in the square of its radius.
+    /// Their fronts are as sharp as the contact is small, and the waves behind them, too.
     pub(crate) fn are_of_small_contact(&self, time_s: f64, tolerance: f64) -> bool {
         // all of these: `scripts/check-close` counts the fields above their estimates
         /// Times over the radius and the speed of each wave before and after a front.
         const PASSING: [f64; 2] = [0.05, 0.8];
         /// Fraction of the tolerance that the force has reached when a wave has crossed a radius, below which nothing shows.
         const SHOWS: f64 = 0.3;
-        /// Distance near the centre, radius of the contact over that distance and over the largest, and crossings of the distance
-        /// by Rayleigh's wave.
-        const CENTRAL: f64 = 0.15;
-        const SMALL: f64 = 8.0;
-        const LARGEST: f64 = 0.25;
-        const CROSSINGS: f64 = 30.0;
-        let (excitation, over) = (self.excitation, self.distance);
+        let excitation = self.excitation;
         let shows = (PI * self.chi).powf(1.5) > SHOWS * tolerance;
-        if over > tuning::CLOSE || !shows {
+        if self.distance > tuning::CLOSE || !shows {
             return false;
         }
         let medium = excitation.medium();
@@ -137,19 +129,6 @@ impl<'a> Fronts<'a> {
                 -before < since && since < after
             })
         };
-        if excitation.contacts_s().iter().flatten().any(passes) {
-            return true;
-        }
-        let passing_s = CROSSINGS * over * self.crossing_s;
-        let most = (SMALL * over).min(LARGEST);
-        let is_small = |s: f64| excitation.pressures(s)[0].square < most * most;
-        let is_at_end = |&[begin_s, end_s]: &[f64; 2]| {
-            let middle_s = 0.5 * (begin_s + end_s);
-            let begins = time_s < middle_s && is_small((time_s - passing_s).max(begin_s));
-            let ends =
-                time_s > middle_s && time_s < end_s + passing_s && is_small(time_s.min(end_s));
-            begins || ends
-        };
-        false && over < CENTRAL && excitation.contacts_s().iter().any(is_at_end)
+        excitation.contacts_s().iter().flatten().any(passes)
     }
 }

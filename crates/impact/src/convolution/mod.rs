@@ -265,7 +265,6 @@ impl<'a> Convolution<'a> {
         sums: &Sums,
         is_integrated: bool,
     ) -> Vec<Trace> {
-        let follows = forcing.follows();
         let zones = f64::from(u8::from(kernels.are_traces()));
         // the last terms of the integrals of fields are counted one by one
         let over_past = match (is_integrated && self.past.is_some(), forcing.derivative) {
@@ -274,17 +273,12 @@ impl<'a> Convolution<'a> {
         };
         let quadrature = (zones + over_past) * tuning::QUADRATURE * forcing.tolerance;
         let own = forcing.excitation.relative_error;
-        let end = if follows {
-            0.0
-        } else {
-            tuning::RATE_OF_END * own.cbrt()
-        };
         let sensitivity = match forcing.derivative {
             Derivative::Field => 0.0,
             Derivative::First => tuning::RATE_OF_TOLERANCE,
             Derivative::Second => tuning::RATE_OF_TOLERANCE.powi(2),
         };
-        let relative = own + (forcing.tolerance + end) * sensitivity;
+        let relative = own + forcing.tolerance * sensitivity;
         let per_step = (2.0 / forcing.step_s).powi(forcing.differences as i32);
         let of = |f: usize| {
             let left = sums.truncation[f].iter().zip(&sums.residual[f]);
