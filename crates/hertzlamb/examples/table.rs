@@ -22,7 +22,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let ball = Striker::ball(Material::named("bearing-steel")?, 0.005)?;
     let run = Impact::new(steel, ball, 2.0).solve()?;
     let radius_m = run.disc_radius_m;
-    let table = Arc::new(TableFile::open(&path)?.part(0.3, [[0.0; 2], [4.0; 2]])?);
+    let file = TableFile::open(&path)?;
+    let table = Arc::new(file.part(0.3, [[0.0; 2], file.reach()])?);
     let looked_up = run
         .excitation()
         .fields_from(KernelSource::Table(Arc::clone(&table)));
