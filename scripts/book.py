@@ -2,12 +2,14 @@
 
 Usage: book.py run [--pictures] [CHAPTER...]   runs the commands of chapters; with --pictures keeps what they draw
        book.py links                           checks every link between documents
-       book.py source FOLDER                   lays the documents out for mdBook, formulas as MathML
+       book.py source FOLDER PROGRAM           lays the documents out for mdBook, formulas as MathML, with the pages
+                                               that reference.py makes
        book.py pages FOLDER                    checks every link of finished pages
 
 In a chapter a block of TOML that begins with `# file: NAME` is written into that file; blocks of sh and Python are run
-in a folder that has the scenes, except those that begin with `# not run: REASON`; a block of text after one of them is
-what it prints, where `...` stands for anything and numbers may differ by 1e-3 of themselves.
+in a folder that has the scenes, except those that begin with `# not run: REASON`; both notes may also stand in the line
+before the block, as `<!-- file: NAME -->`; a block of text after one that is run is
+its output, where `...` stands for anything and numbers may differ by 1e-3 of themselves.
 """
 
 import os
@@ -20,14 +22,23 @@ from html.parser import HTMLParser
 from pathlib import Path
 from urllib.parse import unquote
 
+import reference
+
 ROOT = Path(__file__).resolve().parent.parent
-CHAPTERS = [ROOT / "docs/first-impact.md", *sorted((ROOT / "docs/cases").glob("*.md"))]
+# they draw every picture that they show
+CHAPTERS = [
+    *(ROOT / f"docs/{name}.md" for name in ("first-impact", "hertz-and-lamb", "gallery", "benchmark")),
+    *sorted((ROOT / "docs/cases").glob("*.md")),
+]
+# their commands run, too
+PAGES = [ROOT / "README.md", ROOT / "docs/errors.md"]
 PICTURES = ROOT / "docs/pictures"
 # what the book holds beside docs/: as in the repository, so that links hold in both
 SHELVES = ["docs", "data-schema", "scenes"]
 SINGLE = ["README.md", "ARCHITECTURE.md", "CONTRIBUTING.md", "CHANGELOG.md"]
 BLOCK = re.compile(r"^```(\w+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 LINK = re.compile(r"!?\[(?:[^\]\[]|\[[^\]]*\])*\]\(([^)\s]+)\)")
+NOTE = re.compile(r"(?:# |<!-- )(file|not run): (.*?)(?: -->)?")
 NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 
 
@@ -39,18 +50,22 @@ def run_chapter(chapter, folder, program):
     (folder / "scenes").symlink_to(ROOT / "scenes")
     environment = {**os.environ, "PATH": f"{Path(program).resolve().parent}:{os.environ['PATH']}"}
     printed = ""
-    for language, body in BLOCK.findall(chapter.read_text()):
-        first = body.split("\n", 1)[0]
-        if first.startswith("# not run: "):
+    text = chapter.read_text()
+    for block in BLOCK.finditer(text):
+        language, body = block.groups()
+        notes = [text[: block.start()].rsplit("\n", 2)[-2:][0], body.split("\n", 1)[0]]
+        note = next((found.group(1, 2) for line in notes if (found := NOTE.fullmatch(line))), (None, None))
+        if note[0] == "not run":
+            printed = None
             continue
-        if language == "toml" and first.startswith("# file: "):
-            (folder / first.removeprefix("# file: ")).write_text(body)
+        if language == "toml" and note[0] == "file":
+            (folder / note[1]).write_text(body)
         elif language in ("sh", "python"):
             command = ["bash", "-euo", "pipefail", "-c"] if language == "sh" else [sys.executable, "-c"]
             done = subprocess.run([*command, body], cwd=folder, env=environment, capture_output=True, text=True)
             assert done.returncode == 0, f"{chapter.name}: this failed:\n{body}{done.stdout}{done.stderr}"
             printed = done.stdout
-        elif language == "text":
+        elif language == "text" and printed is not None:
             problem = difference(body, printed)
             assert problem is None, f"{chapter.name}: {problem}; all of it:\n{printed}"
 
@@ -81,19 +96,27 @@ def same(told, printed):
 def pictures(chapter):
     """Names of the pictures that a chapter draws."""
     text = chapter.read_text()
-    return [name for name in re.findall(r"pictures/([\w-]+\.(?:svg|png))\)", text) if f"-o {name}" in text]
+    return [name for name in re.findall(r"pictures/([\w-]+\.(?:svg|png|gif))\)", text) if f"-o {name}" in text]
+
+
+def tables(chapter):
+    """Names of the CSV files beside a chapter that it writes and links to."""
+    return re.findall(r"\]\(([\w-]+\.csv)\)", chapter.read_text())
 
 
 def run(arguments):
     keep = "--pictures" in arguments
     names = [a for a in arguments if a != "--pictures"]
     program = os.environ.get("HERTZLAMB", str(ROOT / "target/release/hertzlamb"))
-    for chapter in [Path(name).resolve() for name in names] or CHAPTERS:
+    for chapter in [Path(name).resolve() for name in names] or [*CHAPTERS, *PAGES]:
         with tempfile.TemporaryDirectory() as folder:
             run_chapter(chapter, Path(folder), program)
             for name in pictures(chapter):
                 if keep:
                     shutil.copy(Path(folder) / name, PICTURES / name)
+            for name in tables(chapter):
+                if keep:
+                    shutil.copy(Path(folder) / name, chapter.with_name(name))
         print(f"{chapter.relative_to(ROOT)}: runs")
 
 
@@ -145,8 +168,8 @@ def links():
 # --- pages ---------------------------------------------------------------------------------------------------------
 
 
-def source(folder):
-    """The documents as mdBook takes them."""
+def source(folder, program):
+    """The documents, and the pages that are made from the program, as mdBook takes them."""
     folder = Path(folder)
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
@@ -158,6 +181,7 @@ def source(folder):
             shutil.copytree(ROOT / name, goal, ignore=shutil.ignore_patterns("book.*", "SUMMARY.md"))
         else:
             shutil.copy(ROOT / name, goal)
+    reference.main(program, folder / "reference")
     summary = (ROOT / "docs/SUMMARY.md").read_text()
     listed = {(folder / target).resolve() for target in LINK.findall(summary)}
     for document in folder.rglob("*.md"):

@@ -5,6 +5,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 from conftest import PROGRAM, ROOT
 
@@ -19,6 +20,33 @@ def test_a_chapter_runs_as_it_stands(chapter, tmp_path):
         drawn, kept = tmp_path / name, book.PICTURES / name
         assert drawn.stat().st_size > 5000, name
         assert kept.exists(), f"{name}: scripts/book --pictures draws it"
+
+
+@pytest.mark.parametrize("page", book.PAGES, ids=lambda page: page.stem)
+def test_the_commands_of_a_page_run(page, tmp_path):
+    book.run_chapter(page, tmp_path, PROGRAM)
+
+
+def test_the_reference_of_the_benchmark_is_what_the_program_computes(tmp_path):
+    chapter = book.ROOT / "docs/benchmark.md"
+    assert book.tables(chapter) == ["benchmark.csv"]
+    book.run_chapter(chapter, tmp_path, PROGRAM)
+    made, kept = (np.loadtxt(path, delimiter=",", skiprows=1) for path in (tmp_path / "benchmark.csv", chapter.with_name("benchmark.csv")))
+    assert made.shape == kept.shape
+    for point in range(1, 6):
+        a, b = (rows[rows[:, 0] == point] for rows in (made, kept))
+        # what vanishes on the axis and at the surface is rounding
+        off, largest = np.abs(a[:, 1:8] - b[:, 1:8]).max(axis=0), np.abs(b[:, 1:8]).max(axis=0)
+        assert (off <= 1e-6 * np.maximum(largest, [0, *[1e-12] * 2, *[1e-3] * 4])).all(), point
+
+
+def test_every_command_and_notebook_has_its_page(tmp_path):
+    book.reference.main(PROGRAM, tmp_path / "reference")
+    made = {str(path.relative_to(tmp_path)) for path in tmp_path.rglob("*.md")}
+    listed = set(book.LINK.findall((book.ROOT / "docs/SUMMARY.md").read_text()))
+    assert made <= listed, made - listed
+    page = (tmp_path / "reference/python.md").read_text()
+    assert "### impact" in page and "**Parameters**" in page and "### OutsideTable" in page
 
 
 def test_every_picture_of_a_chapter_is_drawn_by_it():

@@ -18,6 +18,7 @@ from conftest import ROOT
 matplotlib.use("Agg")
 NOTEBOOKS = sorted((ROOT / "docs" / "notebooks").glob("*.ipynb"))
 README = ROOT / "crates" / "python" / "README.md"
+FRONT = ROOT / "README.md"
 
 pytestmark = pytest.mark.filterwarnings("ignore")
 
@@ -90,6 +91,12 @@ def test_the_program_of_the_readme_runs(capsys):
     (program,) = programs(README.read_text())
     exec(compile(program, "README.md", "exec"), {})
     assert capsys.readouterr().out
+
+
+def test_the_program_of_the_front_page_prints_what_stands_there(capsys):
+    program, printed = re.search(r"```python\n(.*?)```\n\n```text\n(.*?)```", FRONT.read_text(), re.S).groups()
+    exec(compile(program, "README.md", "exec"), {})
+    assert capsys.readouterr().out == printed
 
 
 @pytest.mark.parametrize(
