@@ -262,7 +262,7 @@ class Table:
         Raises
         ------
         SceneError
-            An argument is outside its range.
+            An argument is outside its range, or less than the present value: tables only grow.
         BadTable
             The file is damaged, or cannot be extended.
         OutputError
