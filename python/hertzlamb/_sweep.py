@@ -398,7 +398,7 @@ def sweep(
     >>> out = hl.sweep({"scene": {"target": {"material": "granite"}, "striker": ball},
     ...                 "product": {"striker": {"velocity_m_s": [0.5, 1.0, 2.0]}}})
     >>> out.restitution.shape, out.axes
-    ((3,), {'velocity_m_s': 3})
+    ((3,), {'striker.velocity_m_s': 3})
     """
     plan = _core.plan(sweep, columns)
     wanted = range(plan.rows)

@@ -207,7 +207,8 @@ class Table:
         OutsideTable
             A point, ``nu`` or ``coarsening`` is outside the table; the exception contains axis, value and range.
         DomainError
-            An argument is not a number or outside its range.
+            ``r`` or ``z`` contains something other than numbers, or ``cells``, ``coarsening`` or ``threads`` is outside
+            its range.
         BadTable
             The file changed after it was opened, or is damaged.
         TooMuchMemory
