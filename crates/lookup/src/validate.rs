@@ -14,7 +14,11 @@ pub(crate) fn frame(content: &Content) -> Result<(), ContentError> {
         ("z", &content.z, content.z_max),
     ] {
         if !nodes.contains(&max) || centres(nodes, max).is_empty() {
-            return Err(value(&format!("{name}_max"), max, "one of the nodes other than 0"));
+            return Err(value(
+                &format!("{name}_max"),
+                max,
+                "one of the nodes other than 0",
+            ));
         }
     }
     if !(1e-4..=1e2).contains(&content.cell_width) {

@@ -8,10 +8,7 @@
     clippy::needless_pass_by_value,
     reason = "Python passes arguments by value"
 )]
-#![allow(
-    clippy::too_many_arguments,
-    reason = "the Python layer names them"
-)]
+#![allow(clippy::too_many_arguments, reason = "the Python layer names them")]
 #![allow(
     missing_docs,
     reason = "python/hertzlamb documents the public interface"

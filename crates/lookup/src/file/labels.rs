@@ -53,7 +53,8 @@ pub fn array<T: H5Type>(
 /// # Errors
 /// The error of the HDF5 library, or a name that contains a NUL.
 pub fn set_scale(scale: &Dataset, name: &str) -> Result<(), hdf5::Error> {
-    let name = CString::new(name).map_err(|_| hdf5::Error::from("the name of a scale contains a NUL"))?;
+    let name =
+        CString::new(name).map_err(|_| hdf5::Error::from("the name of a scale contains a NUL"))?;
     // SAFETY: both arguments outlive the call, the dataset is open, and the lock of the library is held.
     #[allow(unsafe_code)]
     hdf5::sync::sync(|| hdf5::h5check(unsafe { H5DSset_scale(scale.id(), name.as_ptr()) }))?;

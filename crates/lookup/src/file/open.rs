@@ -36,7 +36,8 @@ pub(super) fn open(path: &Path) -> Result<TableSource, TableError> {
             Ok(source)
         }
         Some((schema::MAJOR_READ, _)) => {
-            let detail = "its seal is missing: the file was truncated, or another program has written to it";
+            let detail =
+                "its seal is missing: the file was truncated, or another program has written to it";
             Err(BadTable::Damaged(detail.to_owned()).of(path))
         }
         Some(_) | None => Err(BadTable::Version(found).of(path)),

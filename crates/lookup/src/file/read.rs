@@ -164,7 +164,10 @@ impl TableSource {
         let reached = &content.origin.accuracy_reached;
         if reached.len() != content.pulse_lengths.len() || reached.iter().any(|x| !x.is_finite()) {
             let item = root.item(schema::ACCURACY_REACHED);
-            return Err(self.item(&item, "it is not a list of numbers, one for each pulse length"));
+            return Err(self.item(
+                &item,
+                "it is not a list of numbers, one for each pulse length",
+            ));
         }
         let listed = self.listed()?;
         let ratios: Vec<f64> = listed.iter().map(|slice| slice.ratio).collect();

@@ -33,7 +33,12 @@ impl Grid {
         ascending("exact_ratios", exact, [-0.95, 0.495], "[-0.95, 0.495]")?;
         for &nu in exact {
             let new = !ratios.contains(&nu);
-            setting("exact_ratios", nu, new, "ratios that are not in poisson_ratios")?;
+            setting(
+                "exact_ratios",
+                nu,
+                new,
+                "ratios that are not in poisson_ratios",
+            )?;
         }
         axis("r", &self.r)?;
         axis("z", &self.z)?;
