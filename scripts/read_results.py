@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Reads a results file of `hertzlamb impact`: what it holds, its largest force, and its probes."""
+"""Reads a results file of `hertzlamb impact` and prints its contents, its largest force and its probes."""
 
 import argparse
 import sys

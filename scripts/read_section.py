@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Steps through the section of a results file with pyvista, as ParaView reads it, and prints each frame's range.
+"""Steps through the section of a results file with pyvista, as ParaView does, and prints the range of each frame.
 
-`hertzlamb plot waves.vtkhdf -o waves.svg` draws it.
+`hertzlamb plot waves.vtkhdf -o waves.svg` draws the section.
 """
 
 import argparse

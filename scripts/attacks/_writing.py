@@ -1,4 +1,4 @@
-"""The commands that write files, small enough to be run hundreds of times."""
+"""Commands that write files, small enough to be run hundreds of times."""
 
 import collections
 import os

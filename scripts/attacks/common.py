@@ -1,6 +1,6 @@
-"""What the attacks share: running the program within limits, and counting how it ends.
+"""Common parts of the attacks: runs the program within limits, and counts the outcomes.
 
-Python's standard library only. Every random choice follows from ATTACK_SEED; ATTACK_SHARE multiplies the tries.
+Uses Python's standard library only. All random choices follow from ATTACK_SEED; ATTACK_SHARE multiplies the number of trials.
 """
 
 import collections

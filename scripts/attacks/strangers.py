@@ -1,6 +1,6 @@
-"""Files that are not what they are given for: pipes, devices, folders, terabytes of nothing, other formats.
+"""Inputs of the wrong kind: pipes, devices, folders, terabytes of zeros, other formats.
 
-Each is given as scene, sweep, grid, materials file, force record, kernel table, shard and result; each is refused at once.
+Each is passed as scene, sweep, grid, materials file, force record, kernel table, shard and result; each must be rejected at once.
 """
 
 import os

@@ -1,8 +1,8 @@
-"""What the system refuses: threads, locks, memory of a group of processes; standard error that nobody reads.
+"""Failures of the system: threads, file locks, memory limits of a control group, and a standard error that nobody reads.
 
-Right is: threads that do not start are done without, a file system without locks is written to all the same, more memory
-than a group may take is refused in a sentence, and a signal ends the program at once whoever reads what it says.
-Groups of processes need root and their file system, version 1 or 2; locks need strace.
+Expected: the program works with fewer threads if some do not start, and writes files on a file system without locks. It rejects
+work that needs more memory than the group may use, with a message. A signal ends it at once, whoever reads its messages.
+Control groups need root and their file system, version 1 or 2; locks need strace.
 """
 
 import fcntl

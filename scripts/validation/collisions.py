@@ -1,4 +1,4 @@
-"""Hertz's impact, its radiated loss to first order, and the area dashpot, without the program."""
+"""Hertz's impact, its first-order radiated loss, and the area dashpot, computed without the program."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The energy that a slow force radiates, and the deflection of a disc under a harmonic one."""
+"""Energy radiated by a slow force, and deflection of a disc under a harmonic force."""
 
 from __future__ import annotations
 

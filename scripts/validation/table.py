@@ -1,4 +1,4 @@
-"""Rows of the comparisons, and their tables as text and as Markdown."""
+"""Rows of the comparisons, and their tables as text and Markdown."""
 
 from __future__ import annotations
 
