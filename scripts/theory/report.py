@@ -13,7 +13,7 @@ def relative(found, exact):
 
 
 class Report:
-    """Rows `equation | what is compared | error`, and whether all are within their bounds."""
+    """Rows `equation | comparison | error`, and whether all errors are within their bounds."""
 
     def __init__(self):
         self.rows = 0

@@ -75,7 +75,7 @@ impl Redone {
             "## Numbers\n".to_owned(),
         ];
         for section in &self.numbers.sections {
-            let head = "| where | what | paper | this program | difference | why |";
+            let head = "| place | quantity | paper | this program | difference | reason |";
             lines.push(format!(
                 "### {}\n\n{head}\n|---|---|---|---|---|---|",
                 section.title

@@ -100,7 +100,7 @@ fn hertz_on_axis<const N: i32, T: Real>(eta: T) -> Potentials<T> {
                 g_lower: within * -0.375,
             }
         }
-        Order::Impulse => unreachable!("impulses on the axis are continued from beside it"),
+        Order::Impulse => unreachable!("impulses on the axis are extrapolated from points near it"),
     }
 }
 

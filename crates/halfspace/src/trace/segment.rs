@@ -31,7 +31,7 @@ const CELL_NOISE: f64 = 0.12;
 pub(crate) enum Course {
     /// Between two fronts.
     Between([f64; 2]),
-    /// Beside a front, on the side of the sign: its time, Y and the sign.
+    /// On one side of a front: its time, Y and the sign of the side.
     Beside([f64; 3]),
     /// Around a wave without a front: its time, its duration, and x and y.
     Around([f64; 2], [f64; 2]),
