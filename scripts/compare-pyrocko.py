@@ -19,7 +19,7 @@ SPACING = 100.0
 
 
 def make_store(folder):
-    """A store with made-up traces: what is timed is the lookup."""
+    """A store with made-up traces, for the timing of lookups."""
     last = SPACING * (NODES - 1)
     config = gf.ConfigTypeA(
         id="bench",

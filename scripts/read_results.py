@@ -9,7 +9,7 @@ import numpy as np
 
 
 def open_results(path):
-    """The file, or one sentence about what it is instead."""
+    """Opens the file; exits with a message for another kind of file."""
     try:
         file = h5py.File(path, "r")
     except OSError as error:

@@ -16,7 +16,7 @@ except ImportError:
 
 
 def times(path):
-    """Times of the frames in s, or one sentence about what the file is instead."""
+    """Times of the frames in s; exits with a message for another kind of file."""
     try:
         with h5py.File(path, "r") as file:
             kind = file.attrs.get("file_type", "a file of another program")

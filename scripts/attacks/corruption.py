@@ -185,7 +185,7 @@ def parts(folder):
 
 
 def results(folder):
-    """What `--skip-complete` takes for whole, and what is drawn, of damaged results and sweeps."""
+    """Damaged results and sweeps, passed to `--skip-complete` and drawn."""
     at = lambda name: os.path.join(folder, name)
     scene, sweep, picture = write(at("s.toml"), SCENE), write(at("w.toml"), SWEEP), at("p.svg")
     tallies = []

@@ -50,7 +50,7 @@ def strange(folder):
 
 
 def uses(folder, path):
-    """Commands that read a file as something, by what."""
+    """Commands that read a file, by the kind of file that they expect."""
     at = lambda name: os.path.join(folder, name)
     scene, out = write(at("scene.toml"), SCENE), at("out.h5")
     named = {

@@ -164,7 +164,7 @@ def unread(folder, writings):
 
 
 def late(folder, writings):
-    """A signal while the outputs are finished: the exit code is that of the signal, never that of what failed because of it."""
+    """A signal while the outputs are finished: the exit code is that of the signal, never that of a failure caused by it."""
     tally = Tally("signals at the end")
     for name in ("impact", "sweep", "tabulate", "plot"):
         writing = writings[name]
@@ -183,7 +183,7 @@ def late(folder, writings):
 
 
 def objects(folder):
-    """No memory left with --json: one object, and nothing is left beside the output."""
+    """No memory left with --json: one JSON object, and no other files than the output."""
     tally = Tally("no memory, --json")
     write(os.path.join(folder, "long.csv"), "time_s,force_n\n" + "".join(f"{i}e-9,1\n" for i in range(1_500_000)))
     scene = write(os.path.join(folder, "long.toml"), RECORD)

@@ -200,7 +200,7 @@ fn a_table_knows_its_errors_near_the_edge_and_for_short_pulses() {
             }
         }
     }
-    // as in the map: the remainder is hundreds of times better for slow pulses
+    // as in the map, errors are hundreds of times smaller for slow pulses
     assert!(largest[0] > 100.0 * largest[1], "{largest:?}");
 }
 
