@@ -166,6 +166,10 @@ class Probes(_Group, OfProbes):
     Every item is a read-only array. An unknown name raises a `KeyError` as an item and an `AttributeError` as an
     attribute.
 
+    Each quantity in ``output.quantities`` of the scene adds an array (probe, time) of its own name: velocities
+    (``velocity_r``, ``velocity_z``, m/s), accelerations (m/s^2), strains, equivalent and principal stresses
+    (``von_mises``, ``tresca``, ``max_shear``, ``principal_1`` to ``principal_3``, Pa).
+
     Attributes
     ----------
     r, z : ndarray (probe,)
@@ -182,10 +186,6 @@ class Probes(_Group, OfProbes):
         Estimated absolute error of the field or quantity NAME, in its unit; also ``error[NAME]``.
     NAME_peak, NAME_peak_time : ndarray (probe,)
         Value of largest magnitude over time, with its sign, and its time in s; only with ``output.peaks`` in the scene.
-
-    Each quantity in ``output.quantities`` of the scene adds an array (probe, time) of its own name: velocities
-    (``velocity_r``, ``velocity_z``, m/s), accelerations (m/s^2), strains, equivalent and principal stresses
-    (``von_mises``, ``tresca``, ``max_shear``, ``principal_1`` to ``principal_3``, Pa).
     """
 
     _more = _ASK
@@ -219,6 +219,8 @@ class Section(_Group, OfSection):
     Every item is a read-only array. An unknown name raises a `KeyError` as an item and an `AttributeError` as an
     attribute.
 
+    Each quantity in ``output.quantities`` of the scene adds an array (frame, z, r) of its own name.
+
     Attributes
     ----------
     time : ndarray (frame,)
@@ -237,8 +239,6 @@ class Section(_Group, OfSection):
         Estimated absolute error of the field or quantity NAME, in its unit.
     NAME_peak, NAME_peak_time : ndarray (z, r)
         Value of largest magnitude over time, with its sign, and its time in s; only with ``output.peaks`` in the scene.
-
-    Each quantity in ``output.quantities`` of the scene adds an array (frame, z, r) of its own name.
     """
 
     _more = _ASK
@@ -725,6 +725,8 @@ def infer(
     DomainError
         ``unknown`` is not one of the two names.
 
+    Examples
+    --------
     >>> import hertzlamb as hl
     >>> drop = {"target": {"material": "aluminium-6061-t6"}, "striker": {"shape": "ball", "material": "bearing-steel",
     ...         "diameter_m": 0.005, "velocity_m_s": 1.57}, "contact": {"plasticity": "thornton"}}
