@@ -1,13 +1,13 @@
-"""The book: runs the commands in chapters, checks links, and prepares the pages.
+"""The book: chapters whose commands are run, links that are checked, and pages.
 
-Usage: book.py run [--pictures] [CHAPTER...]   runs the commands in chapters; --pictures stores their pictures
+Usage: book.py run [--pictures] [CHAPTER...]   runs the commands of chapters; with --pictures keeps what they draw
        book.py links                           checks every link between documents
-       book.py source FOLDER                   copies the documents to a folder for mdBook, with formulas as MathML
+       book.py source FOLDER                   lays the documents out for mdBook, formulas as MathML
        book.py pages FOLDER                    checks every link of finished pages
 
-A TOML block that begins with `# file: NAME` is written to that file. Blocks of sh and Python are run in a folder with the
-scenes, except blocks that begin with `# not run: REASON`. A text block after such a block is its expected output: `...`
-matches anything, and numbers may have a relative difference of 1e-3.
+In a chapter a block of TOML that begins with `# file: NAME` is written into that file; blocks of sh and Python are run
+in a folder that has the scenes, except those that begin with `# not run: REASON`; a block of text after one of them is
+what it prints, where `...` stands for anything and numbers may differ by 1e-3 of themselves.
 """
 
 import os
