@@ -389,10 +389,7 @@ class Impact:
     def displacement(self) -> Floats:
         """Displacement of the striker in m, positive into the half-space, (time,).
 
-        Raises
-        ------
-        SceneError
-            The scene has a force record instead of a striker.
+        Raises `SceneError` for a force record, which has no striker.
         """
         return self._of_striker("displacement")
 
@@ -400,10 +397,7 @@ class Impact:
     def velocity(self) -> Floats:
         """Velocity of the striker in m/s, positive into the half-space, (time,).
 
-        Raises
-        ------
-        SceneError
-            The scene has a force record instead of a striker.
+        Raises `SceneError` for a force record, which has no striker.
         """
         return self._of_striker("velocity")
 
@@ -419,7 +413,13 @@ class Impact:
 
     @cached_property
     def energy(self) -> Energy:
-        """Energies over time in J, each (time,); empty if they are not known."""
+        """Energies over time in J by name and as attributes, each (time,); empty if they are not known.
+
+        ``kinetic`` is the energy of the striker (for a force record: ``work``, the work of the force on the half-space),
+        ``stored`` the elastic energy that the contact returns, ``radiated`` the work on the delayed part of the
+        deflection, which after the contact is the energy radiated as waves, and ``plastic`` the work of the plastic flow
+        if the scene has a plasticity.
+        """
         return Energy(self._core.energy() or {})
 
     @cached_property
@@ -434,26 +434,14 @@ class Impact:
 
     @property
     def probes(self) -> Probes:
-        """Fields over time at the probes of the scene.
-
-        Raises
-        ------
-        SceneError
-            The scene has no probes.
-        """
+        """Fields over time at the probes of the scene. Raises `SceneError` if the scene has no probes."""
         if self._probes is None:
             raise SceneError('the scene has no probes: add some, "probe": [{"r_m": 0.02, "z_m": 0.0}]', key="probe")
         return self._probes
 
     @property
     def section(self) -> Section:
-        """Fields on the section that ``map`` of the scene defines.
-
-        Raises
-        ------
-        SceneError
-            The scene has no ``map``.
-        """
+        """Fields on the section that ``map`` of the scene defines. Raises `SceneError` if the scene has no ``map``."""
         if self._section is None:
             example = '"map": {"r_max_m": 0.02, "z_max_m": 0.02, "points": [41, 41], "frames": 20}'
             raise SceneError(f"the scene has no section: add one, {example}", key="map")
