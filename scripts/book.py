@@ -46,7 +46,7 @@ NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 
 
 def run_chapter(chapter, folder, program):
-    """Runs the blocks of a chapter in a folder; what is wrong is an AssertionError."""
+    """Runs the blocks of a chapter in a folder; an error is an AssertionError."""
     (folder / "scenes").symlink_to(ROOT / "scenes")
     environment = {**os.environ, "PATH": f"{Path(program).resolve().parent}:{os.environ['PATH']}"}
     printed = ""
@@ -131,7 +131,7 @@ def documents():
 
 
 def anchors(text):
-    """Names that a link into a document can end with: its headings, and what it names itself."""
+    """Anchors of a document: its headings and its explicit names."""
     found = set(re.findall(r'<a id="([^"]+)"', text))
     for heading in re.findall(r"^#+ (.*)$", BLOCK.sub("", text), re.MULTILINE):
         plain = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", heading).replace("`", "")

@@ -1,9 +1,9 @@
-"""Structure of the Rust code: one version of Rust, modules in layers, few files in a folder, short functions.
+"""Checks the structure of the Rust code: one Rust version, layered modules, few files in a folder, short functions.
 
-lib.rs (or main.rs) lists the top modules of a crate from the bottom up: each uses only those above it in the list.
-Within a top module the files use each other in no circle.
+lib.rs (or main.rs) lists the top modules of a crate from the bottom up; each module uses only those above it in the list.
+The files of a top module have no circular dependencies.
 
-Usage: check-structure.py [CRATE...], from the root of the repository.
+Usage: check-structure.py [CRATE...], in the root of the repository.
 Tables of data (files named *_data.rs) may be longer.
 """
 

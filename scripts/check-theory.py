@@ -1,8 +1,8 @@
-"""Checks the numbered equations of docs/theory.md by routes that do not use them: called by scripts/check-theory.
+"""Checks the numbered equations of docs/theory.md by independent calculations: called by scripts/check-theory.
 
-A row names the equation, what it is compared with, the largest error and the bound stated for it.
+A row contains the equation, its comparison, the largest error and the stated bound.
 A bound with > belongs to a form that must not hold, such as a misprint of the source paper.
-Errors are relative where the size is not one.
+Errors are relative unless the quantity is of order one.
 """
 
 import sys

@@ -1,8 +1,8 @@
-"""Traces a second: lookup in Pyrocko's store, six components interpolated multilinearly, beside ours.
+"""Traces per second: lookups in Pyrocko's store, six components interpolated multilinearly, and in our table.
 
     scripts/compare-pyrocko
 
-Both sides look up one trace of six components and 300 samples at random places of a grid of 72 by 72 nodes.
+Both look up traces of six components and 300 samples at random places in a grid of 72 by 72 nodes.
 """
 
 import re
@@ -19,7 +19,7 @@ SPACING = 100.0
 
 
 def make_store(folder):
-    """A store with made-up traces: what is timed is the lookup."""
+    """A store with made-up traces, for the timing of lookups."""
     last = SPACING * (NODES - 1)
     config = gf.ConfigTypeA(
         id="bench",

@@ -1,6 +1,6 @@
-"""Draws error against table size and against lookup time from the output of the example `density`.
+"""Draws the error over table size and over lookup time, from the output of the example `density`.
 
-    scripts/measure-table-density      makes the data and calls this
+    scripts/measure-table-density      makes the data and calls this script
     python scripts/plot_table_density.py density.csv density.png
 """
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Reads a results file of `hertzlamb impact`: what it holds, its largest force, and its probes."""
+"""Reads a results file of `hertzlamb impact` and prints its contents, its largest force and its probes."""
 
 import argparse
 import sys
@@ -9,7 +9,7 @@ import numpy as np
 
 
 def open_results(path):
-    """The file, or one sentence about what it is instead."""
+    """Opens the file; exits with a message for another kind of file."""
     try:
         file = h5py.File(path, "r")
     except OSError as error:

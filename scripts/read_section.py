@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Steps through the section of a results file with pyvista, as ParaView reads it, and prints each frame's range.
+"""Steps through the section of a results file with pyvista, as ParaView does, and prints the range of each frame.
 
-`hertzlamb plot waves.vtkhdf -o waves.svg` draws it.
+`hertzlamb plot waves.vtkhdf -o waves.svg` draws the section.
 """
 
 import argparse
@@ -16,7 +16,7 @@ except ImportError:
 
 
 def times(path):
-    """Times of the frames in s, or one sentence about what the file is instead."""
+    """Times of the frames in s; exits with a message for another kind of file."""
     try:
         with h5py.File(path, "r") as file:
             kind = file.attrs.get("file_type", "a file of another program")

@@ -1,7 +1,7 @@
 """Modules of a Rust crate, the modules that each of them uses, and their layers.
 
-All paths count: those of `use` declarations and those inside expressions and types. Tests do not count.
-A name that lib.rs or another module passes on with `pub use` belongs to the module that defines it.
+All paths count, both in `use` declarations and in expressions and types. Tests do not count.
+A name that lib.rs or another module re-exports with `pub use` belongs to the module that defines it.
 """
 
 import re

@@ -1,4 +1,4 @@
-"""Times calls of the Python package beside those of the library: scripts/time-python."""
+"""Times calls of the Python package and of the library: called by scripts/time-python."""
 
 import statistics
 import subprocess

@@ -1,7 +1,7 @@
-"""Published numbers beside those of the program: called by scripts/validate.
+"""Compares the program with published numbers: called by scripts/validate.
 
-A row is a number of others, its source, ours, the difference over the published number (over the largest value where
-there are many), the bound that it has to keep, and why the two differ.
+A row contains a published number, its source, our result, the difference over the published number (over the largest value if
+there are several), the bound, and the reason for the difference.
 """
 
 import argparse

@@ -1,4 +1,4 @@
-//! Tells the crate the git revision that it is built from.
+//! Passes the git revision to the crate.
 
 use std::process::Command;
 
@@ -15,7 +15,7 @@ fn main() {
     let revision =
         git(&["rev-parse", "--short=12", "HEAD"]).unwrap_or_else(|| "unknown".to_owned());
     println!("cargo::rustc-env=HERTZLAMB_GIT_REVISION={revision}");
-    // A commit moves the log of HEAD, a change of branch HEAD itself.
+    // a commit changes the log of HEAD, a change of branch changes HEAD itself
     for name in ["HEAD", "logs/HEAD"] {
         if let Some(path) = git(&["rev-parse", "--git-path", name]) {
             println!("cargo::rerun-if-changed={path}");

@@ -9,21 +9,22 @@
 >>> round(run.restitution, 3)
 0.993
 
-What there is
--------------
-impact : one impact from a scene (a dictionary, a file or TOML text)
-infer : yield pressure or velocity from a rebound
-resolve : a scene with every default and material spelled out
-collide : many impacts, any key of the scene as an array
-sweep : a sweep file, or any part of its rows
-Table : a kernel table, for fields at many points
-tabulate : makes a kernel table
-kernels : exact response of the half-space to a suddenly applied force
-materials : the materials that scenes can name
+Scenes and results are in SI units; the name of each key and scalar result ends with its unit. Kernels and tables are in
+reduced units: lengths in disc radii r0, times in r0/c1, where c1 is the speed of the longitudinal wave. z points into
+the half-space, compression is negative stress, and time starts at the first contact. All exceptions derive from
+`HertzlambError`.
 
-Every number of a scene is in SI units and carries its unit in its key; kernels and tables are in reduced units, lengths
-in disc radii r0, times in r0/c1. z points into the half-space, compression is negative stress, and the time origin is
-the first contact.
+Functions and classes
+---------------------
+impact : computes one impact of a scene, which is a dictionary, a file or TOML text
+collide : computes many impacts; any key of the scene may be an array
+sweep : computes a sweep file, or some of its rows
+infer : infers a yield pressure or a velocity from a measured rebound
+resolve : returns a scene with every default and material property written out
+materials : lists the materials that a scene can name
+kernels : module with the exact response of the half-space to a suddenly applied force
+Table : kernel table on disk, for fields at many points
+tabulate : computes a kernel table
 """
 
 from hertzlamb import kernels

@@ -1,4 +1,4 @@
-"""Arrays of the caller as plain numbers or words, without dropping a mask, a unit, a date or an imaginary part."""
+"""Conversion of arguments to plain arrays; a mask, unit, date or imaginary part raises an error or becomes NaN."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     Wrong = Callable[[str, str], HertzlambError]
 
 MOST = 10_000_000
-"""Entries of an array at most that becomes a list, and of a list that becomes an array."""
+"""Largest number of entries converted from an array to a list, or from a list to an array."""
 
 _NOT_NUMBERS = {
     "b": "true or false",
@@ -26,7 +26,7 @@ _NOT_NUMBERS = {
     "S": "bytes",
     "V": "records",
 }
-"""Kinds of numpy's types that are not numbers, in words."""
+"""Descriptions of numpy types that are not numbers, by the kind of the type."""
 
 
 def _of_scene(name: str, why: str) -> HertzlambError:
@@ -38,13 +38,13 @@ def _of_argument(name: str, why: str) -> HertzlambError:
 
 
 def numbers(**given: ArrayLike) -> tuple[tuple[int, ...], list[Floats]]:
-    """Arguments of a function broadcast together: their shape, and each of them in that shape, flat; a masked entry is NaN."""
+    """Broadcasts the arguments; returns the common shape and each argument flattened. A masked entry becomes NaN."""
     arrays = np.broadcast_arrays(*(_plain(name, values, _of_argument) for name, values in given.items()))
     return arrays[0].shape, [np.ascontiguousarray(array).reshape(-1) for array in arrays]
 
 
 def of_key(name: str, values: ArrayLike) -> NDArray[Any]:
-    """Values of a scene key as floats or words; a masked entry is NaN, so that its row fails."""
+    """Converts the values of a scene key to floats or words. A masked number becomes NaN, so that its row fails."""
     array = _array(name, values, _of_scene)
     is_words = array.dtype.kind in "UT" or (
         array.dtype.kind == "O" and array.size > 0 and all(isinstance(each, str) for each in array.flat)
@@ -52,29 +52,29 @@ def of_key(name: str, values: ArrayLike) -> NDArray[Any]:
     if not is_words:
         return _plain(name, values, _of_scene)
     if np.ma.is_masked(array):
-        raise _of_scene(name, "has masked words: leave them out, or compute them apart")
+        raise _of_scene(name, "has masked words: remove them, or compute them separately")
     return np.asarray(array, dtype=np.str_)
 
 
 def listed(name: str, value: Any) -> Any:
-    """An array or a scalar in a scene as what Python has for it: a number, a word, or a list of such."""
+    """Converts an array or scalar of a scene to plain Python: a number, a string, or a list of them."""
     array = _array(name, value, _of_scene)
     _refuse_kind(name, array, _of_scene, allowed="b")
     if np.ma.is_masked(array):
-        raise _of_scene(name, "has masked entries: fill them, or leave them out")
+        raise _of_scene(name, "has masked entries: fill or remove them")
     if array.size > MOST:
-        raise _of_scene(name, f"has {array.size} entries, more than {MOST}")
+        raise _of_scene(name, f"has {array.size} entries, more than the limit of {MOST}")
     return array.tolist()
 
 
 def _array(name: str, values: Any, wrong: Wrong) -> NDArray[Any]:
-    """The values as an array of numpy, with its mask."""
+    """Converts the values to a numpy array and keeps a mask."""
     unit = getattr(values, "unit", getattr(values, "units", None))
     if unit is not None and hasattr(values, "to"):
-        raise wrong(name, f"has the unit {unit}: give plain numbers in the unit that the name ends with")
+        raise wrong(name, f"has the unit {unit}: pass plain numbers in the unit at the end of the name")
     is_list = isinstance(values, (list, tuple, range))
     if is_list and len(values) > MOST:
-        raise wrong(name, f"has {len(values)} entries, more than {MOST} of a list: give an array of numpy")
+        raise wrong(name, f"has {len(values)} entries; a list may have {MOST}: pass a numpy array")
     is_masked = is_list and any(isinstance(each, np.ma.MaskedArray) for each in values)
     try:
         array: NDArray[Any] = np.ma.asanyarray(values) if is_masked else np.asanyarray(values)
@@ -86,7 +86,7 @@ def _array(name: str, values: Any, wrong: Wrong) -> NDArray[Any]:
 def _refuse_kind(name: str, array: NDArray[Any], wrong: Wrong, allowed: str = "") -> None:
     kind = array.dtype.kind
     if kind in _NOT_NUMBERS and kind not in allowed:
-        raise wrong(name, f"of type {array.dtype} is not numbers but {_NOT_NUMBERS[kind]}")
+        raise wrong(name, f"of type {array.dtype} contains no numbers but {_NOT_NUMBERS[kind]}")
 
 
 def _plain(name: str, values: ArrayLike, wrong: Wrong) -> Floats:
@@ -102,7 +102,7 @@ def _plain(name: str, values: ArrayLike, wrong: Wrong) -> Floats:
 
 
 def _number(name: str, value: Any, wrong: Wrong) -> float:
-    """A number of Python; one beyond all floats is infinite, as in a scene."""
+    """Converts a Python number to a float; a number too large for a float becomes infinite, as in a scene."""
     try:
         return float("nan" if value is None else value)
     except OverflowError:

@@ -1,4 +1,4 @@
-"""Types of the compiled part of hertzlamb; its functions have no defaults for people, `hertzlamb` has."""
+"""Types of the compiled part of hertzlamb; the public functions, with defaults and documentation, are in `hertzlamb`."""
 
 from collections.abc import Callable, Sequence
 from os import PathLike

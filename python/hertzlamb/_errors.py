@@ -9,7 +9,10 @@ _NUMBER = re.compile(r"[-+]?\d[\d.]*(?:e[-+]?\d+)?")
 
 
 class _Sentence(str):
-    """A message that equals another one if they differ in numbers only, so that Python's filters count both as one."""
+    """A message that equals every message with the same words, whatever the numbers.
+
+    Python's warning filters compare messages, so a loop prints each kind of warning once.
+    """
 
     __slots__ = ()
 
@@ -27,10 +30,10 @@ class _Sentence(str):
 
 
 class HertzlambWarning(UserWarning):
-    """A doubt about a result: physics beyond its validity, or an error above the tolerance.
+    """Warning about a result: the physics is beyond its validity, an error exceeds the tolerance, or rows failed.
 
-    Python's default filter prints each kind once for each line of your program, whatever numbers it contains: a loop
-    prints it once. ``run.warnings`` has all of them.
+    Two warnings of one kind differ only in their numbers. Python's default filter prints each kind once per line of
+    your program, so a loop prints it once. `Impact.warnings` contains all warnings of an impact.
     """
 
     def __str__(self) -> str:
@@ -38,7 +41,10 @@ class HertzlambWarning(UserWarning):
 
 
 class HertzlambError(Exception):
-    """Base of all exceptions of this package."""
+    """Base class of all exceptions of this package.
+
+    The values in the message are attributes of the exception. Exceptions can be pickled.
+    """
 
     def __init__(self, message: str, **fields: Any) -> None:
         super().__init__(message)
@@ -54,37 +60,42 @@ def _again(kind: type[HertzlambError], arguments: tuple[str], fields: dict[str, 
 
 
 class SceneError(HertzlambError, ValueError):
-    """A scene, a sweep or a grid that cannot be run.
+    """Invalid scene, sweep or grid.
 
     Attributes
     ----------
     key : str or None
-        Full name of the key at fault, such as ``"striker.mass_kg"``.
+        Full name of the invalid key, such as ``"striker.mass_kg"``.
     value : float or str or None
-        The value found.
+        Rejected value.
+    range : str or None
+        Allowed range in interval notation, or the allowed names.
     suggestion : str or None
-        The nearest name that exists.
+        Nearest name that exists.
     file : str or None
-        The file at fault.
+        Path of the file that contains the error; None for a dictionary or text.
     """
 
     key: str | None = None
     value: float | str | None = None
+    range: str | None = None
     suggestion: str | None = None
     file: str | None = None
 
 
 class OutsideTable(HertzlambError, ValueError):
-    """A place or a Poisson's ratio that a kernel table does not serve.
+    """Point, Poisson's ratio or coarsening outside the range of a kernel table.
 
     Attributes
     ----------
     axis : str
         ``"r/r0"``, ``"z/r0"``, ``"poisson_ratio"`` or ``"coarsening"``.
-    value, low, high : float
-        The value asked for and the range that the table serves.
+    value : float
+        Requested value on that axis.
+    low, high : float
+        Range of the table on that axis.
     file : str or None
-        The table.
+        Path of the table.
     """
 
     axis: str
@@ -95,16 +106,16 @@ class OutsideTable(HertzlambError, ValueError):
 
 
 class DomainError(HertzlambError, ValueError):
-    """A number or a name outside the range of an argument.
+    """Argument of a function outside its range.
 
     Attributes
     ----------
     argument : str or None
         Name of the argument.
     value : float or str or None
-        The value received.
+        Rejected value.
     range : str or None
-        The allowed range in interval notation, or the allowed names.
+        Allowed range in interval notation, or the allowed names.
     """
 
     argument: str | None = None
@@ -113,20 +124,34 @@ class DomainError(HertzlambError, ValueError):
 
 
 class ImpactError(HertzlambError, ValueError):
-    """An impact without results: the contact could not be solved, or a number is beyond the physics."""
+    """Impact without results: the contact cannot be solved, or a result is outside the range of the physics.
+
+    Attributes
+    ----------
+    key : str or None
+        Name of the key or measure to change, such as ``"velocity_m_s"``.
+    value : float or str or None
+        Its value.
+    range : str or None
+        Allowed range in interval notation.
+    """
+
+    key: str | None = None
+    value: float | str | None = None
+    range: str | None = None
 
 
 class TooMuchMemory(HertzlambError, MemoryError):
-    """Work that needs more memory than it may take; nothing was begun."""
+    """Computation that needs more memory than is free, or more than ``max_memory_gb``; usually raised before it starts."""
 
 
 class BadTable(HertzlambError, OSError):
-    """A file that is no kernel table, or a damaged one.
+    """File that is not a kernel table, is damaged, or has an unknown format version.
 
     Attributes
     ----------
     file : str or None
-        The file.
+        Path of the file.
     """
 
     file: str | None = None
@@ -136,12 +161,12 @@ class BadTable(HertzlambError, OSError):
 
 
 class OutputError(HertzlambError, OSError):
-    """A file that could not be written; what was there is untouched.
+    """File that could not be written; an existing file of that name is unchanged.
 
     Attributes
     ----------
     file : str or None
-        The file.
+        Path of the file.
     """
 
     file: str | None = None
@@ -151,12 +176,15 @@ class OutputError(HertzlambError, OSError):
 
 
 class OutputExists(OutputError, FileExistsError):
-    """A file that exists already and was not to be replaced."""
+    """Output file that exists already; pass ``overwrite=True`` to replace it."""
 
 
 class WorkError(HertzlambError, RuntimeError):
-    """Work that failed for another reason."""
+    """Computation that failed for another reason, such as a fault of the program."""
 
 
 class ForkError(HertzlambError, RuntimeError):
-    """A process forked from one that had begun to compute: its threads do not survive a fork."""
+    """Call in a process that was forked from one that had already computed.
+
+    The threads of the package do not survive a fork. Start processes with the method ``spawn`` or ``forkserver``.
+    """

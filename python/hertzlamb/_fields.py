@@ -17,15 +17,21 @@ FIELDS = ("displacement_r", "displacement_z", "stress_rr", "stress_tt", "stress_
 
 
 class Fields(Mapping[str, "Floats"]):
-    """The six fields by name, each a read-only array.
+    """Mapping of the six fields by name, each a read-only array of shape (...).
 
-    ``fields["stress_zz"]`` or ``fields.stress_zz``; the names are ``displacement_r``, ``displacement_z``,
-    ``stress_rr``, ``stress_tt``, ``stress_zz`` and ``stress_rz``.
+    Write ``fields["stress_zz"]`` or ``fields.stress_zz``. The names are ``displacement_r``, ``displacement_z``,
+    ``stress_rr``, ``stress_tt``, ``stress_zz`` and ``stress_rz``. Displacements are in P/(mu r0), stresses in P/r0^2,
+    unless the function that returns the fields documents other units.
 
     Attributes
     ----------
     array : ndarray, shape (..., 6)
-        All of them; the fields are views into it.
+        The six fields in this order; the named fields are views into it.
+
+    Raises
+    ------
+    KeyError
+        The name is not one of the six.
     """
 
     __slots__ = ("array",)
@@ -50,32 +56,32 @@ class Fields(Mapping[str, "Floats"]):
 
     @property
     def displacement_r(self) -> Floats:
-        """Radial displacement, positive outwards."""
+        """Radial displacement (...), positive away from the axis."""
         return self.array[..., 0]
 
     @property
     def displacement_z(self) -> Floats:
-        """Axial displacement, positive into the half-space."""
+        """Axial displacement (...), positive into the half-space."""
         return self.array[..., 1]
 
     @property
     def stress_rr(self) -> Floats:
-        """Radial stress, negative in compression."""
+        """Radial stress (...), negative in compression."""
         return self.array[..., 2]
 
     @property
     def stress_tt(self) -> Floats:
-        """Hoop stress, negative in compression."""
+        """Hoop stress (...), negative in compression."""
         return self.array[..., 3]
 
     @property
     def stress_zz(self) -> Floats:
-        """Axial stress, negative in compression."""
+        """Axial stress (...), negative in compression."""
         return self.array[..., 4]
 
     @property
     def stress_rz(self) -> Floats:
-        """Shear stress."""
+        """Shear stress (...) in the plane of r (outwards) and z (into the half-space)."""
         return self.array[..., 5]
 
     def __repr__(self) -> str:

@@ -1,4 +1,4 @@
-"""One impact."""
+"""Single impacts: `impact`, `infer`, `resolve` and their results."""
 
 from __future__ import annotations
 
@@ -26,17 +26,17 @@ if TYPE_CHECKING:
     Floats = NDArray[np.float64]
 
 Scene = Mapping[str, Any] | str | os.PathLike[str]
-"""A scene: a dictionary with the keys of a scene file, the path of a file, or TOML text."""
+"""A scene: nested dictionaries with the keys of a scene file, the path of a scene file, or TOML text."""
 
 DESCRIBED: dict[str, Any] = _core.describe()
-"""Units and meanings of all names, by the part of the results that they are in."""
+"""Unit and description of every name in the results, by the part of the results that contains it."""
 
 QUANTITIES: dict[str, list[str]] = DESCRIBED["quantities"]
-"""Unit, meaning and kind of every scalar result."""
+"""Unit, description and kind (``"real"`` or ``"count"``) of every scalar result."""
 
 
 class _Results(Protocol):
-    """What an impact is made of: `_core.Outcome`, or what a pickle has kept of one."""
+    """Interface to the results of an impact: `_core.Outcome`, or `_Kept` after unpickling."""
 
     def numbers(self) -> dict[str, Any]: ...
     def report(self) -> dict[str, Any]: ...
@@ -50,7 +50,7 @@ class _Results(Protocol):
 
 
 class _Kept:
-    """What a pickle has kept: plain arrays, and the files as bytes."""
+    """Results of an unpickled impact: plain arrays, and the content of the output files."""
 
     def __init__(self, parts: dict[str, Any], files: dict[str, bytes]) -> None:
         self.parts, self.files = parts, files
@@ -87,15 +87,15 @@ class _Kept:
             with open(path, "wb" if overwrite else "xb") as file:
                 file.write(self.files["impact.csv" if csv else "impact.h5"])
         except FileExistsError:
-            message = f"{os.fspath(path)} exists already and is not replaced; give overwrite=True to replace it"
+            message = f"{os.fspath(path)} exists already and is not replaced; pass overwrite=True to replace it"
             raise OutputExists(message, file=os.fspath(path)) from None
 
 
 class _Group(Mapping[str, "NDArray[Any]"]):
-    """Arrays by name, also as attributes."""
+    """Mapping of read-only arrays by name; each is also an attribute."""
 
     _more = ""
-    """How to get more of them."""
+    """Advice on how to get more arrays, appended to the message about an unknown name."""
 
     def __init__(self, arrays: dict[str, Any]) -> None:
         self._arrays = arrays
@@ -119,7 +119,7 @@ class _Group(Mapping[str, "NDArray[Any]"]):
             if not name.startswith("_") and name in self._arrays:
                 return self[name]
             there = ", ".join(self._arrays)
-            raise AttributeError(f"{type(self).__name__} has no {name!r}; there are {there}{self._more}")
+            raise AttributeError(f"{type(self).__name__} has no {name!r}; it has {there}{self._more}")
 
     def __dir__(self) -> list[str]:
         return [*super().__dir__(), *self._arrays]
@@ -136,25 +136,56 @@ class _Group(Mapping[str, "NDArray[Any]"]):
 
 
 class Energy(_Group, OfEnergy):
-    """Where the energy is over time in J: ``kinetic`` or ``work``, ``stored``, ``radiated`` and, where a contact yields, ``plastic``, each (time,)."""
+    """Energies over time in J, by name and as attributes, each (time,).
+
+    Attributes
+    ----------
+    kinetic : ndarray
+        Kinetic energy of the striker; absent for a force record.
+    work : ndarray
+        Work of the force on the half-space; only for a force record.
+    stored : ndarray
+        Elastic energy that the contact returns.
+    radiated : ndarray
+        Work on the delayed part of the deflection; after the contact, the energy radiated as waves.
+    plastic : ndarray
+        Work of the plastic flow; only for a scene with ``contact.plasticity``.
+    """
 
 
-_ASK = '; the scene asks for more, such as "output": {"quantities": ["velocity_z"]}'
+_ASK = '; the scene can request more, such as "output": {"quantities": ["velocity_z"]}'
 
 
 class Errors(_Group, OfFields):
-    """Estimated absolute errors of fields by name, each in the unit of its field, (probe,)."""
+    """Estimated absolute errors of the fields by name, each (probe,) and in the unit of its field."""
 
 
 class Probes(_Group, OfProbes):
     """Fields over time at the probes of a scene, by name and as attributes.
 
-    ``r`` and ``z`` in m (probe,); ``arrival`` in s (probe, 3) of the first P, S and Rayleigh wave, infinite where there is
-    none; ``valid_until`` in s (probe,), when the first echo from a face of the block arrives;
-    ``displacement_r``, ``displacement_z`` in m and ``stress_rr``, ``stress_tt``, ``stress_zz``, ``stress_rz`` in Pa,
-    each (probe, time), with an estimate of the absolute error under the same name in ``error`` (probe,).
-    What ``output.quantities`` of the scene asks for beside them has its own name (``velocity_z``, ``von_mises`` ...), and
-    ``output.peaks`` adds ``NAME_peak`` and ``NAME_peak_time`` (probe,).
+    Every item is a read-only array. An unknown name raises a `KeyError` as an item and an `AttributeError` as an
+    attribute.
+
+    Each quantity in ``output.quantities`` of the scene adds an array (probe, time) of its own name: velocities
+    (``velocity_r``, ``velocity_z``, m/s), accelerations (m/s^2), strains, equivalent and principal stresses
+    (``von_mises``, ``tresca``, ``max_shear``, ``principal_1`` to ``principal_3``, Pa).
+
+    Attributes
+    ----------
+    r, z : ndarray (probe,)
+        Distance from the axis and depth in m.
+    arrival : ndarray (probe, 3)
+        Arrival times in s of the first P, S and Rayleigh wave; infinite if there is no Rayleigh wave.
+    valid_until : ndarray (probe,)
+        Arrival time in s of the first echo from another face of the block; infinite if the scene names no such face.
+    displacement_r, displacement_z : ndarray (probe, time)
+        Displacements in m, positive away from the axis and into the half-space.
+    stress_rr, stress_tt, stress_zz, stress_rz : ndarray (probe, time)
+        Stresses in Pa, negative in compression.
+    NAME_error : ndarray (probe,)
+        Estimated absolute error of the field or quantity NAME, in its unit; also ``error[NAME]``.
+    NAME_peak, NAME_peak_time : ndarray (probe,)
+        Value of largest magnitude over time, with its sign, and its time in s; only with ``output.peaks`` in the scene.
     """
 
     _more = _ASK
@@ -176,34 +207,54 @@ class Probes(_Group, OfProbes):
 
     @property
     def error(self) -> Errors:
-        """Estimated absolute error of each field, in its unit, (probe,)."""
+        """Estimated absolute errors of all fields and quantities by name, each (probe,) and in the unit of its field."""
         ending = "_error"
         names = [name.removesuffix(ending) for name in self._arrays if name.endswith(ending)]
         return Errors({name: self._arrays[name + ending] for name in names})
 
 
 class Section(_Group, OfSection):
-    """Fields on a meridional section, by name and as attributes.
+    """Fields on a plane through the axis (a meridional section), by name and as attributes.
 
-    ``time`` (frame,), ``z`` (z,) descending and ``r`` (r,) in s and m; the six fields (frame, z, r) in single precision,
-    their errors (z, r) under ``NAME_error``, and ``arrival`` (3, z, r) of the first P, S and Rayleigh wave.
-    What ``output.quantities`` of the scene asks for beside them has its own name, and ``output.peaks`` adds ``NAME_peak``
-    and ``NAME_peak_time`` (z, r).
+    Every item is a read-only array. An unknown name raises a `KeyError` as an item and an `AttributeError` as an
+    attribute.
+
+    Each quantity in ``output.quantities`` of the scene adds an array (frame, z, r) of its own name.
+
+    Attributes
+    ----------
+    time : ndarray (frame,)
+        Time of each frame in s since the first contact.
+    z : ndarray (z,)
+        Depths in m, in descending order.
+    r : ndarray (r,)
+        Distances from the axis in m, in ascending order.
+    arrival : ndarray (3, z, r)
+        Arrival times in s of the first P, S and Rayleigh wave; infinite if there is no Rayleigh wave.
+    displacement_r, displacement_z : ndarray (frame, z, r), float32
+        Displacements in m, positive away from the axis and into the half-space.
+    stress_rr, stress_tt, stress_zz, stress_rz : ndarray (frame, z, r), float32
+        Stresses in Pa, negative in compression.
+    NAME_error : ndarray (z, r)
+        Estimated absolute error of the field or quantity NAME, in its unit.
+    NAME_peak, NAME_peak_time : ndarray (z, r)
+        Value of largest magnitude over time, with its sign, and its time in s; only with ``output.peaks`` in the scene.
     """
 
     _more = _ASK
 
     def to_xarray(self) -> xr.Dataset:
-        """The section as a data set with the dimensions time, z and r."""
+        """The section as an xarray data set with the dimensions time, z and r, and with units and descriptions."""
         from hertzlamb._xarray import of_section
 
         return of_section(self)
 
 
 class Impact:
-    """The results of one impact.
+    """Results of one impact, returned by `hertzlamb.impact`.
 
-    Scalars are in SI units; `hertzlamb.impact` makes it. Arrays are read-only.
+    Scalars and arrays are in SI units; arrays are read-only. Scalars that do not exist for a force record, or for lack
+    of a strength or a plasticity in the scene, are NaN (None in `numbers` and `report`).
 
     >>> import hertzlamb as hl
     >>> run = hl.impact({"target": {"material": "granite"}, "striker": {"material": "steel", "mass_kg": 4e-6,
@@ -215,63 +266,63 @@ class Impact:
     peak_force_n: float
     """Largest contact force in N."""
     peak_force_time_s: float
-    """When it is reached in s."""
+    """Time of the largest contact force in s."""
     contact_time_s: float
-    """Duration of the first contact, or of the force record, in s."""
+    """Duration of the first contact in s; for a force record, from its onset to the end of the force."""
     rebound_velocity_m_s: float
     """Velocity of departure in m/s, positive away from the half-space; NaN for a force record."""
     restitution: float
-    """Velocity of departure over velocity of approach; NaN for a force record."""
+    """Coefficient of restitution, velocity of departure over velocity of approach; NaN for a force record."""
     loss: float
-    """Kinetic energy lost over kinetic energy before, 1 - restitution^2; NaN for a force record."""
+    """Fraction of the kinetic energy lost, 1 - restitution^2; NaN for a force record."""
     peak_displacement_m: float
     """Largest displacement of the striker in m; NaN for a force record."""
     peak_deflection_m: float
     """Largest deflection of the half-space in the contact law in m."""
     impulse_n_s: float
-    """Momentum given to the striker in N s."""
+    """Impulse of the contact force in N s: the change of the striker's momentum, or the integral of the force record."""
     initial_energy_j: float
-    """Kinetic energy before in J; NaN for a force record."""
+    """Kinetic energy before the impact in J; NaN for a force record."""
     radiated_energy_j: float
-    """Work that the force leaves in the half-space as waves in J."""
+    """Energy that leaves as waves in J."""
     energy_residual: float
-    """(initial - rebound - radiated)/initial energy; NaN for a force record."""
+    """(initial - rebound - radiated energy)/initial energy; NaN for a force record."""
     contact_radius_m: float
-    """Contact radius of Hertz's law at the largest force in m; NaN for a force record."""
+    """Contact radius by Hertz's law at the largest force in m; NaN for a force record."""
     disc_radius_m: float
-    """Radius of the disc that loads the half-space in m: the unit of length of tables."""
+    """Radius r0 in m of the disc that loads the half-space, the unit of length of kernel tables."""
     mean_pressure_pa: float
     """Largest contact force over the area of the loaded disc in Pa; NaN for a force record."""
     yield_onset: float
-    """`mean_pressure_pa` over the pressure at which the first body begins to yield; NaN where no strength is known."""
+    """`mean_pressure_pa` over the pressure at the onset of yield (von Mises under Hertz's pressure) in the body that yields first; NaN if no yield strength is known."""
     pressure_over_yield: float
-    """`mean_pressure_pa` over the lower of both yield strengths; NaN where none is known."""
+    """`mean_pressure_pa` over the lower of the two yield strengths; NaN if none is known."""
     pressure_over_tensile: float
-    """`mean_pressure_pa` over the lower of both tensile strengths; NaN where none is known."""
+    """`mean_pressure_pa` over the lower of the two tensile strengths; NaN if none is known."""
     cone_crack_onset: float
-    """Largest force over that of a cone crack by Auerbach's law; NaN where no toughness is known."""
+    """Largest force over the force at which Auerbach's law expects a cone crack; NaN if no fracture toughness is known."""
     yield_pressure_pa: float
-    """Mean pressure that the yielding contact does not exceed; of jackson_green the one at which it yields under the surface in Pa; NaN without a plasticity."""
+    """Largest mean pressure of the yielding contact in Pa; for ``jackson_green``, the pressure at the onset of yield below the surface. NaN without a plasticity."""
     yield_velocity_m_s: float
-    """Velocity of approach from which the law of flow differs from elasticity in m/s; NaN without a plasticity."""
+    """Velocity of approach in m/s above which the plastic law differs from the elastic one; NaN without a plasticity."""
     velocity_over_yield: float
-    """Velocity of approach over the one from which the law of flow differs from elasticity; NaN without a plasticity."""
+    """Velocity of approach over `yield_velocity_m_s`; NaN without a plasticity."""
     velocity_over_trusted: float
-    """Velocity of approach over the largest one for which the law of flow is trusted; NaN for laws without such a limit."""
+    """Velocity of approach over the largest velocity for which the plastic law is trusted; NaN for laws without such a limit and without a plasticity."""
     plastic_work_j: float
-    """Work of the plastic flow in J; NaN without a plasticity."""
+    """Plastic work in J; NaN without a plasticity."""
     peak_indentation_m: float
     """Largest indentation in m; NaN without a plasticity."""
     residual_indentation_m: float
-    """Indentation that stays in m; NaN without a plasticity."""
+    """Permanent indentation in m; NaN without a plasticity."""
     dent_radius_m: float
-    """Radius of the sphere that meets a plane as the striker meets its dent in m; NaN without a plasticity."""
+    """Effective radius in m during unloading: the radius of a sphere whose contact with a plane equals that of the striker with its dent; NaN without a plasticity."""
     contacts: int
     """Number of contacts; 0 for a force record."""
     march_steps: int
-    """Steps of the march, 0 where no uniform step is taken."""
+    """Number of time steps over the contact; 0 for a closed form, for non-uniform steps and for a force record."""
     march_step_s: float
-    """Step of the march in s; NaN for a force record."""
+    """Time step in s; 0 for a closed form and for non-uniform steps, NaN for a force record."""
     relative_error_estimate: float
     """Estimated relative error of peak force, contact time, restitution and displacement."""
 
@@ -294,27 +345,30 @@ class Impact:
 
     @property
     def numbers(self) -> dict[str, Any]:
-        """All scalar results by name; None where one does not exist."""
+        """All scalar results by name; None for a result that does not exist."""
         return self._core.numbers()
 
     @property
     def report(self) -> dict[str, Any]:
-        """What ``hertzlamb impact --json`` prints: model, scheme, kernel, why, and all scalar results."""
+        """Report of the impact: model, scheme and kernel, the reason for each, and all scalar results.
+
+        The keys are those of ``hertzlamb impact --json``.
+        """
         return self._core.report()
 
     @property
     def model(self) -> str:
-        """The contact model that was used."""
+        """Name of the contact model that was used."""
         return str(self.report["model"])
 
     @property
     def warnings(self) -> list[str]:
-        """What the user should know."""
+        """Messages of all warnings about this impact."""
         return self._core.warnings()
 
     @property
     def scene(self) -> dict[str, Any]:
-        """The scene with every default and material spelled out."""
+        """The scene with every default and material property written out."""
         return self._core.scene()
 
     @cached_property
@@ -333,27 +387,39 @@ class Impact:
 
     @property
     def displacement(self) -> Floats:
-        """Displacement of the striker in m, positive into the half-space, (time,)."""
+        """Displacement of the striker in m, positive into the half-space, (time,).
+
+        Raises `SceneError` for a force record, which has no striker.
+        """
         return self._of_striker("displacement")
 
     @property
     def velocity(self) -> Floats:
-        """Velocity of the striker in m/s, positive into the half-space, (time,)."""
+        """Velocity of the striker in m/s, positive into the half-space, (time,).
+
+        Raises `SceneError` for a force record, which has no striker.
+        """
         return self._of_striker("velocity")
 
     def _of_striker(self, name: str) -> Floats:
         if name not in self._series:
-            raise SceneError(f"there is no {name}: the force is a record, without a striker", key="striker")
+            raise SceneError(f"there is no {name}: the scene has a force record and no striker", key="striker")
         return self._series[name]
 
     @property
     def deflection(self) -> Floats:
-        """Deflection of the half-space in the contact law in m, positive inwards, (time,)."""
+        """Deflection of the half-space in the contact law in m, positive into the half-space, (time,)."""
         return self._series["deflection"]
 
     @cached_property
     def energy(self) -> Energy:
-        """Where the energy is over time; empty where it is not known."""
+        """Energies over time in J by name and as attributes, each (time,); empty if they are not known.
+
+        ``kinetic`` is the energy of the striker (for a force record: ``work``, the work of the force on the half-space),
+        ``stored`` the elastic energy that the contact returns, ``radiated`` the work on the delayed part of the
+        deflection, which after the contact is the energy radiated as waves, and ``plastic`` the work of the plastic flow
+        if the scene has a plasticity.
+        """
         return Energy(self._core.energy() or {})
 
     @cached_property
@@ -368,50 +434,113 @@ class Impact:
 
     @property
     def probes(self) -> Probes:
-        """Fields at the probes of the scene; a `SceneError` where it has none."""
+        """Fields over time at the probes of the scene. Raises `SceneError` if the scene has no probes."""
         if self._probes is None:
-            raise SceneError('the scene has no probes: give it some, "probe": [{"r_m": 0.02, "z_m": 0.0}]', key="probe")
+            raise SceneError('the scene has no probes: add some, "probe": [{"r_m": 0.02, "z_m": 0.0}]', key="probe")
         return self._probes
 
     @property
     def section(self) -> Section:
-        """Fields on the section that the scene's ``map`` asks for; a `SceneError` where it asks for none."""
+        """Fields on the section that ``map`` of the scene defines. Raises `SceneError` if the scene has no ``map``."""
         if self._section is None:
             example = '"map": {"r_max_m": 0.02, "z_max_m": 0.02, "points": [41, 41], "frames": 20}'
-            raise SceneError(f"the scene has no section: give it one, {example}", key="map")
+            raise SceneError(f"the scene has no section: add one, {example}", key="map")
         return self._section
 
     def to_xarray(self) -> xr.Dataset:
-        """Time series and fields at probes as a data set, with units, coordinates and the scalars as attributes."""
+        """Time series and fields at the probes as an xarray data set.
+
+        Dimensions are time, probe and wave; variables have units and descriptions, and the scalar results and warnings
+        are attributes. `Section.to_xarray` converts a section.
+        """
         from hertzlamb._xarray import of_impact
 
         return of_impact(self)
 
     def save(self, path: str | os.PathLike[str], *, overwrite: bool = False) -> None:
-        """Writes the results file of ``hertzlamb impact -o``, HDF5: the same datasets and attributes, bit for bit.
+        """Writes all results to an HDF5 file.
 
-        The bytes around them are those of the HDF5 library that is compiled into this package; the command may use another.
+        Datasets and attributes are bit-identical to those of ``hertzlamb impact -o``. The files may differ elsewhere if
+        the command uses another version of the HDF5 library than this package.
+
+        Parameters
+        ----------
+        path : path
+            File to write, with the extension ``.h5``, ``.hdf5``, ``.hdf`` or ``.vtkhdf``.
+        overwrite : bool
+            Whether to replace an existing file.
+
+        Raises
+        ------
+        OutputExists
+            The file exists and ``overwrite`` is False.
+        OutputError
+            The file cannot be written.
         """
         self._core.save(path, overwrite, csv=False)
 
     def save_csv(self, path: str | os.PathLike[str], *, overwrite: bool = False) -> None:
-        """Writes the time series and the traces of the probes as text: byte for byte the file of ``hertzlamb impact --csv``."""
+        """Writes the time series and the fields at the probes to a text file.
+
+        The file is byte-identical to that of ``hertzlamb impact --csv``. Parameters and errors are those of `save`; the
+        file extension is ``.csv`` or ``.txt``.
+        """
         self._core.save(path, overwrite, csv=True)
 
     def plot(self, *, axes: Axes | None = None) -> Axes:
-        """Draws the force over time (matplotlib)."""
+        """Draws the contact force over time with matplotlib.
+
+        Parameters
+        ----------
+        axes : matplotlib Axes, optional
+            Axes to draw into. Default: new axes.
+        """
         from hertzlamb._plot import force
 
         return force(self, axes)
 
     def plot_probes(self, quantity: str = "displacement_z") -> Figure:
-        """Draws a field or a velocity at every probe over time, with the arrivals of the waves (matplotlib)."""
+        """Draws a field or quantity over time at every probe with matplotlib.
+
+        Each probe has its own panel, with the error as a band and the wave arrivals as vertical lines.
+
+        Parameters
+        ----------
+        quantity : str
+            Name of an array (probe, time) of `probes`.
+
+        Raises
+        ------
+        SceneError
+            The scene has no probes.
+        KeyError
+            The probes have no such quantity.
+        """
         from hertzlamb._plot import probes
 
         return probes(self, quantity)
 
     def plot_section(self, frame: int, quantity: str = "stress_zz", *, axes: Axes | None = None) -> Axes:
-        """Draws a field on the section at a frame, with the fronts of P and S waves (matplotlib)."""
+        """Draws one frame of a field on the section with matplotlib, with the P and S wave fronts.
+
+        Parameters
+        ----------
+        frame : int
+            Index of the frame; ``section.time[frame]`` is its time.
+        quantity : str
+            Name of an array (frame, z, r) of `section`.
+        axes : matplotlib Axes, optional
+            Axes to draw into. Default: new axes.
+
+        Raises
+        ------
+        SceneError
+            The scene has no ``map``.
+        KeyError
+            The section has no such quantity.
+        IndexError
+            The section has no such frame.
+        """
         from hertzlamb._plot import section
 
         return section(self, frame, quantity, axes)
@@ -456,44 +585,51 @@ def impact(
     threads: int | None = None,
     progress: Progress = None,
 ) -> Impact:
-    """Computes one impact.
+    """Computes one impact: contact force, rebound, and fields at the probes and on the section of the scene.
 
     Parameters
     ----------
     scene : dict, path or str
-        The keys of a scene file as nested dictionaries, the path of a file, or TOML text. Files that a dictionary or a text
-        names, such as a force record, are looked for in the working directory. A measured force needs no file:
-        ``"force": {"time_s": times, "force_n": forces}`` with lists or arrays.
+        Keys of a scene file as nested dictionaries, the path of a scene file, or TOML text. Relative file names in a
+        dictionary or text, such as a force record, refer to the working directory. You can pass a measured force as
+        lists or arrays: ``"force": {"time_s": times, "force_n": forces}``.
     table : Table or path, optional
-        A kernel table for the fields at probes and on a section.
+        Kernel table for the fields. Default: no table, all kernels are computed.
     kernel : {"auto", "direct", "table"}
-        Where the kernels of the fields come from: the table or computed, by the estimated cost and error of both;
-        computed; the table.
+        Source of the kernels. ``"auto"`` compares the estimated cost and error of the table and of direct computation;
+        ``"direct"`` computes all kernels; ``"table"`` uses the table only.
     max_memory_gb : float, optional
-        Refuses a scene that needs more; what the machine has free otherwise.
+        Largest memory for the computation in GB (10^9 bytes). Default: the free memory of the machine.
     threads : int, optional
-        Threads, all processors otherwise.
+        Number of threads in [1, 1024]. Default: one for each available processor.
     progress : bool or callable, optional
-        True for a bar; a function is called with the points that are done and how many there are.
+        True shows a progress bar. A function is called with the number of finished points and the total.
 
     Returns
     -------
     Impact
-        Scalars, time series, and fields at the points that the scene asks for, equal to the command's to the last bit.
+        Results, bit-identical to those of ``hertzlamb impact``.
 
     Raises
     ------
     SceneError
-        With the key, the value and the nearest name that exists.
+        The scene is invalid; the exception contains the key, the value and the nearest name that exists. Also if
+        ``kernel="table"`` and there is no table.
     OutsideTable
-        A probe is outside the table and ``kernel="table"``.
+        A point is outside the table and ``kernel="table"``.
+    BadTable
+        The table cannot be read.
     ImpactError
         The contact has no results.
+    TooMuchMemory
+        The scene needs more memory than allowed.
+    DomainError
+        ``kernel`` or ``threads`` is invalid.
 
     Warns
     -----
     HertzlambWarning
-        Physics beyond its validity; also in ``run.warnings``.
+        The physics is beyond its validity, or an error exceeds the tolerance. `Impact.warnings` has all messages.
     """
     opened = Table.open(table) if isinstance(table, (str, os.PathLike)) else table
     memory = None if max_memory_gb is None else 1e9 * max_memory_gb
@@ -505,29 +641,29 @@ def impact(
 
 
 class Inferred(NamedTuple):
-    """A yield pressure or a velocity inferred from a rebound, in SI units, with the results of the contact that has it.
+    """Yield pressure or velocity inferred from a rebound, with other results of that contact, in SI units.
 
-    An impact that stays elastic determines no yield pressure: every pressure from its own stress up has the same rebound.
+    An elastic impact determines no yield pressure: every pressure above its own contact pressure gives the same rebound.
     """
 
     unknown: str
-    """The name of the value, ``"yield_pressure_pa"`` or ``"velocity_m_s"``."""
+    """Name of the inferred quantity, ``"yield_pressure_pa"`` or ``"velocity_m_s"``."""
     value: float
-    """The value for which the contact has the measure."""
+    """Inferred value in Pa or m/s."""
     low: float | None
-    """Lower bound from the error of the measure; None if no yielding contact gives such a value."""
+    """Lower bound from the error of the measurement; None if no yielding contact gives such a value."""
     high: float | None
-    """Upper bound from the error of the measure; None if there is none, as for an impact that stays elastic."""
+    """Upper bound from the error of the measurement; None if there is no bound, as for an elastic impact."""
     elastic: bool
-    """Whether the measure is that of an elastic contact, within its error or the tolerance of the results."""
+    """Whether the measurement agrees with an elastic contact, within its error or the tolerance of the results."""
     velocity_over_yield: float
-    """Velocity of approach over that at which yield begins."""
+    """Velocity of approach over the velocity at the onset of yield."""
     yield_velocity_m_s: float
-    """Velocity of approach in m/s at which yield begins."""
+    """Velocity of approach at the onset of yield in m/s."""
     velocity_over_trusted: float | None
-    """Velocity of approach over the largest one for which the law is trusted; None for laws without such a limit."""
+    """Velocity of approach over the largest velocity for which the law is trusted; None for laws without such a limit."""
     restitution: float
-    """Velocity of departure over velocity of approach."""
+    """Coefficient of restitution, velocity of departure over velocity of approach."""
     contact_time_s: float
     """Duration of the contact in s."""
     peak_force_n: float
@@ -544,35 +680,41 @@ def infer(
     error: float = 0.0,
     unknown: Literal["yield_pressure_pa", "velocity_m_s"] = "yield_pressure_pa",
 ) -> Inferred:
-    """Yield pressure or velocity of a contact that yields, from one measure of its rebound.
+    """Infers the yield pressure or the velocity of a yielding contact from one measurement of its rebound.
+
+    Pass exactly one of ``restitution``, ``bounces``, ``contact_time_s`` and ``peak_force_n``.
 
     Parameters
     ----------
     scene : dict, path or str
-        A scene with a ``plasticity``; what is sought is not taken from it.
+        Scene with a striker and ``contact.plasticity``; its value of the unknown quantity is ignored.
     restitution, contact_time_s, peak_force_n : float, optional
-        What was measured; one of these or ``bounces``.
+        Measured value: a ratio, s or N.
     bounces : two floats, optional
-        Times in s between three bounces: the second over the first is the restitution of the bounce between, whose
-        velocity follows from the first.
+        Times in s between three successive bounces. Their ratio, second over first, is the restitution of the bounce in
+        the middle; the first time determines its velocity.
     error : float
-        Absolute error of the measure; of ``bounces``, of each of the two times.
+        Absolute error of the measurement in its unit; for ``bounces``, of each time.
     unknown : {"yield_pressure_pa", "velocity_m_s"}
-        What is sought.
+        Quantity to infer.
 
     Returns
     -------
     Inferred
-        The value and its bounds, equal to those of ``hertzlamb infer`` to the last bit. They reflect the error of the
-        measure, not that of the law.
+        Value and bounds, bit-identical to those of ``hertzlamb infer``. The bounds reflect the error of the measurement
+        only, not the error of the law.
 
     Raises
     ------
     SceneError
-        Not one measure, or no striker.
+        The number of measurements is not one, or the scene is invalid or has no striker.
     ImpactError
-        No contact that yields has such a measure.
+        The scene has no plasticity, or no yielding contact gives the measured value.
+    DomainError
+        ``unknown`` is not one of the two names.
 
+    Examples
+    --------
     >>> import hertzlamb as hl
     >>> drop = {"target": {"material": "aluminium-6061-t6"}, "striker": {"shape": "ball", "material": "bearing-steel",
     ...         "diameter_m": 0.005, "velocity_m_s": 1.57}, "contact": {"plasticity": "thornton"}}
@@ -590,11 +732,27 @@ def infer(
     one = {"restitution": restitution, "contact_time_s": contact_time_s, "peak_force_n": peak_force_n}
     given = {name: [value] for name, value in one.items() if value is not None} | ({"bounces": pair} if pair else {})
     if len(given) != 1:
-        raise SceneError(f"{len(given)} measures are given, not one of {', '.join([*one, 'bounces'])}", key="infer")
+        raise SceneError(f"{len(given)} measurements are given; pass one of {', '.join([*one, 'bounces'])}", key="infer")
     ((name, values),) = given.items()
     return Inferred(**_core.infer(scene, name, values, error, unknown))
 
 
 def resolve(scene: Scene) -> dict[str, Any]:
-    """The scene with every default and material spelled out; a `SceneError` where it is none."""
+    """Returns a scene with every default and material property written out, without computing it.
+
+    Parameters
+    ----------
+    scene : dict, path or str
+        Keys of a scene file as nested dictionaries, the path of a scene file, or TOML text.
+
+    Returns
+    -------
+    dict
+        The complete scene; pass it to `impact` for the same results.
+
+    Raises
+    ------
+    SceneError
+        The scene is invalid.
+    """
     return _core.resolved(scene)

@@ -1,4 +1,4 @@
-"""The materials that scenes can name."""
+"""Materials that a scene can name."""
 
 from __future__ import annotations
 
@@ -16,23 +16,36 @@ if TYPE_CHECKING:
 
 
 class Material(NamedTuple):
-    """A material; None where a number is not known."""
+    """Properties of a material; an unknown property is None."""
 
     name: str
+    """Name, as a scene uses it."""
     group: str
+    """Group of materials, such as ``"metal"`` or ``"rock"``."""
     youngs_modulus_pa: float
+    """Young's modulus in Pa."""
     poisson_ratio: float
+    """Poisson's ratio."""
     density_kg_m3: float | None
+    """Density in kg/m^3."""
     longitudinal_speed_m_s: float | None
+    """Speed of the longitudinal wave in m/s."""
     shear_speed_m_s: float | None
+    """Speed of the shear wave in m/s."""
     yield_strength_pa: float | None
+    """Yield strength in Pa."""
     tensile_strength_pa: float | None
+    """Tensile strength in Pa."""
     fracture_toughness_pa_sqrt_m: float | None
+    """Fracture toughness in Pa m^(1/2)."""
     source: str
+    """Source of the values."""
 
 
 class Materials(Sequence[Material]):
-    """A table of materials: rows by number or name, columns as arrays.
+    """Sequence of materials: index a row by number, slice or name; `column` returns a property of all rows.
+
+    A name that is not in the table raises a `KeyError`.
 
     >>> import hertzlamb as hl
     >>> hl.materials()["granite"].density_kg_m3
@@ -66,18 +79,34 @@ class Materials(Sequence[Material]):
 
     @property
     def names(self) -> list[str]:
-        """The names."""
+        """Names of the materials, in the order of the rows."""
         return [row.name for row in self._rows]
 
     def column(self, name: str) -> NDArray[Any]:
-        """A column as an array, NaN where a number is not known."""
+        """Property of all materials as an array (row,).
+
+        Parameters
+        ----------
+        name : str
+            An attribute of `Material`, such as ``"density_kg_m3"``.
+
+        Returns
+        -------
+        ndarray
+            Strings for ``name``, ``group`` and ``source``, otherwise floats in the unit of the name, NaN if unknown.
+
+        Raises
+        ------
+        AttributeError
+            There is no property of that name.
+        """
         values = [getattr(row, name) for row in self._rows]
         if name in ("name", "group", "source"):
             return np.array(values, dtype=str)
         return np.array([np.nan if value is None else value for value in values], dtype=np.float64)
 
     def to_pandas(self) -> pd.DataFrame:
-        """The table as a data frame with the names as index."""
+        """All properties as a pandas data frame, indexed by name."""
         import pandas as pd
 
         columns = {name: self.column(name) for name in Material._fields}
@@ -95,18 +124,23 @@ class Materials(Sequence[Material]):
 
 
 def materials(search: str = "", *, file: str | os.PathLike[str] | None = None) -> Materials:
-    """The materials that scenes can name.
+    """Lists the materials that a scene can name.
 
     Parameters
     ----------
     search : str
-        Part of a name, a group or a source; all of them without it.
+        Part of a name, a group or a source. Default: all materials.
     file : path, optional
-        A TOML file of further materials.
+        TOML file with additional materials.
 
     Returns
     -------
     Materials
-        Moduli and strengths in Pa, densities in kg/m^3, wave speeds in m/s, each with its source.
+        Moduli and strengths in Pa, densities in kg/m^3, wave speeds in m/s, and the source of the values.
+
+    Raises
+    ------
+    SceneError
+        The file cannot be read or contains an invalid material.
     """
     return Materials([Material(**row) for row in _core.materials(search, file)])

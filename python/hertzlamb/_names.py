@@ -1,6 +1,6 @@
-"""Names of results as annotations, for type checkers: one that does not exist is an error there, as it is at run time.
+"""Names of the results as annotations, so that type checkers report misspelt names.
 
-`tests/python/package/test_numbers.py` compares them with those of the compiled part.
+`tests/python/package/test_numbers.py` compares them with the names in the compiled part.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 class OfRows:
-    """Scalar results of many impacts."""
+    """Scalar results of many impacts; `Impact` documents each of them."""
 
     peak_force_n: Floats
     peak_force_time_s: Floats
@@ -51,7 +51,7 @@ class OfRows:
 
 
 class OfEnergy:
-    """Energies over time."""
+    """Energies over time in J."""
 
     kinetic: Floats
     work: Floats
@@ -61,7 +61,7 @@ class OfEnergy:
 
 
 class OfFields:
-    """Fields, and the quantities that a scene may ask for in addition to them."""
+    """Fields, and the additional quantities that a scene can request."""
 
     displacement_r: Floats
     displacement_z: Floats
@@ -86,7 +86,7 @@ class OfFields:
 
 
 class OfPlaces(OfFields):
-    """Fields with their estimated errors, their largest values over time, and the times at which these are reached."""
+    """Fields with their estimated errors, their peaks over time, and the times of the peaks."""
 
     displacement_r_error: Floats
     displacement_r_peak: Floats
@@ -151,7 +151,7 @@ class OfPlaces(OfFields):
 
 
 class OfProbes(OfPlaces):
-    """What probes have in addition to fields."""
+    """Fields and places of probes."""
 
     r: Floats
     z: Floats
@@ -160,7 +160,7 @@ class OfProbes(OfPlaces):
 
 
 class OfSection(OfPlaces):
-    """What a section has in addition to fields."""
+    """Fields and axes of a section."""
 
     time: Floats
     r: Floats

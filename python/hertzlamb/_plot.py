@@ -1,4 +1,4 @@
-"""Pictures with matplotlib, where people look rather than read."""
+"""Pictures with matplotlib, in the style of ``hertzlamb plot``."""
 
 from __future__ import annotations
 
@@ -22,22 +22,23 @@ if TYPE_CHECKING:
     from hertzlamb._sweep import Sweep
 
 _FIELDS: dict[str, list[str]] = {**DESCRIBED["fields"], **DESCRIBED["more"]}
-"""Unit and meaning of what can be asked of a point."""
+"""Unit and description of all fields and quantities of a point."""
 
 _PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n"), (1e-12, "p"))
 _ODD = ("displacement_r", "velocity_r", "acceleration_r", "stress_rz", "strain_rz")
-"""What changes its sign across the axis."""
+"""Quantities that change their sign across the axis."""
 _MARK = "#555555"
+"""Colour of vertical lines at marked times."""
 _BAND = 0.22
-"""Colour of what is marked, and how much of a curve's colour its band has."""
+"""Opacity of an error band, relative to its curve."""
 _UNITS = {"pa_sqrt_m": "Pa m$^{1/2}$", "kg_m3": "kg/m$^3$", "m_s": "m/s", "n_s": "N s", "kg": "g", "pa": "Pa", "n": "N", "j": "J"}
 _UNITS |= {"m": "m", "s": "s"}
-"""Units that keys and results end in, the longest first; masses are told in grams."""
+"""Units by the suffixes of keys and results, the longest first; masses are shown in grams."""
 _Drawn = TypeVar("_Drawn")
 
 
 def _styled(draw: Callable[..., _Drawn]) -> Callable[..., _Drawn]:
-    """With the style of the pictures of the command."""
+    """Decorator that applies the style of the command's pictures."""
 
     @wraps(draw)
     def drawn(*arguments: Any) -> _Drawn:
@@ -50,7 +51,7 @@ def _styled(draw: Callable[..., _Drawn]) -> Callable[..., _Drawn]:
 
 
 def _scale(values: NDArray[Any], unit: str) -> tuple[float, str]:
-    """What to multiply values with, and the unit with its prefix; values from 0.1 to 1 keep their unit, lengths excepted."""
+    """Factor for the values, and the unit with its prefix; values from 0.1 to 1 keep their unit, lengths excepted."""
     size = float(np.max(np.abs(values[np.isfinite(values)]), initial=0.0))
     if 0.1 <= size < 1.0 and unit != "m":
         return 1.0, unit
@@ -59,17 +60,16 @@ def _scale(values: NDArray[Any], unit: str) -> tuple[float, str]:
 
 
 def _told(value: float, unit: str) -> str:
-    """A value in its unit with a prefix, to four digits."""
+    """Text of a value to four digits, with its unit and a prefix."""
     factor, prefix = next((row for row in _PREFIXES if abs(value) >= row[0]), (1.0, ""))
     return f"{value / factor:.4g} {prefix}{unit}"
 
 
 def _title(run: Impact) -> str:
-    """What strikes what, in the words of the command's pictures."""
+    """Title that names striker, target and velocity, with the words of the command's pictures."""
     striker = run.scene.get("striker")
     if striker is None:
         return "A given force on the half-space"
-
     shape = striker.get("shape")
     if shape == "ball":
         body = f"ball of {_told(striker['diameter_m'], 'm')}"
@@ -82,12 +82,12 @@ def _title(run: Impact) -> str:
 
 
 def _words(quantity: str) -> str:
-    """What a quantity is, without its sign."""
+    """Description of a quantity without its sign convention."""
     return _FIELDS[quantity][1].split(",")[0]
 
 
 def _labelled(values: NDArray[Any], name: str, is_log: bool = False) -> tuple[float, str]:
-    """What to multiply the values of a key or a result with, and its name in words with the unit."""
+    """Factor for the values of a key or a result, and its label with the unit."""
     section, _, key = name.rpartition(".")
     ending = next((ending for ending in _UNITS if key.endswith(f"_{ending}")), "")
     words = key.removesuffix(f"_{ending}").replace("youngs_modulus", "Young's modulus")
@@ -102,7 +102,7 @@ def _labelled(values: NDArray[Any], name: str, is_log: bool = False) -> tuple[fl
 
 
 def _place(r: float, z: float) -> str:
-    """Where a probe is, in the words of the command's pictures."""
+    """Text for the position of a probe, with the words of the command's pictures."""
     r_told, z_told = f"r = {_told(r, 'm')}", f"z = {_told(z, 'm')}"
     if r > 0.0:
         return f"{r_told}, {z_told}" if z > 0.0 else f"on the surface, {r_told}"
@@ -110,7 +110,7 @@ def _place(r: float, z: float) -> str:
 
 
 def _marked(axes: Axes, scale: float, marks: dict[str, float], end: float) -> None:
-    """Draws vertical lines at times in s up to an end, each with its name above; what has no time is left out."""
+    """Draws a vertical line with its name above for each time in s in (0, end]; other times are skipped."""
     low, high = axes.get_ylim()
     for name, at in marks.items():
         if 0.0 < at <= end:
@@ -134,7 +134,7 @@ def _known(quantity: str, names: tuple[str, ...]) -> None:
 
 @_styled
 def force(run: Impact, axes: Axes | None) -> Axes:
-    """The force over time, to a little after the contact."""
+    """Draws the force over time, until 10 % after the contact."""
     axes = _axes(axes)
     end = min(1.1 * run.contact_time_s, float(run.time[-1]))
     shown = run.time <= end
@@ -154,7 +154,7 @@ def force(run: Impact, axes: Axes | None) -> Axes:
 
 @_styled
 def probes(run: Impact, quantity: str) -> Figure:
-    """A quantity at every probe over time, each in a panel of its own, with the arrivals."""
+    """Draws a quantity over time with the arrivals, one panel for each probe."""
     found = run.probes
     import matplotlib.pyplot as plt
 
@@ -182,14 +182,14 @@ def probes(run: Impact, quantity: str) -> Figure:
 
 @_styled
 def section(run: Impact, frame: int, quantity: str, axes: Axes | None) -> Axes:
-    """A field on the section at a frame, mirrored at the axis, with the fronts from the edge of the disc."""
+    """Draws a frame of the section, mirrored at the axis, with the wave fronts from the edge of the disc."""
     found = run.section
     _known(quantity, tuple(name for name in _FIELDS if name in found))
     axes = _axes(axes)
     values = np.asarray(found[quantity][frame], dtype=np.float64)
     time = float(found.time[frame])
     length, length_unit = _scale(np.concatenate([found.r, found.z]), "m")
-    # the largest values are under the load: waves are seen against what is away from it
+    # the field under the load is much larger than the waves, so the colour scale leaves it out
     beyond = np.hypot(*np.meshgrid(found.r, found.z)) > 3.0 * run.disc_radius_m
     size = np.abs(values[beyond] if np.any(beyond) else values)
     most = np.quantile(size, 0.995, keepdims=True)
@@ -220,7 +220,7 @@ def section(run: Impact, frame: int, quantity: str, axes: Axes | None) -> Axes:
 
 
 def _speeds(run: Impact) -> dict[str, float]:
-    """Speeds of the longitudinal wave P and of the shear wave S in m/s."""
+    """Speeds in m/s of the longitudinal wave P and of the shear wave S in the target."""
     target = run.scene["target"]
     if "material" in target:
         base = next(row for row in _core.materials(target["material"]) if row["name"] == target["material"])
@@ -232,7 +232,7 @@ def _speeds(run: Impact) -> dict[str, float]:
 
 @_styled
 def sweep(out: Sweep, quantity: str, axes: Axes | None) -> Axes:
-    """A result over the first key that is a number, a line for each choice of words; of draws, the median and 90 %."""
+    """Draws a result over the first numeric key; random samples are drawn as their median and a 5 to 95 % band."""
     _known(quantity, tuple(QUANTITIES))
     axes = _axes(axes)
     keys = {name: values for name, values in out._keys.items()}

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator
 from typing import Any, Protocol
 
 Progress = bool | Callable[[int, int], object] | None
-"""None or False: nothing is told. True: a bar. A function is called with what is done and how much there is."""
+"""None or False: no report. True: a progress bar. A function: called with the work done and the total."""
 
 
 class _Bar(Protocol):
@@ -18,7 +18,7 @@ class _Bar(Protocol):
 
 
 class _Tqdm:
-    """The bar of tqdm, in a terminal or a notebook."""
+    """Progress bar of tqdm, for a terminal or a notebook."""
 
     def __init__(self, make: Callable[..., Any]) -> None:
         self._make, self._bar = make, None
@@ -37,7 +37,7 @@ class _Tqdm:
 
 
 class _Line:
-    """A line on standard error that is written over."""
+    """Progress bar on standard error if tqdm is not installed; each update overwrites the line."""
 
     def __init__(self) -> None:
         self._shown = ""
@@ -65,7 +65,7 @@ def _bar() -> _Bar:
 
 @contextlib.contextmanager
 def told(progress: Progress) -> Iterator[Callable[[int, int], object] | None]:
-    """The function to call, closed when the work is over."""
+    """Yields the function to call with the progress, or None; closes a bar at the end."""
     if progress is None or progress is False:
         yield None
     elif progress is True:

@@ -1,4 +1,4 @@
-"""Many impacts: sweeps, and scenes any key of which is an array."""
+"""Many impacts: `sweep`, `collide` and their results."""
 
 from __future__ import annotations
 
@@ -29,33 +29,33 @@ if TYPE_CHECKING:
     Floats = NDArray[np.float64]
 
 MODELS: tuple[str, ...] = tuple(DESCRIBED["models"])
-"""Names of the contact models, by the number that stands for them."""
+"""Names of the contact models; the index of a name is its number in the compiled part."""
 
 _COUNTS = [name for name, (_, _, kind) in QUANTITIES.items() if kind == "count"]
 _FAILED = 255
 
 
 class _Rows(Mapping[str, "NDArray[Any]"], OfRows):
-    """Scalar results of many impacts, by name and as attributes."""
+    """Mapping of arrays by name: varied keys, scalar results and ``"model"``; results are also attributes."""
 
     _numbers: Floats
-    """The results that are held, (result, row)."""
+    """Computed results, (result, row)."""
     _held: list[str]
-    """Their names."""
+    """Names of the computed results, (result,)."""
     _chosen: list[str] | None
-    """The names that ``columns`` asked for; None for all."""
+    """Names passed as ``columns``; None for all."""
     _models: NDArray[np.uint8]
     _failures: dict[int, str]
     _shape: tuple[int, ...]
 
     @cached_property
     def _keys(self) -> dict[str, NDArray[Any]]:
-        """The keys that vary, of the shape of the results."""
+        """Values of the varied keys, each of the shape of the results."""
         raise NotImplementedError
 
     @property
     def _names(self) -> list[str]:
-        """Names of the results, in order."""
+        """Names of the results, in the order of files."""
         return [name for name in self._held if self._chosen is None or name in self._chosen]
 
     def __getitem__(self, name: str) -> NDArray[Any]:
@@ -69,7 +69,7 @@ class _Rows(Mapping[str, "NDArray[Any]"], OfRows):
         raise KeyError(f"{name!r} is not one of {', '.join(self)}")
 
     def _model_names(self, names: NDArray[Any]) -> NDArray[Any]:
-        """The name of the model of each row, of all models and that of none."""
+        """Name of the model of each row, from the names of all models followed by that for a failed row."""
         of_all: NDArray[Any] = names[np.where(self._models == _FAILED, len(MODELS), self._models)]
         return of_all
 
@@ -85,7 +85,7 @@ class _Rows(Mapping[str, "NDArray[Any]"], OfRows):
             if name in QUANTITIES:
                 if name in self._names:
                     return self[name]
-                raise AttributeError(f"{name} is not among the columns asked for, {', '.join(self._names)}")
+                raise AttributeError(f"{name} is not among the requested columns, {', '.join(self._names)}")
             raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
 
     def __dir__(self) -> list[str]:
@@ -98,16 +98,16 @@ class _Rows(Mapping[str, "NDArray[Any]"], OfRows):
 
     @property
     def model(self) -> NDArray[np.str_]:
-        """Name of the contact model of each impact, empty for one that failed."""
+        """Name of the contact model of each impact, of the shape of the results; empty for a failed impact."""
         return self["model"]
 
     @property
     def failures(self) -> dict[int, str]:
-        """Why impacts failed, by their number in the flattened results; their numbers are NaN."""
+        """Reason for each failed impact, by its index in the flattened results; the results of these impacts are NaN."""
         return dict(self._failures)
 
     def _columns(self) -> dict[str, NDArray[Any]]:
-        """All columns, flat; words as objects."""
+        """All columns, flattened; strings have the type object."""
         keys = {name: np.ascontiguousarray(values).reshape(-1) for name, values in self._keys.items()}
         columns = {name: values.astype(object) if values.dtype.kind == "U" else values for name, values in keys.items()}
         columns |= {name: self[name].reshape(-1) for name in self._names}
@@ -118,9 +118,10 @@ class _Rows(Mapping[str, "NDArray[Any]"], OfRows):
         return {**columns, "failure": failure}
 
     def to_pandas(self) -> pd.DataFrame:
-        """A row for each impact: the keys that vary, the results, the model, and why it failed.
+        """All impacts as a pandas data frame.
 
-        Counts such as ``contacts`` are integers (``Int64``), missing where an impact failed.
+        Each impact has one row; the columns are the varied keys, the results, ``model`` and ``failure`` (the reason, or
+        an empty string). Counts such as ``contacts`` are integers (``Int64``), missing for failed impacts.
         """
         import pandas as pd
 
@@ -131,7 +132,7 @@ class _Rows(Mapping[str, "NDArray[Any]"], OfRows):
         return pd.DataFrame(columns)
 
     def to_arrow(self) -> pa.Table:
-        """The same as a table of Arrow, with units and meanings as metadata of its fields."""
+        """The columns of `to_pandas` as an Arrow table, with units and descriptions as metadata of the fields."""
         import pyarrow as pa
 
         fields, arrays = [], []
@@ -148,7 +149,7 @@ class _Rows(Mapping[str, "NDArray[Any]"], OfRows):
         return pa.Table.from_arrays(arrays, schema=pa.schema(fields))
 
     def to_polars(self) -> pl.DataFrame:
-        """The same as a data frame of polars."""
+        """The columns of `to_pandas` as a polars data frame."""
         import polars as pl
 
         columns = {}
@@ -159,15 +160,21 @@ class _Rows(Mapping[str, "NDArray[Any]"], OfRows):
 
 
 def _counted(values: Floats) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
-    """Counts as whole numbers, and where there is none."""
+    """Counts as integers, and the mask of missing counts."""
     missing = np.isnan(values)
     return np.where(missing, 0.0, values).astype(np.int64), missing
 
 
 class Collisions(_Rows):
-    """Scalar results of many impacts that `collide` has computed, each of the broadcast shape.
+    """Results of many impacts, returned by `collide`; each array has the broadcast shape of the varied keys.
 
-    ``out.restitution``, ``out["peak_force_n"]``: the names are those of `Impact`.
+    Write ``out.restitution`` or ``out["restitution"]`` for a result; names and units are those of `Impact`. Varied keys
+    have their full name, ``out["striker.velocity_m_s"]``. Counts are floats, and the results of failed impacts are NaN.
+
+    Raises
+    ------
+    AttributeError, KeyError
+        There is no such name, or ``columns`` does not contain it.
     """
 
     def __init__(
@@ -188,7 +195,7 @@ class Collisions(_Rows):
         return {name: np.broadcast_to(values, self._shape) for name, values in self._given.items()}
 
     def to_xarray(self) -> xr.Dataset:
-        """The results over the dimensions dim_0, dim_1 ..., with the keys that vary as coordinates."""
+        """The results as an xarray data set with the dimensions dim_0, dim_1, ...; the varied keys are coordinates."""
         from hertzlamb._xarray import of_collisions
 
         return of_collisions(self)
@@ -203,9 +210,15 @@ class Collisions(_Rows):
 
 
 class Sweep(_Rows):
-    """Rows of a sweep: scalar results by name, each (row,), and the keys that vary.
+    """Rows of a sweep, returned by `sweep`; each array is (row,).
 
-    ``out["restitution"]``, ``out.restitution``, ``out["striker.mass_kg"]``.
+    Write ``out.restitution`` or ``out["restitution"]`` for a result; names and units are those of `Impact`. Varied keys
+    have their full name, ``out["striker.mass_kg"]``. Counts are floats, and the results of failed rows are NaN.
+
+    Raises
+    ------
+    AttributeError, KeyError
+        There is no such name, or ``columns`` does not contain it.
     """
 
     def __init__(
@@ -226,22 +239,22 @@ class Sweep(_Rows):
 
     @property
     def spec(self) -> dict[str, Any]:
-        """The sweep with its base scene spelled out."""
+        """The sweep with every default and material property of its base scene written out."""
         return self._spec
 
     @property
     def rows(self) -> range:
-        """Numbers of the rows in the whole sweep."""
+        """Indices of the computed rows in the whole sweep, from 0."""
         return self._range
 
     @property
     def axes(self) -> dict[str, int]:
-        """Length of each axis of the whole sweep by name; the last runs fastest."""
+        """Length of each axis of the whole sweep by name; the last axis varies fastest."""
         return {name: length for name, length, _ in self._axes}
 
     @property
     def is_whole(self) -> bool:
-        """Whether all rows of the sweep are here, in order."""
+        """Whether the object contains all rows of the sweep."""
         return self._range == range(int(np.prod([length for _, length, _ in self._axes])))
 
     @cached_property
@@ -256,24 +269,60 @@ class Sweep(_Rows):
         return keys
 
     def to_xarray(self) -> xr.Dataset:
-        """The results over the axes of the sweep where it is whole, else over row; units and meanings as attributes."""
+        """The results as an xarray data set, with units and descriptions.
+
+        The dimensions are the axes of the sweep if the object contains all rows, otherwise ``row``.
+        """
         from hertzlamb._xarray import of_sweep
 
         return of_sweep(self)
 
     def save(self, path: str | os.PathLike[str], *, overwrite: bool = False) -> None:
-        """Writes the file of ``hertzlamb sweep`` for a whole sweep: HDF5, or Parquet or text for the file extensions ``.parquet`` and ``.csv``.
+        """Writes a whole sweep to a file, as ``hertzlamb sweep -o`` does.
 
-        It has the results that ``columns`` of `hertzlamb.sweep` named, as that of ``hertzlamb sweep --columns`` has.
+        The file contains the results in ``columns`` of `hertzlamb.sweep`, as with ``hertzlamb sweep --columns``.
+
+        Parameters
+        ----------
+        path : path
+            File to write. The extension selects the format: ``.h5``, ``.hdf5`` or ``.hdf`` for HDF5, ``.parquet`` for
+            Parquet, ``.csv`` or ``.txt`` for text.
+        overwrite : bool
+            Whether to replace an existing file.
+
+        Raises
+        ------
+        ValueError
+            The object does not contain all rows.
+        OutputExists
+            The file exists and ``overwrite`` is False.
+        OutputError
+            The file cannot be written, or the extension is none of these.
         """
         if not self.is_whole:
             total = int(np.prod([length for _, length, _ in self._axes]))
-            raise ValueError(f"these are {len(self._range)} of {total} rows: a sweep file holds all of them")
+            raise ValueError(f"these are {len(self._range)} of {total} rows; a sweep file contains all of them")
         plan = _core.plan(self._spec, self._chosen) if self._plan is None else self._plan
         plan.save(path, self._numbers, self._models, list(self._failures.items()), overwrite)
 
     def plot(self, quantity: str = "restitution", *, axes: Axes | None = None) -> Axes:
-        """Draws a result over the first axis that is a number (matplotlib); of random draws, their spread."""
+        """Draws a result over the first numeric key with matplotlib.
+
+        Each combination of the other keys has its own line. Random samples are drawn as their median with a band from
+        the 5th to the 95th percentile, or as a histogram if no numeric key remains.
+
+        Parameters
+        ----------
+        quantity : str
+            Name of a result.
+        axes : matplotlib Axes, optional
+            Axes to draw into. Default: new axes.
+
+        Raises
+        ------
+        KeyError
+            There is no result of that name.
+        """
         from hertzlamb._plot import sweep as draw
 
         return draw(self, quantity, axes)
@@ -302,31 +351,54 @@ def sweep(
     threads: int | None = None,
     progress: Progress = None,
 ) -> Sweep:
-    """Computes a sweep, or any part of its rows.
+    """Computes the contacts of a sweep, or of some of its rows.
+
+    The base scene may not contain ``probe``, ``map`` or ``force``. For fields at probes in every row, run
+    ``hertzlamb sweep``, or call `impact` once for each row.
 
     Parameters
     ----------
     sweep : dict, path or str
-        The keys of a sweep file as nested dictionaries, the path of a file, or TOML text.
+        Keys of a sweep file as nested dictionaries, the path of a sweep file, or TOML text.
     rows : slice or range, optional
-        Which rows, as those of a list; each has the same bits as in the whole.
+        Rows to compute, with indices from 0 and a step of at least 1. Each row is bit-identical to the same row of the
+        whole sweep. Default: all rows.
     columns : sequence of str, optional
-        Names of the results to keep, such as ``["restitution", "loss"]``, as ``--columns`` of the command; default: all.
-        A row takes 8 bytes for each.
+        Names of the results to keep, such as ``["restitution", "loss"]``; each takes 8 bytes per row. Default: all.
     threads : int, optional
-        Threads, all processors otherwise.
+        Number of threads in [1, 1024]. Default: one for each available processor.
     progress : bool or callable, optional
-        True for a bar; a function is called with the rows that are done and how many there are.
+        True shows a progress bar. A function is called with the number of finished rows and the total.
 
     Returns
     -------
     Sweep
-        Results by row; a row that failed is NaN, with its reason in ``failures``.
+        Results by row; the results of a failed row are NaN, and `Sweep.failures` contains the reason.
+
+    Raises
+    ------
+    SceneError
+        The sweep is invalid, has probes, a map or a force record, or ``columns`` contains an unknown name.
+    IndexError
+        ``rows`` is a range with rows that the sweep does not have.
+    TypeError, ValueError
+        ``rows`` is neither a slice nor a range, or its step is not positive.
+    TooMuchMemory
+        The rows need more memory than is free.
 
     Warns
     -----
     HertzlambWarning
-        Rows have failed.
+        At least one row failed.
+
+    Examples
+    --------
+    >>> import hertzlamb as hl
+    >>> ball = {"shape": "ball", "material": "bearing-steel", "diameter_m": 0.003}
+    >>> out = hl.sweep({"scene": {"target": {"material": "granite"}, "striker": ball},
+    ...                 "product": {"striker": {"velocity_m_s": [0.5, 1.0, 2.0]}}})
+    >>> out.restitution.shape, out.axes
+    ((3,), {'striker.velocity_m_s': 3})
     """
     plan = _core.plan(sweep, columns)
     wanted = range(plan.rows)
@@ -335,9 +407,9 @@ def sweep(
     elif isinstance(rows, slice):
         wanted = wanted[rows]
     elif rows is not None:
-        raise TypeError(f"rows = {rows!r} is neither a slice nor a range: give one such as rows=slice(0, 1000)")
+        raise TypeError(f"rows = {rows!r} is neither a slice nor a range: pass one such as rows=slice(0, 1000)")
     if wanted.step < 1:
-        raise ValueError(f"rows = {rows}: the step is at least 1")
+        raise ValueError(f"rows = {rows}: the step must be at least 1")
     if len(wanted) > 0 and not 0 <= wanted[0] <= wanted[-1] < plan.rows:
         raise IndexError(f"rows = {rows}: the sweep has {plan.rows} rows, which count from 0")
     with told(progress) as tell:
@@ -353,17 +425,17 @@ def sweep(
 
 
 def _named(plan: _core.Plan, columns: Sequence[str] | None) -> tuple[list[str], list[str] | None]:
-    """Names of the results that are held, and those that were asked for."""
+    """Names of the computed results, and the requested ones."""
     return plan.results(), None if columns is None else list(columns)
 
 
 def _section_of(key: str) -> str:
-    """The section of a scene that has a key."""
+    """Section of a scene that contains a key."""
     found = _core.sections_of(key, ["columns", "threads", "progress"])
     if len(found) == 1:
         return found[0]
     names = " or ".join(f"{section}__{key}" for section in found)
-    raise TypeError(f"{key} is a key of {' and of '.join(found)}: give {names}")
+    raise TypeError(f"{key} is a key of {' and of '.join(found)}: write {names}")
 
 
 def collide(
@@ -374,38 +446,47 @@ def collide(
     progress: Progress = None,
     **keys: ArrayLike,
 ) -> Collisions:
-    """Computes many impacts of one scene: any of its keys may be an array.
+    """Computes the contacts of many impacts of one scene; any of its keys may be an array.
 
-    Only contacts are computed; the scene has no probes and no map.
+    The scene may not contain ``probe``, ``map`` or ``force``; call `impact` for fields at probes.
 
     Parameters
     ----------
     scene : dict, path or str
-        The scene as for `impact`; keys that vary may be left out of it.
+        Scene as for `impact`; you may omit the keys that vary.
     columns : sequence of str, optional
-        Names of the results to keep, such as ``["restitution", "loss"]``; default: all. An impact takes 8 bytes for each.
+        Names of the results to keep, such as ``["restitution", "loss"]``; each takes 8 bytes per impact. Default: all.
     threads : int, optional
-        Threads, all processors otherwise.
+        Number of threads in [1, 1024]. Default: one for each available processor.
     progress : bool or callable, optional
-        True for a bar; a function is called with the impacts that are done and how many there are.
+        True shows a progress bar. A function is called with the number of finished impacts and the total.
     **keys : array_like
-        Values of keys, numbers or words, broadcast: ``velocity_m_s=v``; where two sections have the key,
-        ``target__poisson_ratio=nu``. NaN, infinity and masked entries are impacts that fail.
+        Values of scene keys, numbers or strings, which are broadcast: ``velocity_m_s=v``. If several sections have a
+        key, prefix it with the section: ``target__poisson_ratio=nu``. NaN, infinity and masked numbers are impacts that
+        fail.
 
     Returns
     -------
     Collisions
-        Results of the broadcast shape; an impact that failed is NaN, with its reason in ``failures``.
+        Results of the broadcast shape; the results of a failed impact are NaN, and `Collisions.failures` contains the
+        reason.
 
     Raises
     ------
     SceneError
-        A key or a word that no scene has, or values that are not plain numbers or words.
+        The scene is invalid, a key or string is unknown, or values are neither plain numbers nor strings. There are more
+        than 10,000,000 impacts.
+    TypeError
+        No key is passed, or several sections have the key.
+    ValueError
+        The arrays cannot be broadcast together.
+    TooMuchMemory
+        The impacts need more memory than is free.
 
     Warns
     -----
     HertzlambWarning
-        Impacts have failed.
+        At least one impact failed.
 
     Examples
     --------
@@ -416,7 +497,7 @@ def collide(
     (2, 5)
     """
     if not keys:
-        raise TypeError("give at least one key as an array, such as velocity_m_s=...")
+        raise TypeError("pass at least one key as an array, such as velocity_m_s=...")
     # the section first: a misspelt argument is not an array
     places = {name: name.rpartition("__")[::2] for name in keys}
     sections = {name: section or _section_of(key) for name, (section, key) in places.items()}

@@ -1,4 +1,4 @@
-"""Kernel tables."""
+"""Kernel tables: `Table`, `Trace` and `tabulate`."""
 
 from __future__ import annotations
 
@@ -24,10 +24,10 @@ PathLike = str | os.PathLike[str]
 
 
 class Trace(Fields):
-    """Step responses looked up in a table: six fields by name, each of shape (point, time), or (time,) for one point.
+    """Step responses from a table: six fields by name, each of the broadcast shape of ``r`` and ``z`` followed by (time,).
 
-    A value is the average over a time cell; `time` has the middles of the cells.
-    Reduced units: times in r0/c1, displacements in P/(mu r0), stresses in P/r0^2.
+    A value is the mean over a time cell. Units are reduced: times in r0/c1, displacements in P/(mu r0) and stresses in
+    P/r0^2, negative in compression.
     """
 
     __slots__ = ("cell_width", "error", "nu", "r", "static", "time", "z")
@@ -35,17 +35,17 @@ class Trace(Fields):
     nu: float
     """Poisson's ratio."""
     r: Floats
-    """Distances from the axis in r0."""
+    """Distances from the axis in r0, of the broadcast shape."""
     z: Floats
-    """Depths in r0."""
+    """Depths in r0, of the broadcast shape."""
     time: Floats
-    """Middles of the time cells in r0/c1, shape (time,)."""
+    """Midpoints of the time cells in r0/c1, (time,)."""
     cell_width: float
-    """Width of a cell in r0/c1."""
+    """Width of a time cell in r0/c1."""
     static: Fields
-    """The static fields, in closed form, shape (point,)."""
+    """Static fields in closed form, of the broadcast shape."""
     error: Fields
-    """Estimated absolute error of the response to a pulse of unit peak ten cells long, shape (point,)."""
+    """Estimated absolute errors of the response to a pulse of unit peak that is ten cells long, of the broadcast shape."""
 
     def __init__(self, array: Floats, **rest: Any) -> None:
         super().__init__(array)
@@ -59,17 +59,17 @@ class Trace(Fields):
         self.__init__(**state)  # type: ignore[misc]
 
     def to_xarray(self) -> xr.Dataset:
-        """The traces as a data set with the dimensions point and time."""
+        """The traces as an xarray data set with the dimensions point and time, and with units; points are flattened."""
         from hertzlamb._xarray import of_trace
 
         return of_trace(self)
 
 
 class Table:
-    """A kernel table on disk, opened once and asked often.
+    """A kernel table on disk.
 
-    It is immutable and may be used by several threads; a pickle of it holds its path and its id, and opening refuses
-    another table under that path.
+    The object is immutable, and several threads can use it. A pickle contains the path and the id; unpickling raises
+    `BadTable` if the path holds another table. `open`, `demo` and `tabulate` return tables.
 
     >>> import hertzlamb as hl
     >>> table = hl.Table.demo()
@@ -84,25 +84,39 @@ class Table:
 
     @classmethod
     def open(cls, path: PathLike) -> Table:
-        """Opens a table.
+        """Opens a kernel table.
 
         Parameters
         ----------
         path : path
-            A file made with `tabulate` or ``hertzlamb tabulate``.
+            File written by `tabulate` or ``hertzlamb tabulate``.
 
         Raises
         ------
         BadTable
-            The file is absent, no kernel table, of an unknown version, incomplete or damaged.
+            The file does not exist, is not a kernel table, has an unknown format version, or is incomplete or damaged.
         """
         return cls(_core.Table.open(path))
 
     @classmethod
     def demo(cls, *, progress: Progress = None) -> Table:
-        """A small table for nu = 0.3 that reaches to 6 r0, 14 MB: made once, in some seconds, in the cache directory.
+        """Opens a small table for nu = 0.3 with r and z up to 6 r0 (14 MB).
 
-        The directory is that of the environment variable ``HERTZLAMB_CACHE``, else ``hertzlamb`` in the user's caches.
+        The first call computes the table in some seconds and stores it in a cache directory; later calls open that file.
+        The directory is ``$HERTZLAMB_CACHE`` if this environment variable is set, otherwise ``hertzlamb`` in
+        ``$XDG_CACHE_HOME``, or in ``~/.cache`` by default.
+
+        Parameters
+        ----------
+        progress : bool or callable, optional
+            True shows a progress bar. A function is called with the work done and the total.
+
+        Raises
+        ------
+        BadTable
+            The stored file is damaged.
+        OutputError
+            The file cannot be written.
         """
         folder = os.environ.get("HERTZLAMB_CACHE")
         if folder is None:
@@ -116,33 +130,39 @@ class Table:
 
     @property
     def path(self) -> Path:
-        """Where it is."""
+        """Path of the file."""
         return Path(self._core.path)
 
     @property
     def id(self) -> str:
-        """Identity of the settings that it was made with, 16 hexadecimal digits."""
+        """Hash of the settings of the table, 16 hexadecimal digits."""
         return self._core.id
 
     def info(self) -> dict[str, Any]:
-        """Every setting and the errors measured, as ``hertzlamb table info --json`` prints them."""
+        """Settings and measured errors of the table, with the keys of ``hertzlamb table info --json``.
+
+        Raises
+        ------
+        BadTable
+            The file changed after it was opened, or is damaged.
+        """
         if self._info is None:
             self._info = self._core.info()
         return dict(self._info)
 
     @property
     def poisson_ratios(self) -> Floats:
-        """Poisson's ratios tabulated."""
+        """Tabulated Poisson's ratios in ascending order, (slice,)."""
         return np.array(self.info()["poisson_ratios"])
 
     @property
     def r_max(self) -> float:
-        """Largest distance from the axis in r0."""
+        """Largest distance from the axis in the table, in r0."""
         return float(self.info()["r_max"])
 
     @property
     def z_max(self) -> float:
-        """Largest depth in r0."""
+        """Largest depth in the table, in r0."""
         return float(self.info()["z_max"])
 
     def trace(
@@ -157,34 +177,42 @@ class Table:
         threads: int | None = None,
         progress: Progress = None,
     ) -> Trace:
-        """Step responses over time at points, looked up.
+        """Step responses over time at points, interpolated in the table.
 
         Parameters
         ----------
         nu : float
-            Poisson's ratio, within those of the table.
+            Poisson's ratio, within the range of the table.
         r, z : array_like
-            Distances from the axis and depths in r0; broadcast, flattened.
+            Distances from the axis and depths in r0, within the range of the table; broadcast together.
         cells : int, optional
-            Time cells of each trace, any number; those of the table otherwise.
+            Number of time cells, at least 1; it may exceed the number in the table. Default: as in the table.
         coarsening : int
-            A cell of the trace is 2**coarsening cells of the table, 0 to 20.
+            Each time cell combines 2**coarsening cells of the table, 0 to 20.
         smooth : bool
-            Cells for forces that are smooth rather than linear within a cell.
+            True for the convolution with a force that is smooth within a cell. Default: a force that is linear within
+            a cell.
         threads : int, optional
-            Threads, all processors otherwise.
+            Number of threads in [1, 1024]. Default: one for each available processor.
         progress : bool or callable, optional
-            True for a bar; a function is called with what is done and how much there is.
+            True shows a progress bar. A function is called with the number of finished points and the total.
 
         Returns
         -------
         Trace
-            ``u.time`` (time,), ``u["stress_zz"]`` (point, time), ``u.static`` and ``u.error`` (point,).
+            Fields of the broadcast shape followed by (time,), in reduced units, with ``time``, ``static`` and ``error``.
 
         Raises
         ------
         OutsideTable
-            With axis, value and range.
+            A point, ``nu`` or ``coarsening`` is outside the table; the exception contains axis, value and range.
+        DomainError
+            ``r`` or ``z`` contains something other than numbers, or ``cells``, ``coarsening`` or ``threads`` is outside
+            its range.
+        BadTable
+            The file changed after it was opened, or is damaged.
+        TooMuchMemory
+            The trace needs more memory than is free.
         """
         shape, (flat_r, flat_z) = numbers(r=r, z=z)
         with told(progress) as tell:
@@ -212,7 +240,35 @@ class Table:
         threads: int | None = None,
         progress: Progress = None,
     ) -> Table:
-        """Adds slices for Poisson's ratios, or reach, to the file, and opens it anew; only what is missing is computed."""
+        """Extends the file by Poisson's ratios or a larger range; only the missing parts are computed.
+
+        Parameters
+        ----------
+        nu : float or sequence, optional
+            Poisson's ratios in [-0.95, 0.495], each of which gets an exact slice without interpolation between ratios.
+        r_max, z_max : float, optional
+            New largest distance from the axis and largest depth in r0.
+        time_factor : float, optional
+            New end of the time cells, as a multiple of the last arrival.
+        threads : int, optional
+            Number of threads in [1, 1024]. Default: one for each available processor.
+        progress : bool or callable, optional
+            True shows a progress bar. A function is called with the work done and the total.
+
+        Returns
+        -------
+        Table
+            The extended table. The object on which you call the method no longer matches the file.
+
+        Raises
+        ------
+        SceneError
+            An argument is outside its range, or less than the present value: tables only grow.
+        BadTable
+            The file is damaged, or cannot be extended.
+        OutputError
+            The file cannot be written, or another run is writing it.
+        """
         with told(progress) as tell:
             _core.extend(self.path, _ratios(nu), r_max, z_max, time_factor, threads, tell)
         return Table.open(self.path)
@@ -243,7 +299,7 @@ def _reopened(path: str, identity: str) -> Table:
 
     table = Table.open(path)
     if table.id != identity:
-        raise BadTable(f"{path} is another table now: its id is {table.id}, that of the pickle {identity}", file=path)
+        raise BadTable(f"{path} is another table now: its id is {table.id}, the pickle's id {identity}", file=path)
     return table
 
 
@@ -265,34 +321,52 @@ def tabulate(
     threads: int | None = None,
     progress: Progress = None,
 ) -> Table:
-    """Makes a kernel table, the file that ``hertzlamb tabulate`` makes.
+    """Computes a kernel table and writes it to a file, as ``hertzlamb tabulate`` does.
 
-    Interrupted, it goes on where it stopped when the same is asked again.
+    You can interrupt the computation; the same call later resumes it.
 
     Parameters
     ----------
     path : path
-        The file to write; it ends with ``.h5``.
+        File to write, with the extension ``.h5``, ``.hdf5`` or ``.hdf``.
     grid : str, path or dict
-        A preset (``"demo"``, ``"standard"``, ``"wide"``), a TOML file or its keys as a dictionary.
+        Preset (``"demo"``, ``"standard"`` or ``"wide"``), TOML file, or the keys of such a file as a dictionary.
     nu : float or sequence, optional
-        Poisson's ratios instead of those of the grid.
+        Poisson's ratios in [-0.95, 0.495] that replace those of the grid.
     r_max, z_max : float, optional
-        Largest distance from the axis and depth in r0.
+        Largest distance from the axis and largest depth in r0. Default: those of the grid.
     time_factor : float, optional
-        The time cells end at this multiple of the last arrival.
+        End of the time cells as a multiple of the last arrival. Default: that of the grid.
     tolerance, pulse_length : float, optional
-        Together: the spacing is chosen so that errors over the peak in time stay below the tolerance for pulses of this
-        length in r0/c1.
+        Target error relative to the peak in time, and the length of the pulses in r0/c1 for which it holds; the spacing
+        of the grid is refined to reach it. Pass both or neither. Default: the spacing of the grid.
     overwrite : bool
-        Whether a file that is there is replaced.
+        Whether to replace an existing file.
     threads : int, optional
-        Threads, all processors otherwise.
+        Number of threads in [1, 1024]. Default: one for each available processor.
     progress : bool or callable, optional
-        True for a bar; a function is called with what is done and how much there is.
+        True shows a progress bar. A function is called with the work done and the total.
+
+    Returns
+    -------
+    Table
+        The opened table.
+
+    Raises
+    ------
+    SceneError
+        The grid or one of the arguments is invalid.
+    DomainError
+        ``grid`` is not the name of a preset, or ``threads`` is outside its range.
+    TypeError
+        Only one of ``tolerance`` and ``pulse_length`` is passed.
+    OutputExists
+        The file exists and ``overwrite`` is False.
+    OutputError
+        The file cannot be written, or another run is writing it.
     """
     if (tolerance is None) != (pulse_length is None):
-        raise TypeError("tolerance and pulse_length are given together")
+        raise TypeError("tolerance and pulse_length go together: pass both or neither")
     accuracy = None if tolerance is None or pulse_length is None else (tolerance, pulse_length)
     with told(progress) as tell:
         _core.tabulate(

@@ -1,4 +1,4 @@
-"""Results as data sets of xarray, with units, meanings and coordinates."""
+"""Results as xarray data sets, with coordinates, units and descriptions."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ _SUFFIXES = {
 
 
 def _fields(found: Mapping[str, Any], full: tuple[str, ...], place: tuple[str, ...]) -> dict[str, Any]:
-    """Fields over place and time, with their errors and peaks over place."""
+    """Variables of fields over place and time, and of their errors and peaks over place."""
     variables: dict[str, Any] = {}
     for name, (unit, meaning) in _FIELDS.items():
         if name in found:

@@ -1,8 +1,8 @@
-"""Exact response of an elastic half-space to a force on a disc of its surface, in reduced units.
+"""Exact response of an elastic half-space to a force P on a disc of radius r0 on its surface, in reduced units.
 
-A force P is applied suddenly to a disc of radius r0. Lengths are in r0, times in r0/c1 (c1 the longitudinal wave speed),
-displacements in P/(mu r0), stresses in P/r0^2; Poisson's ratio is the only parameter left. z points into the
-half-space, compression is negative stress.
+Lengths are in r0, times in r0/c1 (c1 is the speed of the longitudinal wave), displacements in P/(mu r0) (mu is the shear
+modulus) and stresses in P/r0^2, so that Poisson's ratio is the only parameter of the material. z points into the
+half-space, radial displacement is positive away from the axis, and compression is negative stress.
 
 >>> import hertzlamb as hl
 >>> k = hl.kernels.step(nu=0.3, r=0.5, z=0.6, t=2.0)
@@ -27,10 +27,10 @@ if TYPE_CHECKING:
     Floats = NDArray[np.float64]
 
 Profile = Literal["hertz", "punch", "point"]
-"""How the force is spread: as under a sphere, under a flat punch, or at a point."""
+"""Distribution of the force: the pressure under a sphere, the pressure under a flat punch, or a point force."""
 
 Deflection = Literal["centre", "mean"]
-"""Which deflection of the disc: its centre's, or the mean weighted with the pressure."""
+"""Deflection of the disc: at its centre, or the mean weighted with the pressure."""
 
 __all__ = [
     "Arrivals",
@@ -54,12 +54,12 @@ def __dir__() -> list[str]:
 
 
 class Kernel(Fields):
-    """Six fields by name, with an estimate of the error of each in ``error``."""
+    """Six fields by name, each of the broadcast shape, with their estimated errors."""
 
     __slots__ = ("error",)
 
     error: Fields
-    """Likely bounds on the absolute error of each value, by field."""
+    """Likely bounds on the absolute error of each value, by field, in its unit and shape."""
 
     def __init__(self, array: Floats, error: Floats) -> None:
         super().__init__(array)
@@ -98,27 +98,37 @@ def step(
     threads: int | None = None,
     progress: Progress = None,
 ) -> Kernel:
-    """Fields after a force was applied suddenly and stays.
+    """Step response: fields at time t after a constant force is applied at time 0.
 
     Parameters
     ----------
     nu : float
         Poisson's ratio in (-1, 0.5).
     r, z, t : array_like
-        Distance from the axis and depth in r0 and time in r0/c1, each in [0, 1e20]; broadcast.
+        Distance from the axis and depth in r0, and time in r0/c1, each in [0, 1e20]; broadcast together.
     profile : {"hertz", "punch", "point"}
-        How the force is spread over the disc; under a point force the unit of length is arbitrary.
+        Distribution of the force over the disc. For a point force the unit of length r0 is arbitrary.
     tolerance : float
-        Accuracy in [1e-14, 0.1], of each field's peak over time.
+        Target error in [1e-14, 0.1], relative to the peak of each field over time.
     threads : int, optional
-        Threads, all processors otherwise.
+        Number of threads in [1, 1024]. Default: one for each available processor.
     progress : bool or callable, optional
-        True for a bar; a function is called with what is done and how much there is.
+        True shows a progress bar. A function is called with the number of finished points and the total.
 
     Returns
     -------
     Kernel
-        Displacements in P/(mu r0) and stresses in P/r0^2 of the broadcast shape, with ``error``.
+        Displacements in P/(mu r0) and stresses in P/r0^2, each of the broadcast shape, with ``error``.
+
+    Raises
+    ------
+    DomainError
+        An argument is outside its range or not a number, or the field is infinite there: at r = 1, z = 0 under a punch
+        and at r = z = 0 under a point force.
+    ValueError
+        The arrays cannot be broadcast together.
+    TooMuchMemory
+        The points need more memory than is free.
     """
     return _of("step", nu, {"r": r, "z": z, "t": t}, profile, tolerance, threads, progress)
 
@@ -134,7 +144,10 @@ def remainder(
     threads: int | None = None,
     progress: Progress = None,
 ) -> Kernel:
-    """`step` less the `static` field, which dies away: what a table holds. Parameters as for `step`."""
+    """`step` minus `static`, the part that decays; kernel tables store it.
+
+    Parameters, units, shapes and errors are those of `step`.
+    """
     return _of("remainder", nu, {"r": r, "z": z, "t": t}, profile, tolerance, threads, progress)
 
 
@@ -148,10 +161,10 @@ def impulse(
     threads: int | None = None,
     progress: Progress = None,
 ) -> Kernel:
-    """Fields after a unit impulse of the Hertz profile, the derivative of `step` in time.
+    """Impulse response of the Hertz profile: fields after a unit impulse, the time derivative of `step`.
 
-    Displacements are in c1/(mu r0^2), stresses in c1/r0^3; parameters as for `step`.
-    At fronts stresses have roots in the denominator.
+    Displacements are in c1/(mu r0^2) and stresses in c1/r0^3, for an impulse of 1. Stresses have inverse square-root
+    singularities at wave fronts. Parameters, shapes and errors are those of `step`, without ``profile``.
     """
     return _of("impulse", nu, {"r": r, "z": z, "t": t}, "hertz", tolerance, threads, progress)
 
@@ -167,29 +180,35 @@ def step_integral(
     threads: int | None = None,
     progress: Progress = None,
 ) -> Kernel:
-    """Integral of `remainder` over time: differences of it are averages over cells. Parameters as for `step`.
+    """Integral of `remainder` over time, in units of `remainder` times r0/c1.
 
-    The constant of integration is the same for all t at one (r, z).
+    The constant of integration is arbitrary but the same for all t at one (r, z). Use differences: divided by the time
+    between them, they are the means of `remainder`. Parameters, shapes and errors are those of `step`.
     """
     return _of("step_integral", nu, {"r": r, "z": z, "t": t}, profile, tolerance, threads, progress)
 
 
 def static(nu: float, r: ArrayLike, z: ArrayLike, *, profile: Profile = "hertz") -> Fields:
-    """The static fields under a unit force, in closed form.
+    """Static fields under a constant force, in closed form; the limit of `step` for large t.
 
     Parameters
     ----------
     nu : float
         Poisson's ratio in (-1, 0.5).
     r, z : array_like
-        Distance from the axis and depth in r0; broadcast.
+        Distance from the axis and depth in r0, each in [0, 1e20]; broadcast together.
     profile : {"hertz", "punch", "point"}
-        How the force is spread over the disc.
+        Distribution of the force over the disc.
 
     Returns
     -------
     Fields
-        Displacements in P/(mu r0) and stresses in P/r0^2 of the broadcast shape.
+        Displacements in P/(mu r0) and stresses in P/r0^2, each of the broadcast shape.
+
+    Raises
+    ------
+    DomainError
+        As for `step`.
     """
     shape, (flat_r, flat_z) = numbers(r=r, z=z)
     return Fields(_core.static_field(nu, flat_r, flat_z, profile).reshape((*shape, 6)))
@@ -201,94 +220,155 @@ def _surface(order: str, nu: float, t: ArrayLike, deflection: str) -> Floats:
 
 
 def surface_step(nu: float, t: ArrayLike, *, deflection: Deflection = "centre") -> Floats:
-    """Deflection of a disc under its own suddenly applied load, over its static value.
+    """Deflection of a disc under a constant Hertz load applied at time 0, over its static value.
 
     Parameters
     ----------
     nu : float
         Poisson's ratio in (-1, 0.5).
     t : array_like
-        Times in r0/c1; 0 before the load.
+        Times in r0/c1.
     deflection : {"centre", "mean"}
-        That of the centre, or the mean weighted with the pressure.
+        Deflection at the centre, or the mean weighted with the pressure.
 
     Returns
     -------
     ndarray
-        W(t) of the shape of t: 0 for t <= 0, exactly 1 after the memory of the half-space
-        (``medium(nu).centre_memory``). Times ``medium(nu).centre_compliance`` it is the deflection in P/(mu r0).
+        W(t) of the shape of t, dimensionless and positive into the half-space: 0 for t <= 0, exactly 1 after
+        ``medium(nu).centre_memory``. Multiply it by ``medium(nu).centre_compliance`` for the deflection in P/(mu r0);
+        for the mean use ``mean_memory`` and ``mean_compliance``.
+
+    Raises
+    ------
+    DomainError
+        ``nu`` or ``deflection`` is not allowed, or ``t`` contains no numbers.
     """
     return _surface("step", nu, t, deflection)
 
 
 def surface_impulse(nu: float, t: ArrayLike, *, deflection: Deflection = "centre") -> Floats:
-    """Derivative of `surface_step` in time, in c1/r0."""
+    """Time derivative of `surface_step`, in c1/r0. Parameters, shape and errors are those of `surface_step`."""
     return _surface("impulse", nu, t, deflection)
 
 
 def surface_step_integral(nu: float, t: ArrayLike, *, deflection: Deflection = "centre") -> Floats:
-    """Integral of `surface_step` from 0 to t, in r0/c1."""
+    """Integral of `surface_step` from 0 to t, in r0/c1. Parameters, shape and errors are those of `surface_step`."""
     return _surface("step_integral", nu, t, deflection)
 
 
 def surface_centre(nu: float, t: ArrayLike) -> Floats:
-    """`surface_step` of the centre by the closed form of Kausel (2012), over time in r0/c2: an independent route."""
+    """`surface_step` at the centre by the closed form of Kausel (2012), an independent derivation for comparison.
+
+    Parameters
+    ----------
+    nu : float
+        Poisson's ratio in (-1, 0.5).
+    t : array_like
+        Times in r0/c2, where c2 is the speed of the shear wave (not r0/c1).
+
+    Returns
+    -------
+    ndarray
+        W(t) of the shape of t.
+
+    Raises
+    ------
+    DomainError
+        ``nu`` is not allowed, or ``t`` contains no numbers.
+    """
     shape, (flat,) = numbers(t=t)
     return _core.surface_centre(nu, flat).reshape(shape)
 
 
 @dataclass(frozen=True)
 class Arrivals:
-    """Arrival times of the wave fronts at one place, in r0/c1: from the nearest and the farthest edge of the disc."""
+    """Arrival times of the wave fronts at one point in r0/c1.
+
+    A pair contains the times of the fronts from the nearest and from the farthest edge of the disc.
+    """
 
     above: tuple[float, float] | None
-    """Plane longitudinal and shear front from the disc straight above; None beside it."""
+    """Plane longitudinal and plane shear front from the disc; None for points that are not below the disc."""
     p: tuple[float, float]
     """Longitudinal wave."""
     s: tuple[float, float]
     """Shear wave."""
     head: tuple[float | None, float | None]
-    """Head wave, longitudinal along the surface; None inside the critical angle."""
+    """Head wave, which travels along the surface with the longitudinal speed; None within the critical angle."""
     rayleigh: tuple[float, float]
     """Rayleigh wave along the surface."""
     first: float
-    """The first of all."""
+    """First arrival of all waves."""
     last: float
-    """The last of all; after it every field is smooth."""
+    """Last arrival of all waves; the fields are smooth after it."""
 
 
 @dataclass(frozen=True)
 class Medium:
-    """What follows from Poisson's ratio, speeds in c1, times in r0/c1."""
+    """Properties of the half-space that depend only on Poisson's ratio; speeds are in c1, times in r0/c1."""
 
     nu: float
     """Poisson's ratio."""
     shear_speed: float
-    """c2/c1."""
+    """Speed of the shear wave, c2/c1."""
     rayleigh_speed: float
-    """c_R/c1."""
+    """Speed of the Rayleigh wave, cR/c1."""
     lambda_over_mu: float
-    """Ratio of the Lame constants."""
+    """Ratio of the Lamé constants."""
     centre_compliance: float
     """Static deflection of the centre of a Hertz disc in P/(mu r0)."""
     centre_memory: float
-    """Time after which it is exactly static again."""
+    """Time after which the deflection of the centre equals its static value exactly."""
     centre_relaxation_time: float
-    """Integral of 1 - `surface_step`."""
+    """Integral over time of 1 minus `surface_step` of the centre."""
     mean_compliance: float
-    """The same of the mean deflection, weighted with the pressure."""
+    """Static mean deflection of a Hertz disc, weighted with the pressure, in P/(mu r0)."""
     mean_memory: float
-    """Time after which it is exactly static again."""
+    """Time after which the mean deflection equals its static value exactly."""
     mean_relaxation_time: float
-    """Integral of 1 - `surface_step` of the mean."""
+    """Integral over time of 1 minus `surface_step` of the mean deflection."""
 
     def arrivals(self, r: float, z: float, *, profile: Profile = "hertz") -> Arrivals:
-        """Arrival times at a distance r from the axis and a depth z, in r0."""
+        """Arrival times of the wave fronts at one point.
+
+        Parameters
+        ----------
+        r, z : float
+            Distance from the axis and depth in r0, each in [0, 1e20].
+        profile : {"hertz", "punch", "point"}
+            Distribution of the force. For a point force the two times of each pair are equal.
+
+        Returns
+        -------
+        Arrivals
+            Times in r0/c1.
+
+        Raises
+        ------
+        DomainError
+            An argument is outside its range.
+        """
         found = _core.arrivals(self.nu, r, z, profile)
         parts: dict[str, Any] = {name: tuple(v) if isinstance(v, list) else v for name, v in found.items()}
         return Arrivals(**parts)
 
 
 def medium(nu: float) -> Medium:
-    """What follows from Poisson's ratio nu in (-1, 0.5): wave speeds, compliances, memories, arrivals."""
+    """Wave speeds, compliances, memories and arrival times of a half-space with Poisson's ratio nu.
+
+    Parameters
+    ----------
+    nu : float
+        Poisson's ratio in (-1, 0.5).
+
+    Returns
+    -------
+    Medium
+        Properties in reduced units.
+
+    Raises
+    ------
+    DomainError
+        ``nu`` is outside its range.
+    """
     return Medium(**_core.medium(nu))

@@ -1,4 +1,4 @@
-"""The commands that write files, small enough to be run hundreds of times."""
+"""Commands that write files, small enough to be run hundreds of times."""
 
 import collections
 import os
@@ -6,7 +6,7 @@ import os
 from common import GRID, SCENE, fresh, well, write
 
 Writing = collections.namedtuple("Writing", "arguments outputs setup")
-"""A command, the files that it writes, and what lies in its folder before."""
+"""A command, the files that it writes, and the initial content of its folder."""
 
 SWEEP = """[scene.striker]
 tip_radius_m = 0.005

@@ -1,6 +1,6 @@
-"""What the attacks share: running the program within limits, and counting how it ends.
+"""Common parts of the attacks: runs the program within limits, and counts the outcomes.
 
-Python's standard library only. Every random choice follows from ATTACK_SEED; ATTACK_SHARE multiplies the tries.
+Uses Python's standard library only. All random choices follow from ATTACK_SEED; ATTACK_SHARE multiplies the number of trials.
 """
 
 import collections
@@ -148,7 +148,7 @@ def run(arguments, limit=60.0, cwd=None, env=None, stdin=subprocess.DEVNULL, lim
 
 
 def well(arguments, **how):
-    """Runs the program, which must succeed: what an attack starts from."""
+    """Runs the program for the set-up of an attack; it must succeed."""
     ended = run(arguments, **how)
     if ended.code != 0:
         sys.exit(f"attack: {' '.join(map(str, arguments))} ended with {ended.code}: {ended.err.strip()[-300:]}")
@@ -185,7 +185,7 @@ class Tally:
         self.counts[what] += count
 
     def fail(self, what, note=""):
-        """A class that must not occur, with what was seen."""
+        """Counts an outcome that must not occur, with a note."""
         self.counts[what] += 1
         self.bad[what] += 1
         if note:

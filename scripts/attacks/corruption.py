@@ -1,8 +1,8 @@
-"""Damaged kernel tables, shards, journals, results, sweeps and their parts: refused, or the same numbers as before.
+"""Damaged kernel tables, shards, journals, results, sweeps and their parts: expected is a rejection, or the same numbers.
 
-A table is damaged anywhere, at its start (metadata, attributes), by pieces that change places, or in the seal; an impact
-that reads it and `table info` are run. A shard and the journals of a build and of a sweep are damaged and gone on with.
-Results and sweeps are damaged, drawn, and given to `--skip-complete`; a part is damaged, listed and merged.
+A table is damaged anywhere, at its start (metadata, attributes), by exchanged pieces, or in its checksum trailer; then an impact
+and `table info` read it. A shard and the journals of a build and of a sweep are damaged and resumed. Results and sweeps are
+damaged, drawn, and passed to `--skip-complete`; a part is damaged, listed and merged.
 """
 
 import os
@@ -185,7 +185,7 @@ def parts(folder):
 
 
 def results(folder):
-    """What `--skip-complete` takes for whole, and what is drawn, of damaged results and sweeps."""
+    """Damaged results and sweeps, passed to `--skip-complete` and drawn."""
     at = lambda name: os.path.join(folder, name)
     scene, sweep, picture = write(at("s.toml"), SCENE), write(at("w.toml"), SWEEP), at("p.svg")
     tallies = []

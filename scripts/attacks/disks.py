@@ -1,7 +1,7 @@
-"""Full disks of many sizes, file sizes that are limited, /dev/full: the sentence, the old file, the way on.
+"""Full disks of many sizes, limited file sizes and /dev/full: checks the message, the old file and a retry.
 
-Right is: exit 75 with "no space left", the old file as it was; with room the same command ends with the same bytes.
-Disks are small file systems in memory, which only root can mount; without that the limit on file sizes alone is tried.
+Expected: exit code 75 with "no space left" and an unchanged old file; with enough space the same command then writes the same
+bytes. The disks are small file systems in memory, which only root can mount; without root only file sizes are limited.
 """
 
 import os

@@ -1,4 +1,4 @@
-"""Numbers at the edges of what a scene and a float hold: finite results with an error below one half, or a sentence."""
+"""Numbers at the limits of a scene and of a float: expected are finite results with an error below one half, or a message."""
 
 import json
 import math

@@ -1,7 +1,7 @@
-"""kill -9 on entry of the n-th system call of every kind that touches files, then the same command again.
+"""kill -9 at the n-th system call of every kind that uses files, then the same command again.
 
-Right is: each output is the old file, the new one or absent after the kill, never half of one; the same command then
-ends with the bytes of a run that was not killed, and leaves nothing beside its outputs.
+Expected: after the kill each output is the old file, the new file or absent, never incomplete. The same command then writes the
+bytes of an undisturbed run and leaves no other files.
 """
 
 import os

@@ -1,6 +1,6 @@
-"""Outputs that are inputs, each other, folders, pipes, devices or of another format, all with --force.
+"""Outputs that are inputs, equal to each other, folders, pipes, devices or of another format, all with --force.
 
-Right is: exit 2 with a sentence, at once, and every file as it was.
+Expected: exit code 2 with a message, at once, and every file unchanged.
 """
 
 import os

@@ -1,7 +1,7 @@
-"""Two runs on one output at once, one of them killed now and then; then the same command again.
+"""Two simultaneous runs with the same output, one of them sometimes killed; then the same command again.
 
-Right is: a run ends well, or with 75 (another one is at it) or 2 (it exists already); the bytes are those of one of
-both runs; afterwards the same command ends well and nothing is left.
+Expected: a run succeeds, or ends with 75 (another run is writing the file) or 2 (the file exists). The bytes are those of one of
+the two runs. Afterwards the same command succeeds and leaves no other files.
 """
 
 import os

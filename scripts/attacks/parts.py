@@ -1,7 +1,7 @@
-"""Folders of parts that somebody has meddled with: rows are missing, twice there, of another sweep, or no part at all.
+"""Folders of parts with errors: missing rows, duplicate rows, parts of another sweep, or other files.
 
-Each folder is listed, listed with `--missing` and merged: an end in time, a sentence, and never other rows than those of
-one run.
+Each folder is listed, listed with `--missing` and merged. Expected: the command ends in time, with a message, and never with rows
+other than those of one run.
 """
 
 import os

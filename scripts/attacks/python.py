@@ -1,7 +1,7 @@
-"""Hostile arguments to the Python package: a value or an exception of Python, never the end of the interpreter.
+"""Hostile arguments to the Python package: expected is a value or an exception, never the end of the interpreter.
 
-Each case runs in an interpreter of its own with 3 GB of address space; where the package cannot be imported the part
-says so and passes. ATTACK_PYTHON names the interpreter, that of .venv otherwise.
+Each case runs in a separate interpreter with 3 GB of address space. If the package cannot be imported, the part reports this and
+passes. ATTACK_PYTHON is the path of the interpreter; default: that of .venv.
 """
 
 import os

@@ -1,8 +1,8 @@
-"""A folder that others may write to: somebody exchanges every temporary for a link to a private file.
+"""A folder that others may write to: another user replaces every temporary file by a link to a private file.
 
-Right is: the private file keeps bytes, permissions and owner; the command fails or is done, and no output is something else
-than the old file, the new one, or what the other one put there.
-With root the other one is a user without rights, and the one who runs the program is root, then a second user.
+Expected: the private file keeps its bytes, permissions and owner. The command fails or succeeds, and every output is the old
+file, the new file, or what the other user put there.
+With root the other user has no rights, and the program runs as root, then as a second user.
 """
 
 import os

@@ -1,4 +1,4 @@
-"""Scenes, sweeps and tables that no machine holds: each is refused at once, in one sentence with a number."""
+"""Scenes, sweeps and tables that are too large for any machine: each must be rejected at once, with a message that has a number."""
 
 import os
 

@@ -1,6 +1,6 @@
-"""Files that are not what they are given for: pipes, devices, folders, terabytes of nothing, other formats.
+"""Inputs of the wrong kind: pipes, devices, folders, terabytes of zeros, other formats.
 
-Each is given as scene, sweep, grid, materials file, force record, kernel table, shard and result; each is refused at once.
+Each is passed as scene, sweep, grid, materials file, force record, kernel table, shard and result; each must be rejected at once.
 """
 
 import os
@@ -50,7 +50,7 @@ def strange(folder):
 
 
 def uses(folder, path):
-    """Commands that read a file as something, by what."""
+    """Commands that read a file, by the kind of file that they expect."""
     at = lambda name: os.path.join(folder, name)
     scene, out = write(at("scene.toml"), SCENE), at("out.h5")
     named = {

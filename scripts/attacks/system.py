@@ -1,8 +1,8 @@
-"""What the system refuses: threads, locks, memory of a group of processes; standard error that nobody reads.
+"""Failures of the system: threads, file locks, memory limits of a control group, and a standard error that nobody reads.
 
-Right is: threads that do not start are done without, a file system without locks is written to all the same, more memory
-than a group may take is refused in a sentence, and a signal ends the program at once whoever reads what it says.
-Groups of processes need root and their file system, version 1 or 2; locks need strace.
+Expected: the program works with fewer threads if some do not start, and writes files on a file system without locks. It rejects
+work that needs more memory than the group may use, with a message. A signal ends it at once, whoever reads its messages.
+Control groups need root and their file system, version 1 or 2; locks need strace.
 """
 
 import fcntl
@@ -164,7 +164,7 @@ def unread(folder, writings):
 
 
 def late(folder, writings):
-    """A signal while the outputs are finished: the exit code is that of the signal, never that of what failed because of it."""
+    """A signal while the outputs are finished: the exit code is that of the signal, never that of a failure caused by it."""
     tally = Tally("signals at the end")
     for name in ("impact", "sweep", "tabulate", "plot"):
         writing = writings[name]
@@ -183,7 +183,7 @@ def late(folder, writings):
 
 
 def objects(folder):
-    """No memory left with --json: one object, and nothing is left beside the output."""
+    """No memory left with --json: one JSON object, and no other files than the output."""
     tally = Tally("no memory, --json")
     write(os.path.join(folder, "long.csv"), "time_s,force_n\n" + "".join(f"{i}e-9,1\n" for i in range(1_500_000)))
     scene = write(os.path.join(folder, "long.toml"), RECORD)

@@ -1,8 +1,8 @@
-"""One write that fails, each in turn, of every command that writes files.
+"""One failing write, each in turn, for every command that writes files, as on a full disk or a network file system.
 
-A disk that is full for a moment, or a network file system that fails once: exit 0 only with the bytes of an undisturbed run.
-Otherwise a failure with its sentence, every output as it was, nothing beside it, and the same command then ends well.
-With ATTACK_SHARE at least 2 the writes fail with EIO too.
+Expected: exit code 0 only with the bytes of an undisturbed run. Otherwise the command prints its message, leaves every output
+unchanged and no other files, and succeeds when it is run again.
+With ATTACK_SHARE of at least 2 the writes also fail with EIO.
 """
 
 import os

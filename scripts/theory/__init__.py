@@ -1,1 +1,1 @@
-"""The checks of docs/theory.md: called by scripts/check-theory."""
+"""Checks of docs/theory.md: called by scripts/check-theory."""

@@ -1,4 +1,4 @@
-"""An impact in SI units and its groups, (T36) to (T39) of docs/theory.md."""
+"""An impact in SI units and its dimensionless groups, (T36) to (T39) of docs/theory.md."""
 
 import numpy as np
 from scipy.special import beta, gamma

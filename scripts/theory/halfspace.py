@@ -1,4 +1,4 @@
-"""The formulas of docs/theory.md, sections 1 to 3, written down as they stand there.
+"""Formulas of docs/theory.md, sections 1 to 3, in the form of that document.
 
 Reduced units: length r0, speed c1, time r0/c1, displacement P/(mu r0), stress P/r0^2.
 """

@@ -206,7 +206,7 @@ def parabola(p):
 
 
 def paper(report):
-    """Section 7: what the paper's scheme gives, and its other numbers."""
+    """Section 7: results of the paper's scheme, and other numbers of the paper."""
     for modulus, force, rebound in ((123e9, 159053, 0.98098), (129e9, 160507, 0.98044)):
         hit = Collision(E1=modulus, **PAPER)
         memory = marches.Memory(hit.medium, CENTRE)

@@ -1,4 +1,4 @@
-"""Plain marches of the impact equation in collision units, written from docs/theory.md, section 4."""
+"""Simple marches of the impact equation in collision units, written from docs/theory.md, section 4."""
 
 import numpy as np
 

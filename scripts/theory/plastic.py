@@ -1,4 +1,4 @@
-"""Section 4.6: contacts that yield."""
+"""Section 4.6 of docs/theory.md: contacts that yield."""
 
 import numpy as np
 from scipy.integrate import quad, solve_ivp

@@ -1,4 +1,4 @@
-"""Section 4.4 and 4.5 of docs/theory.md: radiation to first order, the area dashpot, and the full memory beside it."""
+"""Sections 4.4 and 4.5 of docs/theory.md: first-order radiation and the area dashpot, compared with the full memory."""
 
 import mpmath as mp
 import numpy as np

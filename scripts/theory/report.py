@@ -1,4 +1,4 @@
-"""The table of the checks."""
+"""Table of the checks."""
 
 import math
 import re
@@ -13,13 +13,13 @@ def relative(found, exact):
 
 
 class Report:
-    """Rows `equation | what is compared | error`, and whether all are within their bounds."""
+    """Rows `equation | comparison | error`, and whether all errors are within their bounds."""
 
     def __init__(self):
         self.rows = 0
         self.failed = []
         self.equations = set()
-        print(f"{'equation':10} | {'what is compared':92} | {'error':>8} | {'bound':>7}")
+        print(f"{'equation':10} | {'comparison':92} | {'error':>8} | {'bound':>7}")
         print(f"{'-' * 10} | {'-' * 92} | {'-' * 8} | {'-' * 7}")
 
     def row(self, equation, what, error, bound):

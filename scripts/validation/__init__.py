@@ -1,1 +1,1 @@
-"""Published numbers beside those of the program: one module a table, and the routes that the program does not take."""
+"""Comparison with published numbers: one module for each table, and methods that the program does not use."""

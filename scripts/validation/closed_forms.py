@@ -1,4 +1,4 @@
-"""Closed forms of others, written down from their papers."""
+"""Published closed forms, written down from their papers."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Hertz's impact, its radiated loss to first order, and the area dashpot, without the program."""
+"""Hertz's impact, its first-order radiated loss, and the area dashpot, computed without the program."""
 
 from __future__ import annotations
 
@@ -69,7 +69,7 @@ class Drop:
 
     @property
     def lag(self) -> float:
-        """J/(mu c2): what the deflection of the block lags behind the rate of the force, m s/N."""
+        """J/(mu c2) in m s/N: delayed deflection of the block per rate of the force."""
         shear = self.block.shear
         return sum(radiation_parts(self.block.nu)) / (shear * (shear / self.block.rho) ** 0.5)
 
@@ -80,7 +80,7 @@ class Drop:
         return rate * self.lag * self.stiffness * self.velocity / self.depth**0.5
 
     def dashpot(self) -> tuple[float, float, float]:
-        """Loss, largest force and contact time with a dashpot 4 (J/(mu c2)) E*^2 R d beside Hertz's spring."""
+        """Loss, largest force and contact time with a dashpot 4 (J/(mu c2)) E*^2 R d parallel to Hertz's spring."""
         damping = 4 * self.lag * self.modulus**2 * self.radius
         force = lambda d, v: max(self.stiffness * max(d, 0) ** 1.5 + damping * max(d, 0) * v, 0)
         # in units of Hertz's approach and of the velocity

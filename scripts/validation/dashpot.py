@@ -1,4 +1,4 @@
-"""The area dashpot of section 4.5 of docs/theory.md in a particle code, beside the contact with full memory."""
+"""The area dashpot of section 4.5 of docs/theory.md in a particle code, compared with the contact with full memory."""
 
 from __future__ import annotations
 

@@ -63,7 +63,7 @@ def ball(drop: Drop) -> dict[str, float]:
 
 
 def impacts() -> list[Row | Curve]:
-    """Hertz's numbers, those with the first order of radiation, and what others measured or computed."""
+    """Results of Hertz's law, of first-order radiation, and published measurements or computations."""
     rows: list[Row | Curve] = []
     for name, drop in CASES:
         found = ball(drop)

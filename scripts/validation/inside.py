@@ -1,4 +1,4 @@
-"""Inside the block: Huber's static field, and what an impulse does on the axis at the first front."""
+"""Inside the block: Huber's static field, and the first front of an impulse on the axis."""
 
 from __future__ import annotations
 

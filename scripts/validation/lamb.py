@@ -1,7 +1,7 @@
 """Lamb's harmonic half-space: integrals over slowness on the real axis, or above it.
 
-Slownesses are in 1/c2; the time factor is e^{i omega t}, so that waves leave on the path above the poles.
-Nothing here is taken from docs/theory.md: the program works in the time domain.
+Slownesses are in 1/c2; the time factor is e^{i omega t}, so that waves travel outwards on the path above the poles.
+Nothing here comes from docs/theory.md; the program works in the time domain.
 """
 
 from __future__ import annotations

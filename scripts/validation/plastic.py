@@ -1,4 +1,4 @@
-"""Contacts that yield beside programs that share nothing with this one: `tests/reference/plastic`."""
+"""Contacts that yield, compared with independent programs: `tests/reference/plastic`."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The energy that a slow force radiates, and the deflection of a disc under a harmonic one."""
+"""Energy radiated by a slow force, and deflection of a disc under a harmonic force."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def slow_factor(nu: float) -> float:
 
 
 def radiation() -> list[Row | Curve]:
-    """J, the Rayleigh wave's share, and what follows from J at low speed."""
+    """J, the share of the Rayleigh wave, and consequences of J at low speed."""
     rows: list[Row | Curve] = []
     for name, nu in RATIOS.items():
         parts = lamb.radiation_parts(nu)

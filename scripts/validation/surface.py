@@ -1,4 +1,4 @@
-"""The loaded surface and its neighbourhood: closed forms, and seismograms of other programs."""
+"""The loaded surface and its neighbourhood: closed forms, and seismograms from other programs."""
 
 from __future__ import annotations
 

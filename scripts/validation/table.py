@@ -1,4 +1,4 @@
-"""Rows of the comparisons, and their tables as text and as Markdown."""
+"""Rows of the comparisons, and their tables as text and Markdown."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 
 @dataclass
 class Row:
-    """One number: what others have, what the program gives, how far apart the two may be, and why they differ."""
+    """One number: published value, our result, bound on the difference, and reason for the difference."""
 
     quantity: str
     published: float
@@ -59,7 +59,7 @@ class Curve:
 
 
 def rounded(difference: float) -> str:
-    """Two digits with a sign; what is rounding says so, because its digits are those of a machine."""
+    """Two digits with a sign; a rounding error is marked as such, because its digits depend on the machine."""
     return "rounding" if abs(difference) < 2e-12 else f"{difference:+.1e}".replace("e-0", "e-").replace("e+00", "")
 
 

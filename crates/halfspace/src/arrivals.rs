@@ -6,18 +6,19 @@ use crate::domain::{DomainError, check_place};
 use crate::medium::Medium;
 use crate::profile::Profile;
 
-/// Arrival times at one point, in r0/c1: from straight above, and from the nearest and farthest edge of the disc.
+/// Arrival times at one point in r0/c1, of waves from directly above and from the nearest and farthest edge of the
+/// disc.
 ///
 /// Between fronts every field is a smooth function of time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Arrivals {
-    /// Plane longitudinal and shear fronts from the disc straight above; only inside its radius.
+    /// Plane longitudinal and plane shear front from the disc; only for points below the disc.
     pub above: Option<[f64; 2]>,
     /// Longitudinal wave from the nearest and the farthest edge.
     pub p: [f64; 2],
     /// Shear wave from the nearest and the farthest edge.
     pub s: [f64; 2],
-    /// Head wave: longitudinal along the surface, shear into depth; only beyond the critical angle.
+    /// Head wave, longitudinal along the surface and shear into the depth; only beyond the critical angle.
     pub head: [Option<f64>; 2],
     /// Rayleigh wave along the surface; below the surface its smooth peak passes at about this time.
     pub rayleigh: [f64; 2],

@@ -1,16 +1,16 @@
-//! Ranges of the arguments, and the one error of this crate: a question outside the domain of the physics.
+//! Ranges of the arguments, and the error of this crate: an argument outside its range.
 
 use crate::profile::Profile;
 use fault::{Class, Culprit, Fault};
 use thiserror::Error;
 
-/// Lengths and times up to here: their powers stay in the range of a double.
+/// Largest length and time; their powers do not overflow.
 pub(crate) const FARTHEST: f64 = 1e20;
 
-/// Least distance from a point force, least time after the load and least width of a cell, for the same reason.
+/// Smallest distance from a point force, time after the load and width of a cell; their inverse powers do not overflow.
 pub(crate) const NEAREST: f64 = 1e-20;
 
-/// The error that names a value and its range, unless it is `allowed`.
+/// Checks a condition; the error contains the argument, its value and the range.
 ///
 /// # Errors
 /// [`DomainError::Range`].
@@ -30,13 +30,13 @@ pub fn check(
     })
 }
 
-/// r and z in [0, 1e20].
+/// Checks that r and z are in [0, 1e20].
 pub(crate) fn check_place(r: f64, z: f64) -> Result<(), DomainError> {
     check((0.0..=FARTHEST).contains(&r), "r", r, "[0, 1e20]")?;
     check((0.0..=FARTHEST).contains(&z), "z", z, "[0, 1e20]")
 }
 
-/// A place in range at which the fields of a profile are finite.
+/// Checks that a place is in range, and that the fields of the profile are finite there.
 pub(crate) fn check_place_under(profile: Profile, r: f64, z: f64) -> Result<(), DomainError> {
     check_place(r, z)?;
     let (is_regular, range) = match profile {
@@ -53,12 +53,12 @@ pub(crate) fn check_place_under(profile: Profile, r: f64, z: f64) -> Result<(), 
     check(is_regular, "r", r, range)
 }
 
-/// t in [0, 1e20].
+/// Checks that t is in [0, 1e20].
 pub(crate) fn check_time(t: f64) -> Result<(), DomainError> {
     check((0.0..=FARTHEST).contains(&t), "t", t, "[0, 1e20]")
 }
 
-/// A function that only the Hertz profile has.
+/// Checks that the profile is the Hertz profile, for a function that is not defined for the others.
 pub(crate) fn check_hertz(profile: Profile, function: &'static str) -> Result<(), DomainError> {
     match profile {
         Profile::Hertz => Ok(()),
@@ -66,9 +66,9 @@ pub(crate) fn check_hertz(profile: Profile, function: &'static str) -> Result<()
     }
 }
 
-/// An argument lies outside the domain on which the kernels are defined.
+/// An argument outside the domain of the kernels.
 ///
-/// The message names the argument or the function, the value received and what is allowed.
+/// The message contains the argument or function, the value, and the allowed range.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum DomainError {
@@ -82,7 +82,7 @@ pub enum DomainError {
         /// The allowed range in interval notation.
         range: &'static str,
     },
-    /// A function that exists for the Hertz profile only: under the others it is infinite at the fronts.
+    /// A function that is defined for the Hertz profile only; for the others it is infinite at the fronts.
     #[error("{function} is defined for the Hertz profile only, not for {profile:?}")]
     HertzOnly {
         /// The function called.

@@ -1,4 +1,4 @@
-//! The six fields of an axisymmetric half-space, the values that carry them, and the places and times of both.
+//! The six fields of an axisymmetric half-space, their values, and evaluation points.
 
 /// One displacement or stress component in cylindrical coordinates (r, theta, z), z into the body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -17,7 +17,7 @@ pub enum Field {
     StressRz,
 }
 
-/// The fields in the order in which every [`Six`] holds them.
+/// The fields in the order of every [`Six`].
 pub const FIELDS: [Field; 6] = [
     Field::DisplacementR,
     Field::DisplacementZ,
@@ -28,7 +28,7 @@ pub const FIELDS: [Field; 6] = [
 ];
 
 impl Field {
-    /// Position in a [`Six`].
+    /// Index in a [`Six`].
     pub const fn index(self) -> usize {
         self as usize
     }
@@ -44,9 +44,9 @@ pub type Six = [f64; 6];
 
 /// Values with an estimate of their own numerical error.
 ///
-/// The estimate is the sum, over the panels of the quadrature, of the truncation error of a Gauss rule beside the
-/// nearest singularity, rho^(-2n) times a factor calibrated on random points, and of rounding. For the Hertz profile at
-/// tolerances of 1e-4 to 1e-10 less than one error in a thousand exceeds it, and the median estimate is 110 to 190
+/// The estimate is the sum, over the panels of the quadrature, of the rounding error and of the truncation error of a
+/// Gauss rule near the closest singularity, rho^(-2n) times a factor calibrated on random points. For the Hertz profile
+/// at tolerances of 1e-4 to 1e-10 less than one error in a thousand exceeds it, and the median estimate is 110 to 190
 /// times the error: `cargo test -p hertzlamb-halfspace --test estimate -- --nocapture` prints both.
 /// Stresses under a punch or a point force are infinite at fronts; there the estimate includes the rounding of the
 /// fronts, and its median is 400 to 350000 times the error by region.

@@ -1,8 +1,8 @@
 //! The surface-centre step response in closed form.
 //!
 //! The surface point-load step response of Kausel (2012), superposed over the Hertz disc.
-//! Kept beside [`SurfaceResponse`](crate::SurfaceResponse), which the programs use, because it shares no
-//! quadrature with it: each checks the other.
+//! The program uses [`SurfaceResponse`](crate::SurfaceResponse). This independent formula checks it, since the two
+//! share no quadrature.
 //!
 //! Theory: `docs/theory.md` (T29, T30).
 
@@ -18,8 +18,8 @@ use std::f64::consts::{FRAC_PI_2, PI};
 ///
 /// with X_R = min(1, T/T_R), X_S = min(1, T), X_P = min(1, T/kappa), T_R = c2/c_R.
 /// Exactly 0 for T <= 0 and 1 for T >= T_R; NaN for NaN.
-/// Accuracy 1e-14, except where the two poles x_1, x_2 meet, at nu = 0.26308206: the divided difference
-/// over them loses digits as 1e-16 over their distance, down to 1e-8 at the nearest number.
+/// The accuracy is 1e-14, except near nu = 0.26308206, where the two poles x_1, x_2 coincide: the error of their
+/// divided difference is 1e-16 over their distance, up to 1e-8 at the nearest number.
 ///
 /// ```
 /// use halfspace::{kausel, Medium};
@@ -52,12 +52,12 @@ pub fn centre_step(medium: &Medium, t: f64) -> f64 {
         t,
     };
     let (xs, xp) = (t.min(1.0), (t / kappa).min(1.0));
-    // At X_R the square root q of I3 is zero, and so is I3: I0(X_R) cancels against the bracket.
+    // at X_R the square root q of I3 is zero, and so is I3: I0(X_R) cancels with the bracket
     let surface = |x: f64| i0(x) - split.rayleigh(x);
     4.0 / PI * (surface(xs) + 0.5 * (surface(xp) - surface(xs) - split.leaky(xs, xp)))
 }
 
-/// Half the distance to which coalescing poles are held apart.
+/// Smallest half distance of coalescing poles; closer poles are separated.
 const CLOSEST_POLES: f64 = 1e-8;
 
 struct Split {

@@ -4,7 +4,7 @@
 //! H(r,z,t) = static(r,z) + R(r,z,t)
 //! ```
 //!
-//! The static part is in closed form, the remainder R is one integral over slowness, see [`integral`](crate::integral).
+//! The static part has a closed form; the remainder R is one integral over slowness, see [`integral`](crate::integral).
 //!
 //! Theory: `docs/theory.md` (T9, T10, T16, T21).
 
@@ -17,32 +17,34 @@ use crate::profile::Profile;
 
 /// The exact kernels of one half-space under one load profile.
 ///
-/// Reduced units: length r0, time r0/c1, displacement P/(mu r0), stress P/r0^2; z into the half-space,
-/// tension positive. r, z and t may be any numbers from 0 to 1e20; times between 0 and 1e-20 are taken as 1e-20.
+/// Reduced units: length r0, time r0/c1, displacement P/(mu r0), stress P/r0^2; z points into the half-space, and
+/// tension is positive. r, z and t are in [0, 1e20]; times between 0 and 1e-20 are replaced by 1e-20.
 ///
 /// # Accuracy
 ///
-/// For nu in [-0.5, 0.4999], r and z to 20, t to 200 and the Hertz profile at tolerance 1e-10, against values of
-/// 20 digits: 1e-10 of the peak over time of the same field's step response at the same point, on the axis, on the
-/// surface, at the edge of the disc, 1e-9 and more below the surface and at arrivals to the last bit.
+/// For nu in [-0.5, 0.4999], r and z to 20, t to 200 and the Hertz profile at tolerance 1e-10, the error is at most
+/// 1e-10 of the peak over time of the same field's step response at the same point. This was tested against values of
+/// 20 digits on the axis, on the surface, at the edge of the disc, from 1e-9 below the surface, and at arrivals to the
+/// last bit. Exceptions:
 ///
-/// - For 0 < z < 1e-4 sigma_zz and sigma_rz are integrated as differences to the surface, where they vanish: the promise
+/// - For 0 < z < 1e-4 sigma_zz and sigma_rz are integrated as differences from the surface, where they vanish: the accuracy
 ///   holds for their peaks, which are of order sqrt(z). Time integrals and cell averages keep an absolute 1e-15 P/r0^2.
 /// - There the Rayleigh wave passes in a time of order z, so at its arrival half a unit in the last place of t changes
 ///   a value by epsilon t/z of the peak. The value returned is that of exactly the t given.
-/// - For 1e-4 < z < 1e-2 near the edge of the disc sigma_zz and sigma_rz miss the promise: 1.3e-9 of their peaks.
-/// - For r < 0.002 sigma_rz, itself of order r, misses it: 5e-8 of its peak at r = 1e-3, z = 1e-9.
+/// - For 1e-4 < z < 1e-2 near the edge of the disc the errors of sigma_zz and sigma_rz are up to 1.3e-9 of their peaks.
+/// - For r < 0.002 the error of sigma_rz, itself of order r, is larger: 5e-8 of its peak at r = 1e-3, z = 1e-9.
 /// - Farther out, to r = z = 1e4, responses to pulses hold the tolerance, see [`Trace`](crate::Trace) and `tests/pulse.rs`.
 /// - At tolerances of 1e-4, 1e-6 and 1e-8 the 99th percentile of the errors at random points is below the tolerance,
 ///   and typically a hundred times below it.
-/// - Punch: displacements as above; stresses are infinite at fronts and lose digits toward them.
+/// - Punch: displacements as above; stresses are infinite at fronts, and their accuracy decreases toward the fronts.
 /// - Point: displacements 1e-12 of the static field in the median, 1e-6 at the 99th percentile; stresses 1e-11 in the
 ///   median, 1e-6 at the 90th percentile. For 0 < z < r/100, where fronts of both senses of travel nearly coincide,
-///   1e-9 in the median and no digit at the 90th percentile.
-/// - [`Estimate::error`] covers all this: less than one error in a thousand exceeds it, at tolerances from 1e-4 to 1e-10,
-///   near the edge, the axis, the surface and arrivals too; the median is 70 to 110 times the error for Hertz
+///   1e-9 in the median, and no correct digit at the 90th percentile.
+/// - [`Estimate::error`] includes these exceptions: less than one error in a thousand exceeds it, at tolerances from 1e-4 to
+///   1e-10, also near the edge, the axis, the surface and arrivals; the median is 70 to 110 times the error for Hertz
 ///   (`tests/estimate_by_region.rs`) and thousands of times for Punch and Point (`tests/estimate.rs`). The exceptions,
-///   up to 50 times, are far fronts of head waves at Poisson's ratios near 0, where one in two hundred exceeds.
+///   up to 50 times the estimate, are far fronts of head waves at Poisson's ratios near 0, where one error in 200
+///   exceeds it.
 ///
 /// # Singular places
 ///
@@ -63,10 +65,10 @@ pub struct Kernel {
 impl Kernel {
     /// Kernels of `medium` under `profile`, to about `tolerance` in [1e-14, 0.1] of each field's peak over time.
     ///
-    /// From 1e-12 down rounding decides. Preparation takes some microseconds.
+    /// Below 1e-12 rounding limits the accuracy. The preparation takes some microseconds.
     ///
     /// # Errors
-    /// [`DomainError`] when the tolerance is outside its range.
+    /// [`DomainError`] if the tolerance is outside its range.
     pub fn new(medium: &Medium, profile: Profile, tolerance: f64) -> Result<Self, DomainError> {
         check(
             (1e-14..=0.1).contains(&tolerance),
@@ -89,7 +91,7 @@ impl Kernel {
         self.setting.profile
     }
 
-    /// The accuracy asked for, as a fraction of each field's peak over time.
+    /// Requested accuracy, as a fraction of each field's peak over time.
     pub fn tolerance(&self) -> f64 {
         self.setting.tolerance
     }
@@ -113,11 +115,11 @@ impl Kernel {
         self.medium().static_field(self.profile(), r, z)
     }
 
-    /// R(r,z,t): the step response less the static field.
+    /// R(r,z,t): the step response minus the static field.
     ///
-    /// Minus the static field exactly up to the first arrival (on the surface szz and srz: 0); on the surface
-    /// w is 0 to rounding after the last Rayleigh wave, everything else dies as t^-2, szz and srz as t^-4.
-    /// [`Estimate::error`] says what the quadrature and rounding may have left. Accuracy: see [`Kernel`].
+    /// Until the first arrival it is exactly minus the static field (on the surface, szz and srz are 0). After the last
+    /// Rayleigh wave w on the surface is 0 up to rounding, szz and srz decay as t^-4, and all other fields as t^-2.
+    /// [`Estimate::error`] estimates the errors of quadrature and rounding. Accuracy: see [`Kernel`].
     ///
     /// # Errors
     /// [`DomainError`] for r, z or t outside [0, 1e20], at a point force itself and at the edge of a punch.
@@ -137,8 +139,8 @@ impl Kernel {
     /// The impulse response dH/dt, the fields after a unit impulse, of the Hertz profile.
     ///
     /// Units: c1/(mu r0^2) for displacement, c1/r0^3 for stress.
-    /// Between fronts it is a smooth function; at the fronts stress has roots in the denominator, and the
-    /// plane front under the disc, (33) of the paper, is a delta function that no value shows.
+    /// Between fronts it is a smooth function. At the fronts stresses have inverse square-root singularities, and the
+    /// plane front under the disc, (33) of the paper, is a delta function, which is not part of the values.
     ///
     /// # Errors
     /// [`DomainError`] for r, z or t outside [0, 1e20], and for a profile other than Hertz: the
@@ -153,10 +155,10 @@ impl Kernel {
         Ok(self.setting.evaluate::<IMPULSE>(Point { r, z, t }))
     }
 
-    /// The impulse response of u and w alone, the velocities of a step response, under any profile.
+    /// The impulse response of u and w only, which are the velocities of a step response, for any profile.
     ///
-    /// Units: c1/(mu r0^2). At fronts they are as singular as the stresses of the step response, and lose digits there as
-    /// those do.
+    /// Units: c1/(mu r0^2). At fronts they are as singular as the stresses of the step response, with the same loss of
+    /// accuracy.
     ///
     /// # Errors
     /// [`DomainError`] for r, z or t outside [0, 1e20], at a point force itself and at the edge of a punch.
@@ -170,7 +172,7 @@ impl Kernel {
         Ok([u, w])
     }
 
-    /// int R dt up to t, with a constant of integration that is the same for all t at one (r, z).
+    /// int R dt up to t, with a constant of integration that is the same for all t at one (r, z); use differences.
     ///
     /// # Errors
     /// [`DomainError`] for r, z or t outside [0, 1e20].

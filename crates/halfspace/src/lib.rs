@@ -1,8 +1,8 @@
 //! Elastodynamic kernels of a half-space under a disc load, exact, in reduced units.
 //!
-//! A force is applied suddenly to a disc on the surface of an elastic half-space.
-//! This crate gives the six displacement and stress fields at any point and time, each from one integral of
-//! elementary functions over slowness, to an accuracy that the caller chooses, with an estimate of the error.
+//! A force is applied suddenly to a disc on the surface of an elastic half-space. This crate computes the six
+//! displacement and stress fields at any point and time, each as one integral of elementary functions over slowness, to
+//! an accuracy that you choose, with an error estimate.
 //!
 //! # Units and signs
 //!
@@ -14,18 +14,18 @@
 //! | displacement | P/(mu r0), P the force, mu the shear modulus |
 //! | stress | P/r0^2 |
 //!
-//! The only material parameter left is Poisson's ratio, so one kernel serves every material that shares it.
-//! z points into the half-space, the load presses on z = 0, and compression is negative stress.
+//! Poisson's ratio is the only remaining material parameter, so one kernel is valid for all materials with the same
+//! ratio. z points into the half-space, the load presses on z = 0, and compression is negative stress.
 //!
-//! # What is here
+//! # Contents
 //!
-//! - [`Medium`]: wave speeds and the Rayleigh function of a Poisson ratio.
+//! - [`Medium`]: wave speeds and Rayleigh function of a Poisson ratio.
 //! - [`Kernel`]: static field, step-response remainder, impulse response and time integral.
 //! - [`Trace`]: the remainder at one place over time, with averages and moments over cells of any width.
-//! - [`SurfaceResponse`]: the deflection under the load itself, with finite memory, in nanoseconds.
+//! - [`SurfaceResponse`]: the deflection under the load itself, with finite memory.
 //! - [`Arrivals`]: times of all wave fronts.
-//! - [`gauss`]: Gauss-Legendre rules, for those who integrate kernels; [`chebyshev`], [`chebyshev_each`], [`lagrange`],
-//!   [`leja_nodes`] and [`leja_series`] for those who interpolate.
+//! - [`gauss`]: Gauss-Legendre rules for integrals of kernels; [`chebyshev`], [`chebyshev_each`], [`lagrange`],
+//!   [`leja_nodes`] and [`leja_series`] for interpolation.
 //! - [`kausel`]: the surface-centre response in closed form, for comparison.
 //!
 //! # Example

@@ -1,4 +1,4 @@
-//! The elastic half-space in reduced units: everything that follows from Poisson's ratio.
+//! The elastic half-space in reduced units: its wave speeds and Rayleigh function, from Poisson's ratio.
 //!
 //! Theory: `docs/theory.md` (T1, T11).
 
@@ -21,7 +21,7 @@ pub struct Medium {
     poisson_ratio: f64,
     kappa: f64,
     rayleigh_speed: f64,
-    /// To twice the digits.
+    /// Rayleigh wave speed to twice the digits of a double.
     pub(crate) exact_rayleigh_speed: Double,
     /// The roots (c2/c)^2 of the rationalised Rayleigh equation
     /// -16 (1 - a2) x^3 + 8 (3 - 2 a2) x^2 - 8 x + 1 = 0, a2 = kappa^2 (Kausel 2012).
@@ -34,11 +34,11 @@ pub struct Medium {
 impl Medium {
     /// The half-space of Poisson's ratio `poisson_ratio`, valid in (-1, 1/2).
     ///
-    /// As the ratio approaches 1/2 the longitudinal speed becomes infinite against the shear
-    /// speed and every reduced time becomes long; accuracy is promised on [-0.5, 0.4999].
+    /// As the ratio approaches 1/2, the longitudinal speed becomes infinite relative to the shear speed, and every
+    /// reduced time becomes long. The stated accuracies hold for ratios in [-0.5, 0.4999].
     ///
     /// # Errors
-    /// [`DomainError`] when the ratio is not inside the open interval (NaN included).
+    /// [`DomainError`] if the ratio is not in the open interval; also for NaN.
     pub fn new(poisson_ratio: f64) -> Result<Self, DomainError> {
         check(
             poisson_ratio > -1.0 && poisson_ratio < 0.5,
@@ -94,7 +94,7 @@ impl Medium {
     }
 }
 
-/// What the Rayleigh speed is more than `speed`, from one step of Newton's method to twice the digits.
+/// The Rayleigh speed minus `speed`, from one step of Newton's method with twice the digits.
 fn rayleigh_rest(poisson_ratio: f64, root: f64, speed: f64) -> f64 {
     let double = Double::from;
     let a2 =
@@ -110,7 +110,7 @@ fn rayleigh_rest(poisson_ratio: f64, root: f64, speed: f64) -> f64 {
 
 fn rayleigh_cubic_roots(a2: f64) -> [Complex64; 3] {
     let (c3, c2) = (-16.0 * (1.0 - a2), 8.0 * (3.0 - 2.0 * a2));
-    // Beyond the largest root the cubic falls and is concave: Newton descends monotonically.
+    // beyond the largest root the cubic falls and is concave, so that Newton's method descends monotonically
     let mut x = 2.5;
     for _ in 0..60 {
         let value = ((c3 * x + c2) * x - 8.0) * x + 1.0;

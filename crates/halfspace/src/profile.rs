@@ -1,4 +1,4 @@
-//! Load profiles: how the force is spread over the disc.
+//! Load profiles: distribution of the force over the disc.
 //!
 //! Theory: `docs/theory.md` (T4).
 

@@ -5,7 +5,7 @@
 //! srr = -A2 + z A1 - 2 u/r         stt = -2 nu A2 + 2 u/r             potentials at xi = z
 //! ```
 //!
-//! For the Hertz profile this is Huber's solution (1904), which has a form of its own.
+//! For the Hertz profile this is Huber's solution (1904), which is evaluated in a separate form.
 //!
 //! Theory: `docs/theory.md` (T15).
 
@@ -37,7 +37,7 @@ fn by_potentials(medium: &Medium, profile: Profile, r: f64, z: f64) -> Six {
     let xi = Complex64::new(z, 0.0);
     let here = of_one::<STEP>(profile, xi, r);
     let (a3, a2, g3) = (here.a_upper.re, here.a_lower.re, here.g_upper.re);
-    // z times the lower orders vanishes on the surface, though they are singular at the edge there
+    // z times the lower orders vanishes on the surface, although they are singular at the edge
     let (z_a1, z_g2, z_g1) = if z > 0.0 {
         let below = of_one::<IMPULSE>(profile, xi, r);
         (
@@ -64,7 +64,7 @@ fn by_potentials(medium: &Medium, profile: Profile, r: f64, z: f64) -> Six {
     ]
 }
 
-/// The static field under a Hertz load: Huber's solution (1904) in a form that cancels nothing.
+/// The static field under a Hertz load: Huber's solution (1904) in a form without cancellation.
 ///
 /// Oblate spheroidal coordinates turn the potentials of the load into elementary functions of two numbers, c and s,
 ///
@@ -86,7 +86,7 @@ fn by_potentials(medium: &Medium, profile: Profile, r: f64, z: f64) -> Six {
 ///
 /// The stresses are those of Johnson, Contact Mechanics (1985), section 3.4, with u = s^2.
 ///
-/// To 2e-15 of the largest field of the same unit.
+/// The error is 2e-15, relative to the largest field of the same unit.
 fn huber(nu: f64, r: f64, z: f64) -> Six {
     const P0: f64 = 1.5 / PI;
     let [c, s] = spheroidal(r, z);
@@ -112,7 +112,7 @@ fn huber(nu: f64, r: f64, z: f64) -> Six {
     ]
 }
 
-/// The two spheroidal coordinates c and s, neither as a small difference.
+/// The two spheroidal coordinates c and s, computed without cancellation.
 fn spheroidal(r: f64, z: f64) -> [f64; 2] {
     let d = (r - 1.0) * (r + 1.0) + z * z;
     let root = d.hypot(2.0 * z);
@@ -135,7 +135,7 @@ fn arc(s: f64) -> f64 {
     }
 }
 
-/// From here on differences of arcs are taken from their series in 1/s.
+/// Value of s from which differences of arcs are computed from their series in 1/s.
 const FAR_ARCS: f64 = 2.0;
 
 /// T = 1 - s atan(1/s), which falls as 1/(3 s^2).

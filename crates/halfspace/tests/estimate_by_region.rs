@@ -95,7 +95,7 @@ fn draw(region: Region, random: &mut Stream) -> (Medium, [f64; 3]) {
     (medium, [r, z, t])
 }
 
-/// What was found at some points.
+/// Errors and estimates at some points.
 #[derive(Default)]
 struct Found {
     /// Estimate over error, where there is one.

@@ -86,7 +86,7 @@ fn by_cells(
         ends.extend(arrivals.iter().filter(|&&a| a > cell[0] && a < cell[1]));
         ends.sort_by(f64::total_cmp);
         for pair in ends.windows(2) {
-            // beside a front a map that is flat at both ends
+            // near a front a map that is flat at both ends
             let (nodes, bend) = match (ends.len(), count) {
                 (2, 1000) => (4, 0.0),
                 (2, 200) => (12, 0.0),

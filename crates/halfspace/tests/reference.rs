@@ -26,7 +26,7 @@ struct Sample {
     peak: f64,
 }
 
-/// What is left of terms of order one when they cancel, in P/(mu r0) and P/r0^2.
+/// Rounding error of terms of order one that cancel, in P/(mu r0) and P/r0^2.
 const ROUNDING: f64 = 1e-15;
 
 impl Sample {

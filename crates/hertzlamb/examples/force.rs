@@ -1,4 +1,4 @@
-//! The force alone: a ball on granite at several velocities, without a table or a file.
+//! Contact force of a ball on granite at several velocities, without a table or a file.
 //!
 //! `cargo run --release --package hertzlamb --example force`
 

@@ -1,4 +1,4 @@
-//! A point inside: stress and displacement below a strike, with arrivals and errors.
+//! Stress and displacement at points in the block, with arrivals and errors.
 //!
 //! `cargo run --release --package hertzlamb --example inside`
 

@@ -1,4 +1,4 @@
-//! A force that was measured: the fields that it makes, without a striker.
+//! Fields under a measured force, without a striker.
 //!
 //! `cargo run --release --package hertzlamb --example record`
 
@@ -6,7 +6,7 @@ use hertzlamb::prelude::*;
 use std::f64::consts::PI;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    // half a sine to the power 3/2, 100 N and 20 us, as a transducer would give it every 0.2 us
+    // half a sine to the power 3/2, 100 N and 20 us, as sampled by a transducer every 0.2 us
     let time_s: Vec<f64> = (0..=100).map(|i| 2e-7 * f64::from(i)).collect();
     let force_n = time_s
         .iter()

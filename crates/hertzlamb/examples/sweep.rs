@@ -1,4 +1,4 @@
-//! A sweep in memory: 10,000 impacts whose numbers are yours to vary.
+//! A sweep in memory: 10,000 impacts with parameters of your choice.
 //!
 //! `cargo run --release --package hertzlamb --example sweep`
 

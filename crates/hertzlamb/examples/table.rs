@@ -1,4 +1,4 @@
-//! A kernel table made and used: once slow, then fast.
+//! A kernel table: computed once, then used for fast lookups.
 //!
 //! `cargo run --release --package hertzlamb --example table`
 

@@ -4,8 +4,8 @@
 //! use hertzlamb::prelude::*;
 //!
 //! let block = HalfSpace::new(Material::named("steel")?)?;
-//! let ball = Striker::ball(Material::named("copper")?, 0.004)?; // its radius in m
-//! let run = Impact::new(block, ball, 1.0).solve()?;
+//! let ball = Striker::ball(Material::named("copper")?, 0.004)?; // radius in m
+//! let run = Impact::new(block, ball, 1.0).solve()?; // velocity in m/s
 //! let fields = run.excitation().fields(1e-8)?; // tolerance of the kernels
 //! let under = fields.at(0.0, 0.004)?;
 //! println!("{} N, {} Pa", run.peak_force_n, under[Field::StressZz].peak());
@@ -13,20 +13,20 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! | crate | what it is |
+//! | crate | contents |
 //! |---|---|
 //! | [`halfspace`] | exact kernels of the half-space, in reduced units |
-//! | [`contact`] | two bodies and a velocity: force history, rebound, loss |
-//! | [`impact`] | a force on the half-space: fields at points, sections, many impacts |
-//! | [`lookup`] | kernel tables: fields looked up instead of computed |
-//! | [`tabulator`] | making kernel tables |
-//! | [`formats`] | scenes, materials, records, results and sweeps as files |
+//! | [`contact`] | force history, rebound and energy loss of two bodies at a velocity |
+//! | [`impact`] | fields at points and on sections under a force on the half-space; many impacts |
+//! | [`lookup`] | kernel tables: interpolation instead of computation |
+//! | [`tabulator`] | computation of kernel tables |
+//! | [`formats`] | files: scenes, materials, force records, results and sweeps |
 //!
-//! `formats`, `tabulator` and the files of `lookup` come with the default feature `hdf5`; without it no C library is needed, and
-//! the rest builds for `wasm32-unknown-unknown`.
+//! The default feature `hdf5` includes `formats`, `tabulator` and the files of `lookup`. Without it the crate needs no C
+//! library and also builds for `wasm32-unknown-unknown`.
 //!
-//! The programs in `examples/` show the force alone, a point inside, a table made and used, a sweep in memory, and
-//! a force that was measured.
+//! The programs in `examples/` show the contact force alone, a point in the block, a kernel table, a sweep in memory, and
+//! a measured force.
 #![cfg_attr(doctest, doc = include_str!("../README.md"))]
 #![warn(missing_docs)]
 
@@ -34,7 +34,7 @@ pub use {contact, halfspace, impact, lookup};
 #[cfg(feature = "hdf5")]
 pub use {formats, tabulator};
 
-/// What most programs need.
+/// Types and functions that most programs need.
 pub mod prelude {
     pub use contact::{Choice, HalfSpace, Library, Material, Model, Results, Settings, Striker};
     #[cfg(feature = "hdf5")]

@@ -1,4 +1,4 @@
-//! What must hold for every impact: momentum, energy, scaling, limits.
+//! Identities of every impact: momentum, energy, scaling, limits.
 
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 

@@ -22,17 +22,26 @@ use halfspace::Medium;
 /// Contact radii within which the fields are not those of a yielding block.
 const CLOSE: f64 = 2.0;
 
-/// Computes a scene.
+/// Computes a scene: contact, time series, and fields at its probes and on its section.
+///
+/// There is no limit on its memory; [`simulate_within`] has one.
+///
+/// # Errors
+/// [`ImpactError`]:
+/// - the contact has no solution, or a result is not finite;
+/// - the table cannot be loaded, or a point is outside it and `kernels` is [`KernelChoice::Table`];
+/// - a point or frame lies outside the domain of the fields, or a force record has no disc or one that is too large;
+/// - the output has too many samples.
 pub fn simulate(scene: &Scene, kernels: &KernelChoice) -> Result<Outcome, ImpactError> {
     simulate_within(scene, kernels, &Allowance::default())
 }
 
-/// Computes a scene that takes no more than it may.
+/// Computes a scene within limits of memory and work.
 ///
-/// What it takes is forecast twice: from the scene alone, before the contact is solved, and before the fields.
+/// Both are forecast twice: from the scene alone, before the contact is solved, and again before the fields.
 ///
 /// # Errors
-/// [`ImpactError`]; too much memory or work is refused before anything long is begun.
+/// As [`simulate`], and [`ImpactError::TooMuchMemory`] or [`ImpactError::GivenUp`] before the long part of the work starts.
 pub fn simulate_within(
     scene: &Scene,
     kernels: &KernelChoice,

@@ -1,4 +1,4 @@
-//! One trace of six fields and 300 cells off the grid, beside a plain copy of the bytes that it reads.
+//! One trace of six fields and 300 cells between the nodes, compared with a plain copy of the bytes that it reads.
 //!
 //! `cargo bench -p hertzlamb-lookup --bench trace`
 

@@ -1,9 +1,9 @@
-//! Relative errors that were measured off the grid, field by field, on slices and between them.
+//! Relative errors measured between the nodes of the grid, by field, on slices and between them.
 
 use crate::content::{Content, FIELDS, Verification};
 use halfspace::Field;
 
-/// Quantiles of the relative error: the largest error in time over the largest exact response in time, place by place.
+/// Quantiles over places of the relative error: the largest error in time over the largest exact response in time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Quantiles {
     /// Median.
@@ -19,14 +19,14 @@ pub struct Quantiles {
 pub struct Accuracy {
     /// Length of the pulse in r0/c1.
     pub pulse_length: f64,
-    /// At the centres of all meshes of all slices.
+    /// Errors at the centres of all meshes of all slices.
     pub on_slices: [Quantiles; 6],
-    /// In the middle between neighbouring slices; none in a table without such places.
+    /// Errors midway between neighbouring slices; none for a table without such probes.
     pub between_slices: Option<[Quantiles; 6]>,
 }
 
 impl Content {
-    /// The errors measured, for each of [`Self::pulse_lengths`]; places where a field is zero throughout say nothing.
+    /// Measured errors, for each of [`Self::pulse_lengths`]; places where a field is always zero are skipped.
     ///
     /// The content must be one that [`crate::Table::new`] accepts.
     pub fn accuracy(&self) -> Vec<Accuracy> {
@@ -49,7 +49,7 @@ impl Content {
     }
 }
 
-/// The `fraction` quantile of ascending values, the nearest of them; zero for none.
+/// The value nearest to the `fraction` quantile of ascending values; zero for an empty list.
 ///
 /// ```
 /// assert_eq!(lookup::quantile(&[1.0, 2.0, 3.0, 10.0, 20.0], 0.5), 3.0);
@@ -60,7 +60,7 @@ pub fn quantile(ascending: &[f64], fraction: f64) -> f64 {
     ascending.get(index).copied().unwrap_or(0.0)
 }
 
-/// Quantiles over the entries `first`, `first + every`, ... of all that was measured.
+/// Quantiles over the entries `first`, `first + every`, ... of all verifications.
 fn quantiles(measured: &[&Verification], first: usize, every: usize) -> Quantiles {
     let mut errors: Vec<f64> = measured
         .iter()

@@ -1,4 +1,4 @@
-//! The error estimate of a looked-up response, from errors measured off the grid.
+//! Error estimate of a looked-up response, from errors measured between the nodes of the grid.
 
 use crate::content::{Between, Content, FIELDS, Verification};
 use crate::error::LookupError;
@@ -7,37 +7,38 @@ use crate::table::Table;
 use halfspace::{DomainError, Six};
 use std::ops::Range;
 
-/// Factor from the error measured at the centre of a mesh to the estimate for every point of it.
+/// Factor from the error measured at the centre of a mesh to the estimate for all its points.
 ///
-/// The Lagrange error is largest near the centre, but not exactly there, and near the disc edge and where
-/// sharp fronts pass it varies within a mesh.
+/// The error of Lagrange interpolation is largest near the centre, but not exactly there; near the edge of the disc and
+/// at sharp fronts it varies within a mesh.
 pub const SAFETY: f64 = 2.3;
 
-/// Further factor on the surface and just below it, [`SURFACE_FRACTION`] of the first mesh: there the nodes are all on one side,
-/// and what the depth smooths at the centre of a mesh is not smoothed.
+/// Additional factor at the surface and in the upper [`SURFACE_FRACTION`] of the first mesh: all nodes lie on one side
+/// there, and the fields are less smooth than at the depth of the centre of the mesh.
 const AT_SURFACE: f64 = 3.0;
 
 /// Fraction of the first mesh below the surface that counts as the surface.
 const SURFACE_FRACTION: f64 = 0.25;
 
-/// Factor from the error measured in the middle between two slices, at places farther apart than the nodes.
+/// Factor from the error measured midway between two slices to the estimate; these probes are farther apart than the
+/// nodes.
 pub const SAFETY_BETWEEN: f64 = 2.3;
 
-/// Estimates never go below this fraction of the peak of a field: the rounding of stored values.
+/// Smallest estimate as a fraction of the peak of a field: the rounding of stored values.
 const STORED_ROUNDING: f64 = 6e-8;
 
-/// Where errors were measured: a grid of places for one set of numbers.
+/// Grid of places where the errors of one slice, or between two slices, were measured.
 pub(crate) struct Measured<'a> {
     content: &'a Content,
     probes: &'a Verification,
     depths: usize,
-    /// From what was measured to the estimate.
+    /// Factor from the measured error to the estimate.
     factor: f64,
 }
 
 impl<'a> Measured<'a> {
-    /// What interpolation between slices at `coordinates` adds to the error, from what was measured in the middle between two
-    /// of them: [`SAFETY_BETWEEN`] times that, in proportion to the node polynomial.
+    /// Error of the interpolation between slices at `coordinates`: [`SAFETY_BETWEEN`] times the error measured midway
+    /// between two of them, in proportion to the node polynomial.
     pub(crate) fn between(
         content: &'a Content,
         between: &'a Between,
@@ -57,7 +58,7 @@ impl<'a> Measured<'a> {
         })
     }
 
-    /// The places between slices around a point.
+    /// Index ranges in r and z of the measured places around a point.
     pub(crate) fn around(&self, [r, z]: [f64; 2]) -> [Range<usize>; 2] {
         [
             corners(&self.content.between_r, r),
@@ -65,7 +66,8 @@ impl<'a> Measured<'a> {
         ]
     }
 
-    /// The estimate of a field from the largest error among the places `across` by `down`, for the pulse of index `pulse`.
+    /// Estimate for a field and the pulse with index `pulse`, from the largest error among the places `across` and
+    /// `down`.
     pub(crate) fn most(
         &self,
         [across, down]: &[Range<usize>; 2],
@@ -93,14 +95,17 @@ impl<'a> Measured<'a> {
 impl Table {
     /// Estimated absolute error of each field, for a force of unit peak and length `pulse_length`.
     ///
-    /// The largest of the errors measured at the centres of the mesh that holds the point and of its
-    /// neighbours, times [`SAFETY`], three times that at the surface; between slices the larger of the two beside and, times
-    /// [`SAFETY_BETWEEN`], what was measured in the middle between them, in proportion to the node
-    /// polynomial. Interpolated in the length of the pulse; pulses longer or shorter than any measured take
-    /// the value of the nearest one. Units as the fields.
+    /// On a slice: the largest error measured at the centres of the point's mesh and of its neighbours, times
+    /// [`SAFETY`], and
+    /// three times as much at the surface. Between slices: the larger estimate of the two neighbouring slices, or
+    /// [`SAFETY_BETWEEN`]
+    /// times the error measured midway between them, in proportion to the node polynomial, if that is larger.
+    ///
+    /// The estimate is interpolated in the length of the pulse; for pulses longer or shorter than all measured ones it
+    /// is that of the nearest. Units are those of the fields.
     ///
     /// # Errors
-    /// [`LookupError`] outside the table or for a length that is not positive.
+    /// [`LookupError`] outside the table, or for a length that is not positive.
     pub fn error(
         &self,
         poisson_ratio: f64,
@@ -116,7 +121,7 @@ impl Table {
         Ok(self.errors(poisson_ratio, r, z)?.under(pulse_length))
     }
 
-    /// [`Self::error`] for pulses of any length.
+    /// [`Self::error`] as a function of the length of the pulse.
     ///
     /// # Errors
     /// [`LookupError`] outside the table.
@@ -134,7 +139,7 @@ impl Table {
         Ok(PulseErrors { lengths, each })
     }
 
-    /// The estimate for one of the pulses that were measured.
+    /// Estimate for one of the measured pulses.
     fn measured(
         &self,
         poisson_ratio: f64,
@@ -163,7 +168,7 @@ impl Table {
         }
         if slices.len() > 1 {
             let Some(between) = ratio::between(content, &self.served, poisson_ratio) else {
-                // Nothing was measured here, so nothing is known.
+                // nothing was measured here: the error is unknown
                 return Ok([f64::INFINITY; FIELDS]);
             };
             let coordinates = slices.iter().map(|&(i, _)| self.served[i].coordinate);
@@ -188,7 +193,7 @@ pub struct PulseErrors<'a> {
 }
 
 impl PulseErrors<'_> {
-    /// Those for a pulse of some length in r0/c1, which is positive.
+    /// Errors for a pulse of a positive length in r0/c1.
     pub fn under(&self, pulse_length: f64) -> Six {
         let (lower, fraction) = bracket(self.lengths, pulse_length);
         let (short, long) = (
@@ -201,24 +206,24 @@ impl PulseErrors<'_> {
         std::array::from_fn(|f| short[f].powf(1.0 - fraction) * long[f].powf(fraction))
     }
 
-    /// Lengths of the pulses that were measured, in r0/c1, with the errors for each.
+    /// Lengths of the measured pulses in r0/c1, with the errors for each.
     pub fn measured(&self) -> impl Iterator<Item = (f64, Six)> {
         self.lengths.iter().copied().zip(self.each.iter().copied())
     }
 }
 
-/// A mesh and its neighbours, of `count` meshes.
+/// Index range of a mesh and its neighbours, of `count` meshes.
 fn around(index: usize, count: usize) -> Range<usize> {
     index.saturating_sub(1)..(index + 2).min(count)
 }
 
-/// The places on both sides of `x`; the nearest one beyond the first or last.
+/// Index range of the places on both sides of `x`; the nearest place if `x` is before the first or after the last.
 fn corners(places: &[f64], x: f64) -> Range<usize> {
     let above = places.partition_point(|&place| place < x);
     above.saturating_sub(1)..(above + 1).min(places.len())
 }
 
-/// Position of `length` among the measured lengths: index below and weight of the one above, in logarithms.
+/// Position of `length` among the measured lengths: index of the length below, and logarithmic weight of the one above.
 fn bracket(lengths: &[f64], length: f64) -> (usize, f64) {
     let last = lengths.len() - 1;
     if length <= lengths[0] {

@@ -1,4 +1,4 @@
-//! What a kernel table consists of, before it is a file and after it was read.
+//! Content of a kernel table, in memory.
 
 use crate::schema;
 use std::ops::Range;
@@ -6,20 +6,20 @@ use std::ops::Range;
 /// Number of fields.
 pub(crate) const FIELDS: usize = 6;
 
-/// The whole content of a table. Arrays are row-major in the order of the dimensions named.
+/// The whole content of a table. Arrays are row-major, in the order of the dimensions given.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Content {
-    /// Where the numbers come from.
+    /// Settings and program that made the table.
     pub origin: Origin,
-    /// Radial nodes from 0, ascending, in r0, a few of them beyond `r_max` for the stencils there.
+    /// Radial nodes in r0, ascending from 0; a few lie beyond `r_max`, for the stencils near it.
     pub r: Vec<f64>,
-    /// Depth nodes from 0, ascending, in r0, a few of them beyond `z_max`.
+    /// Depth nodes in r0, ascending from 0; a few lie beyond `z_max`.
     pub z: Vec<f64>,
-    /// Largest radius served, a node.
+    /// Largest distance from the axis that can be looked up, in r0; one of the nodes.
     pub r_max: f64,
-    /// Largest depth served, a node.
+    /// Largest depth that can be looked up, in r0; one of the nodes.
     pub z_max: f64,
-    /// Width of a time cell in r0/c1 at nu = 0.3; that of a slice is in proportion to its Rayleigh slowness,
+    /// Width of a time cell in r0/c1 at nu = 0.3; the width of a slice is proportional to its Rayleigh slowness,
     /// see [`crate::cell_scale`].
     pub cell_width: f64,
     /// Interpolation points along each axis.
@@ -36,38 +36,38 @@ pub struct Content {
     pub between: Vec<Between>,
 }
 
-/// Who made a table, with which settings.
+/// Settings and program that made a table.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Origin {
-    /// The resolved grid as TOML: all settings that the numbers depend on.
+    /// The grid with all defaults as TOML: every setting that the numbers depend on.
     pub grid: String,
     /// Version of the format of the file that was read; [`crate::schema::FORMAT_VERSION_VALUE`] for a new table.
     pub format_version: String,
     /// Version of the program.
     pub software_version: String,
-    /// Revision of the numbers that the program computes; 1 where a file does not say.
+    /// Revision of the numbers that the program computes; 1 for files without one.
     pub numbers_revision: u64,
     /// Git revision of the program, or `unknown`.
     pub git_revision: String,
     /// Creation time in seconds since 1970; not part of the content hash.
     pub created_unix_s: u64,
-    /// Tolerance asked of the exact kernels.
+    /// Requested tolerance of the exact kernels.
     pub accuracy_asked: f64,
     /// 99 % quantile of the relative error of the worst field, for each pulse length; see [`Content::accuracy`].
     pub accuracy_reached: Vec<f64>,
 }
 
-/// Whom a slice serves.
+/// Role of a slice in lookups.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Role {
-    /// Its own ratio and, with its neighbours, those between them.
+    /// Serves its own ratio and takes part in interpolation between ratios.
     Grid,
-    /// Its own ratio alone.
+    /// Serves its own ratio only.
     Exact,
 }
 
 impl Role {
-    /// The name in the file.
+    /// Name in the file.
     pub fn name(self) -> &'static str {
         match self {
             Self::Grid => "grid",
@@ -88,7 +88,7 @@ impl Role {
 pub struct Slice {
     /// Poisson's ratio.
     pub poisson_ratio: f64,
-    /// Whom the slice serves.
+    /// Role of the slice in lookups.
     pub role: Role,
     /// Number of time cells; the first starts at 0.
     pub cells: usize,
@@ -100,29 +100,29 @@ pub struct Slice {
     pub curvature: Vec<f32>,
     /// Coefficients of the tail, shape (r, z, field, term); see `docs/theory.md` (T21).
     pub tail: Vec<f32>,
-    /// What was measured off the grid.
+    /// Errors measured between the nodes of the grid.
     pub verification: Verification,
 }
 
-/// What was measured in the middle between two slices.
+/// Errors measured midway between two slices.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Between {
     /// Poisson's ratio of the probes.
     pub poisson_ratio: f64,
-    /// Measured at [`Content::between_r`] and [`Content::between_z`], shape (r, z, pulse, field).
+    /// Errors at [`Content::between_r`] and [`Content::between_z`], shape (r, z, pulse, field).
     pub verification: Verification,
 }
 
 /// Exact and looked-up responses at probes, shape (r, z, pulse, field).
 ///
-/// The probes of a slice are the centres of the grid's meshes.
+/// The probes of a slice are the centres of the meshes of the grid.
 ///
 /// The force is sin^4(pi t/T) on [0, T] with unit peak.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Verification {
     /// Peak in time of the exact response, with its sign.
     pub direct: Vec<f32>,
-    /// Looked-up response at the instant of that peak.
+    /// Looked-up response at the time of that peak.
     pub looked_up: Vec<f32>,
     /// Largest difference in time between the two.
     pub error: Vec<f32>,
@@ -155,7 +155,7 @@ impl Verification {
         ]
     }
 
-    /// Appends some of the entries of another.
+    /// Appends a range of the entries of another verification.
     pub fn extend(&mut self, other: &Self, entries: Range<usize>) {
         let from = entries.clone();
         self.direct.extend_from_slice(&other.direct[from.clone()]);
@@ -165,7 +165,7 @@ impl Verification {
 }
 
 impl Content {
-    /// Radii and depths of the probes of a slice: centres of the meshes that are served.
+    /// Radii and depths of the probes of a slice: the centres of all meshes up to `r_max` and `z_max`.
     pub fn probes(&self) -> [Vec<f64>; 2] {
         [centres(&self.r, self.r_max), centres(&self.z, self.z_max)]
     }

@@ -1,14 +1,15 @@
-//! What can be wrong with the content of a table, and what can be wrong with a question to it.
+//! Errors of the content of a table, and of lookups in it.
 
 use fault::{Class, Culprit, Fault};
 use halfspace::DomainError;
 use thiserror::Error;
 
-/// Numbers that are no table; a file's error ([`TableError`](crate::TableError)) adds the path.
+/// Invalid content of a table; the error of a file, [`TableError`](crate::TableError), adds the path.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum ContentError {
-    /// A list has another length than the axes demand, or a value may not be there: where and what is allowed.
+    /// A list whose length does not fit the axes, or a value that is not allowed; the message contains the place and
+    /// the allowed range.
     #[error("{0}")]
     Wrong(String),
     /// Poisson's ratio of a slice is outside the physics.
@@ -16,17 +17,17 @@ pub enum ContentError {
     Domain(#[from] DomainError),
 }
 
-/// The error of a list that has another length than the axes demand.
+/// Error of a list whose length does not fit the axes.
 pub(crate) fn shape(item: &str, needed: usize, found: usize) -> ContentError {
     ContentError::Wrong(format!("{item} has {found} values, needed {needed}"))
 }
 
-/// The error of a value of a dataset or an attribute that may not be there.
+/// Error of a value of a dataset or attribute that is not allowed.
 pub(crate) fn value(item: &str, value: f64, range: &str) -> ContentError {
     ContentError::Wrong(format!("{item} = {value}, allowed: {range}"))
 }
 
-/// A question that a table cannot answer.
+/// A lookup outside the range of a table.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum LookupError {
@@ -35,38 +36,38 @@ pub enum LookupError {
     Outside {
         /// `r/r0`, `z/r0` or `poisson_ratio`.
         axis: &'static str,
-        /// The value asked for.
+        /// Requested value.
         value: f64,
-        /// Smallest and largest value that the table serves.
+        /// Smallest and largest value in the table.
         limits: [f64; 2],
     },
-    /// Time cells beyond anything that a table can hold.
+    /// Time cells wider than any table can have.
     #[error("coarsening = {value} is outside [0, {max}]")]
     Coarsening {
-        /// The value asked for.
+        /// Requested value.
         value: u32,
         /// Largest value allowed.
         max: u32,
     },
-    /// The slices for the results of a batch do not fit the points.
+    /// The output slices of a batch do not fit the points.
     #[error(
-        "{points} points with memory for {infos} results and {cells} cells: needed as many results as points and a multiple of cells"
+        "{points} points with room for {infos} results and {cells} cells: needed are {points} results and a multiple of {points} cells"
     )]
     Lengths {
-        /// Points asked for.
+        /// Number of points.
         points: usize,
-        /// Places for their results.
+        /// Length of `infos`.
         infos: usize,
-        /// Places for all their cells.
+        /// Length of `cells`.
         cells: usize,
     },
-    /// The pulse of an error estimate has no length.
+    /// The pulse of an error estimate has no positive length.
     #[error("pulse_length = {value} is outside (0, inf)")]
     PulseLength {
-        /// The value asked for.
+        /// Requested value.
         value: f64,
     },
-    /// The static field cannot be computed there.
+    /// The static field is not defined at the point.
     #[error(transparent)]
     Domain(#[from] DomainError),
 }

@@ -1,12 +1,13 @@
-//! Identity of the settings and checksum of the content.
+//! Hash of the settings, and checksum of the content.
 
 use crate::content::Content;
 use crate::schema;
 use sha2::{Digest, Sha256};
 
-/// Identity of a table: the first 16 hexadecimal digits of SHA-256 over the major format version and the resolved grid.
+/// Id of a table: the first 16 hexadecimal digits of SHA-256 over the major format version and the grid with all
+/// defaults.
 ///
-/// Two tables with the same id were made with the same settings, whatever the machine or the date.
+/// Two tables with the same id were made with the same settings, independent of machine and date.
 pub fn settings_id(grid: &str) -> String {
     let mut hash = Sha256::new();
     hash.update(schema::MAJOR_READ.to_string().as_bytes());
@@ -17,9 +18,9 @@ pub fn settings_id(grid: &str) -> String {
     id
 }
 
-/// SHA-256 over everything in a table except the creation time, the software version and the revision.
+/// SHA-256 over the content of a table, except the creation time, the software version and the revision.
 ///
-/// Numbers enter as little-endian bytes, lengths and texts before them, in the order of [`Content`].
+/// Numbers enter as little-endian bytes, preceded by lengths and texts, in the order of [`Content`].
 pub fn content_hash(content: &Content) -> String {
     let mut hash = Sha256::new();
     hash.update(content.origin.grid.as_bytes());

@@ -1,26 +1,26 @@
-//! Kernel tables of the elastic half-space: the file format, loading, interpolation, error estimate.
+//! Kernel tables of the elastic half-space: file format, loading, interpolation and error estimates.
 //!
-//! A table holds, for a few Poisson ratios and a grid of points (r, z), the remainder R of the step
-//! response (step response minus static field) averaged over time cells, and a series for the decay
-//! after its last cell. The static field is closed form and is added exactly, so that the response
-//! to a force P(t) that is linear between samples one cell apart is
+//! For several Poisson ratios and a grid of points (r, z) a table contains the remainder R of the step response (step
+//! response minus static field) averaged over time cells, and a series for the decay after the last cell. The static
+//! field has a closed form and is added exactly. The response to a force P(t) that is linear between samples one cell
+//! apart is
 //!
 //! ```text
 //! u_n = P_n u_static + sum_m (P_m - P_{m-1}) Rbar_{n-m}
 //! ```
 //!
-//! Everything is reduced: lengths by the disc radius r0, times by r0/c1, displacements by P/(mu r0),
+//! All quantities are reduced: lengths by the disc radius r0, times by r0/c1, displacements by P/(mu r0),
 //! stresses by P/r0^2; z points into the body and compression is negative stress.
 //! The six fields are in the order of [`halfspace::FIELDS`]: u, w, srr, stt, szz, srz.
 //!
 //! # Features
 //!
-//! - `hdf5` (default): the file of a table. Without it a table lives in memory, and no C library is needed.
-//! - `static`: the HDF5 library that comes with its binding, instead of the system's.
+//! - `hdf5` (default): tables on disk. Without it tables exist in memory only, and no C library is needed.
+//! - `static`: the HDF5 library that its Rust binding bundles, instead of the system's.
 //!
 //! # A table in memory
 //!
-//! What a table holds is a [`Content`]; a [`Table`] is a valid one that answers questions.
+//! [`Content`] is the data of a table; [`Table`] is validated content that can be looked up.
 //!
 //! ```
 //! use lookup::{Content, Origin, Role, Slice, Smoothness, Table, Verification};

@@ -1,16 +1,16 @@
-//! Response to a smooth pulse, the yardstick of every error in a table.
+//! Response to a smooth pulse, the reference for every error in a table.
 
 use halfspace::Six;
 use std::f64::consts::{PI, TAU};
 
-/// The pulse P(t) = sin^4(pi t/T) on [0, T] with unit peak, taken linear between samples one cell apart.
+/// Response to the pulse P(t) = sin^4(pi t/T) on [0, T] of unit peak, taken as linear between samples one cell apart.
 ///
 /// ```text
 /// u_n = P_n u_static + sum_m (P_m - P_{m-1}) Rbar_{n-m},   P_m - P_{m-1} = Re sum_{k=1,2} A_k e^{2 pi i k m/M}
 /// ```
 ///
-/// Each exponential makes the sum a running one, so a response costs a few operations a sample
-/// whatever the length of the pulse.
+/// With exponentials the sum becomes a running sum, so that a response costs a few operations per sample, independent
+/// of the length of the pulse.
 #[derive(Debug, Clone)]
 pub struct PulseSum {
     cells: usize,
@@ -19,7 +19,7 @@ pub struct PulseSum {
 }
 
 impl PulseSum {
-    /// The pulse whose length is `length`, rounded to whole cells of `width` (at least two).
+    /// The pulse of length `length`, rounded to whole cells of `width` (at least two).
     pub fn new(length: f64, width: f64) -> Self {
         let cells = ((length / width).round() as usize).max(2);
         let angles = [1.0, 2.0].map(|k| TAU * k / cells as f64);
@@ -41,9 +41,10 @@ impl PulseSum {
         angle.sin().powi(4)
     }
 
-    /// Responses at the times 0, 1, 2, ... cells, one for each entry of `cells`.
+    /// Responses at the times 0, 1, 2, ... in cell widths, one for each entry of `cells`.
     ///
-    /// `static_part` zero and `cells` a difference of two traces gives the difference of their responses.
+    /// For `static_part` zero and the difference of two traces as `cells`, the result is the difference of their
+    /// responses.
     pub fn response(&self, static_part: &Six, cells: &[Six]) -> Vec<Six> {
         let mut sums = [[[0.0; 2]; 6]; 2];
         let mut out = Vec::with_capacity(cells.len());
@@ -58,7 +59,7 @@ impl PulseSum {
                     let [c, s] = self.turn[k];
                     let [a, b] = self.amplitude[k];
                     for (f, sum) in field.iter_mut().enumerate() {
-                        // A cell leaves with phase M + 1 turns, which is one turn.
+                        // a cell leaves with a phase of M + 1 turns, equal to one turn
                         let re = sum[0] + entering[f] - leaving[f];
                         let im = sum[1];
                         *sum = [c * re - s * im, s * re + c * im];

@@ -6,17 +6,17 @@ use crate::series::stencil::{Stencil, locate};
 use halfspace::{DomainError, Medium};
 use std::sync::LazyLock;
 
-/// Slices that take part.
+/// Number of slices that take part.
 const SLICES_USED: usize = 8;
-/// Two ratios closer than this are the same slice.
+/// Largest difference of two ratios that count as the same slice.
 const SAME_RATIO: f64 = 1e-12;
-/// Poisson's ratio whose cells have the width that a table states.
+/// Poisson's ratio at which the time cells have the width stated in a table.
 const REFERENCE: f64 = 0.3;
 
 /// Width of a time cell of a slice over that at nu = 0.3: c_R(0.3)/c_R(nu).
 ///
-/// At a fixed place the Rayleigh wave then comes in the same cell whatever the ratio, and the shear wave
-/// almost, so that interpolation between slices meets fronts that stand still.
+/// At a fixed place the Rayleigh wave then arrives in the same cell for every ratio, and the shear wave nearly so:
+/// fronts do not move between slices, and interpolation between them is accurate.
 ///
 /// # Errors
 /// [`DomainError`] for a ratio outside (-1, 0.5).
@@ -24,17 +24,17 @@ pub fn cell_scale(poisson_ratio: f64) -> Result<f64, DomainError> {
     scale(&Medium::new(poisson_ratio)?)
 }
 
-/// [`cell_scale`] of a half-space.
+/// [`cell_scale`] for a half-space.
 pub(crate) fn scale(medium: &Medium) -> Result<f64, DomainError> {
     static MEDIUM: LazyLock<Result<Medium, DomainError>> = LazyLock::new(|| Medium::new(REFERENCE));
     Ok(MEDIUM.as_ref().map_err(Clone::clone)?.rayleigh_speed() / medium.rayleigh_speed())
 }
 
-/// Coordinate in which slices are interpolated: nu/5 - c_R/c1, ascending in nu.
+/// Coordinate of the interpolation between slices: nu/5 - c_R/c1, ascending in nu.
 ///
-/// Measured over nu = 0 .. 0.45, in the middle between slices, for pulses of 40 r0/c1 at ten places to 5.5 r0,
-/// p99 of error over the peak in time (`tabulator`, example `ratios`), 9 slices: 5e-5 so; 4e-4 in
-/// c1/c_R + nu; 2e-4 in nu; 2e-3 where the cells of all slices are equally wide in r0/c1.
+/// 99th percentile of the error over the peak in time, measured midway between 9 slices over nu = 0 .. 0.45, for pulses
+/// of 40 r0/c1 at ten places to 5.5 r0 (`tabulator`, example `ratios`): 5e-5 with this coordinate; 4e-4 with c1/c_R +
+/// nu; 2e-4 with nu; 2e-3 if the cells of all slices have the same width in r0/c1.
 ///
 /// # Errors
 /// [`DomainError`] for a ratio outside (-1, 0.5).
@@ -42,7 +42,7 @@ pub fn ratio_coordinate(poisson_ratio: f64) -> Result<f64, DomainError> {
     Ok(0.2 * poisson_ratio - Medium::new(poisson_ratio)?.rayleigh_speed())
 }
 
-/// A slice as far as Poisson's ratio goes.
+/// Poisson's ratio and role of a slice.
 #[derive(Debug, Clone)]
 pub(crate) struct Served {
     pub(crate) ratio: f64,
@@ -63,10 +63,11 @@ impl Served {
     }
 }
 
-/// Slices of `slices` that serve a Poisson ratio, with their weights: one if it is tabulated, else Lagrange's.
+/// Indices of the slices for a Poisson ratio with their weights: a single slice if the ratio is tabulated, otherwise
+/// the slices of a Lagrange interpolation.
 ///
 /// # Errors
-/// [`LookupError::Outside`] outside the slices that interpolate, and for NaN.
+/// [`LookupError::Outside`] outside the range of the interpolated slices, and for NaN.
 pub(crate) fn weights(
     slices: &[Served],
     poisson_ratio: f64,
@@ -85,7 +86,7 @@ pub(crate) fn weights(
         let range = [min, max];
         return Err(LookupError::outside("poisson_ratio", poisson_ratio, range));
     }
-    // rounding of the coordinate must not take the point outside
+    // rounding of the coordinate must not move the point outside
     let place =
         ratio_coordinate(poisson_ratio)?.clamp(coordinates[0], coordinates[coordinates.len() - 1]);
     let interval = locate(&coordinates, place).unwrap_or(0);
@@ -94,7 +95,8 @@ pub(crate) fn weights(
     Ok(nodes.zip(stencil.even().iter().copied()).collect())
 }
 
-/// The slices beside a ratio, below and above, of those that serve it with weights: one that is tabulated twice.
+/// The nearest slices below and above a ratio, of those that have weights for it; twice the same if the ratio is
+/// tabulated.
 pub(crate) fn beside(
     slices: &[Served],
     weights: &[(usize, f64)],
@@ -105,13 +107,13 @@ pub(crate) fn beside(
     [index(above.saturating_sub(1)), index(above)]
 }
 
-/// What was measured between the slices around a ratio.
+/// Errors measured between the two slices around a ratio.
 pub(crate) fn between<'a>(
     content: &'a Content,
     slices: &[Served],
     poisson_ratio: f64,
 ) -> Option<&'a Between> {
-    // the neighbouring slices that interpolate, below or equal and above
+    // the neighbouring interpolated slices: below or equal, and above
     let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
     for slice in slices.iter().filter(|slice| slice.role == Role::Grid) {
         if slice.ratio <= poisson_ratio {

@@ -1,4 +1,4 @@
-//! A kernel table in memory: validated once, immutable, shared by any number of threads.
+//! Kernel table in memory: validated once, immutable, shared by any number of threads.
 
 use crate::content::Content;
 use crate::error::{ContentError, LookupError};
@@ -8,14 +8,15 @@ use crate::{hash, validate};
 
 /// A loaded kernel table.
 ///
-/// Reads take no lock and change nothing: share it by reference or in an `Arc`.
+/// Lookups take no lock and change nothing: share a table by reference or in an `Arc`.
 #[derive(Debug)]
 pub struct Table {
     content: Content,
     id: String,
-    /// The slices as far as Poisson's ratio goes.
+    /// Poisson's ratios and roles of the slices.
     pub(crate) served: Vec<Served>,
-    /// Meshes served in r and z: the first, and behind the last.
+    /// Indices in r and z of the first mesh, and after the last one, that can be looked up; the first is not 0 for some
+    /// parts.
     first: [usize; 2],
     pub(crate) meshes: [usize; 2],
     decoded_bytes: u64,
@@ -23,18 +24,19 @@ pub struct Table {
 }
 
 impl Table {
-    /// Accepts `content` as a table.
+    /// A table with this content.
     ///
     /// # Errors
-    /// [`ContentError`] when an axis does not ascend, a size does not fit or a value is not finite.
+    /// [`ContentError`] if an axis does not ascend, a list has the wrong length, or a value is not finite.
     pub fn new(content: Content) -> Result<Self, ContentError> {
         validate::frame(&content)?;
         let reach = [content.r_max, content.z_max];
         Self::part(content, [0; 2], 0, reach)
     }
 
-    /// Accepts `content`, whose frame is valid, as a part that serves the meshes from the `first` on in r and z, of a table that
-    /// reaches to `reach`.
+    /// A table with a part of the content of another: the meshes from `first` on in r and z, of a table that ends at
+    /// `reach`.
+    /// The frame of `content` is valid.
     pub(crate) fn part(
         content: Content,
         first: [usize; 2],
@@ -57,22 +59,22 @@ impl Table {
         })
     }
 
-    /// Identity of the settings that the table was made with: 16 hexadecimal digits.
+    /// Hash of the settings of the table, 16 hexadecimal digits.
     pub fn id(&self) -> &str {
         &self.id
     }
 
-    /// Bytes of numbers that were decoded to load it as a part of a file: what loading took; 0 of any other table.
+    /// Bytes of numbers that were decoded to load this part of a file; 0 for any other table.
     pub fn decoded_bytes(&self) -> u64 {
         self.decoded_bytes
     }
 
-    /// Largest r and z in r0 of the table, of all of it where this is a part.
+    /// Largest r and z of the table in r0; for a part, of the whole table.
     pub fn reach(&self) -> [f64; 2] {
         self.reach
     }
 
-    /// Poisson ratios tabulated, ascending.
+    /// Tabulated Poisson ratios, ascending.
     pub fn poisson_ratios(&self) -> Vec<f64> {
         self.served.iter().map(|slice| slice.ratio).collect()
     }
@@ -85,17 +87,17 @@ impl Table {
         Ok(self.content.cell_width * cell_scale(poisson_ratio)?)
     }
 
-    /// Everything that the table holds.
+    /// Content of the table.
     pub fn content(&self) -> &Content {
         &self.content
     }
 
-    /// Gives the content back.
+    /// Converts the table to its content.
     pub fn into_content(self) -> Content {
         self.content
     }
 
-    /// The mesh that holds a point.
+    /// Index in r and z of the mesh that contains a point.
     ///
     /// # Errors
     /// [`LookupError::Outside`].

@@ -1,4 +1,4 @@
-//! The remainder at any point of a table: interpolated cells, tail, exact static part, error estimate.
+//! Remainder at any point of a table: interpolated cells, tail, exact static part and error estimate.
 
 use crate::content::Slice;
 use crate::error::LookupError;
@@ -12,35 +12,35 @@ use halfspace::{Medium, Profile, Six};
 /// Largest coarsening: a cell of 2^20 table cells.
 const MAX_COARSENING: u32 = 20;
 
-/// Ratio of the width of cells to that of the table's from which on the averages of the table's cells alone make up their
-/// moments: what is lost of a front within a cell of the table is below a thousandth of its height, and counts by the square of
-/// the step over the length of the force. `wide_cells_need_averages_alone` fails below 8.
+/// Ratio of cell width to that of the table above which the moments are computed from the averages of the table's cells
+/// alone. A front within a cell of the table then loses less than a thousandth of its height, and the loss is weighted
+/// with the square of the time step over the length of the force. `wide_cells_need_averages_alone` fails below 8.
 const COARSE: f64 = 16.0;
 
-/// What comes with the cells of a trace.
+/// Static part, cell width and error of a trace.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct TraceInfo {
-    /// Static field under a unit force, closed form.
+    /// Static field under a unit force, in closed form.
     pub static_part: Six,
-    /// Width of the cells filled, in r0/c1.
+    /// Width of the cells of the trace in r0/c1.
     pub cell_width: f64,
-    /// Estimated absolute error of the response to a unit-peak pulse ten cells long; longer pulses
-    /// have less, see [`Table::error`].
+    /// Estimated absolute error of the response to a pulse of unit peak that is ten cells long; it is smaller for
+    /// longer pulses, see [`Table::error`].
     pub error: Six,
 }
 
 impl Table {
-    /// Fills `cells[j]` with the average of R over [j w, (j + 1) w], w = 2^`coarsening` table cells, corrected as
-    /// `smoothness` says of the force.
+    /// Fills `cells[j]` with the average of R over [j w, (j + 1) w], where w is 2^`coarsening` table cells, corrected
+    /// for the `smoothness` of the force.
     ///
-    /// Any number of cells may be asked for: beyond the tabulated ones the tail continues them.
+    /// `cells` may have any length: after the tabulated cells the tail continues the trace.
     ///
-    /// Cells before the first arrival are minus the static part only to the interpolation error. They are
-    /// not set to it: around a front the errors of neighbouring cells cancel, because the time integral
-    /// of R is smooth in space behind the front, and exact cells ahead of it would break that balance.
+    /// Cells before the first arrival equal minus the static part up to the interpolation error. They are not set to it
+    /// exactly: around a front the errors of neighbouring cells cancel, because the time integral of R is smooth in
+    /// space behind the front, and exact cells ahead of it would spoil that cancellation.
     ///
     /// # Errors
-    /// [`LookupError`] when a coordinate, Poisson's ratio or the coarsening is outside the table.
+    /// [`LookupError`] if a coordinate, Poisson's ratio or the coarsening is outside the table.
     pub fn trace(
         &self,
         smoothness: Smoothness,
@@ -54,14 +54,14 @@ impl Table {
             .trace([r, z], cells)
     }
 
-    /// [`Self::trace`] at many points (r, z): `cells` and `infos` hold the traces one after the other.
+    /// [`Self::trace`] at many points (r, z); `cells` and `infos` contain the traces one after the other.
     ///
-    /// What depends on Poisson's ratio alone is done once; several threads may each fill a part of the
-    /// points. `cells` is divided evenly among the points.
+    /// The work that depends on Poisson's ratio only is done once; several threads can each fill a part of the points.
+    /// Each point has an equal share of `cells`.
     ///
     /// # Errors
-    /// As [`Self::trace`], and [`LookupError::Lengths`] when `infos` or `cells` do not fit the points.
-    /// Traces before the failing point are filled.
+    /// As [`Self::trace`], and [`LookupError::Lengths`] if the lengths of `infos` or `cells` do not fit the points.
+    /// The traces of the points before the failing one are filled.
     pub fn traces(
         &self,
         smoothness: Smoothness,
@@ -90,7 +90,7 @@ impl Table {
         Ok(())
     }
 
-    /// The interpolated remainder at a point as a whole, from which cells of any width can be filled.
+    /// The interpolated remainder at a point, which can fill cells of any width.
     ///
     /// # Errors
     /// As [`Self::trace`].
@@ -99,7 +99,8 @@ impl Table {
         plan.series([r, z], usize::MAX)
     }
 
-    /// The static field at a point, and averages and moments of the remainder over `count` cells of any width, in r0/c1.
+    /// The static field at a point, and the averages and moments of the remainder over `count` cells of a `width` in
+    /// r0/c1.
     ///
     /// # Errors
     /// As [`Self::trace`].
@@ -115,7 +116,7 @@ impl Table {
         Ok((static_part, series.moments(width, count)))
     }
 
-    /// The static field at a point, and the remainder over `count` cells that are no narrower than `width`, in r0/c1.
+    /// The static field at a point, and the remainder over `count` cells that are at least `width` wide, in r0/c1.
     ///
     /// # Errors
     /// As [`Self::trace`].
@@ -148,7 +149,7 @@ impl Table {
                 max: MAX_COARSENING,
             });
         }
-        // before the medium, so that a ratio outside the physics is one outside the table too
+        // before the medium, so that a ratio outside the physics is reported as outside the table
         let slices = ratio::weights(&self.served, poisson_ratio)?;
         let medium = match slices[..] {
             [(tabulated, _)] => self.served[tabulated].medium.clone(),
@@ -165,7 +166,7 @@ impl Table {
     }
 }
 
-/// Everything of a trace that does not depend on the point.
+/// The part of a trace that does not depend on the point.
 struct TraceSetting<'a> {
     table: &'a Table,
     smoothness: Smoothness,
@@ -191,7 +192,7 @@ impl TraceSetting<'_> {
         })
     }
 
-    /// The interpolated series at a place, as much of it as `count` cells need.
+    /// The interpolated series at a place, as far as `count` cells need it.
     fn series(&self, place: [f64; 2], count: usize) -> Result<Series, LookupError> {
         let content = self.table.content();
         let mesh = self.table.mesh(place)?;

@@ -1,11 +1,11 @@
-//! Whether numbers are a table: axes, sizes and values, before anything is indexed by them.
+//! Validation of the content of a table: axes, sizes and values, before any of them is used as an index.
 
 use crate::content::{Content, FIELDS, Slice, Verification, centres};
 use crate::error::{ContentError, shape, value};
 use crate::schema;
 use crate::series::stencil::MAX_POINTS;
 
-/// Checks what a slice is read and interpolated by: axes, stencil, pulses, and what lies between slices.
+/// Checks the data that reading and interpolation need: axes, stencil, pulses, and the probes between slices.
 pub(crate) fn frame(content: &Content) -> Result<(), ContentError> {
     axis("r", &content.r)?;
     axis("z", &content.z)?;
@@ -14,7 +14,11 @@ pub(crate) fn frame(content: &Content) -> Result<(), ContentError> {
         ("z", &content.z, content.z_max),
     ] {
         if !nodes.contains(&max) || centres(nodes, max).is_empty() {
-            return Err(value(&format!("{name}_max"), max, "one of the nodes but 0"));
+            return Err(value(
+                &format!("{name}_max"),
+                max,
+                "one of the nodes other than 0",
+            ));
         }
     }
     if !(1e-4..=1e2).contains(&content.cell_width) {
@@ -40,7 +44,7 @@ pub(crate) fn frame(content: &Content) -> Result<(), ContentError> {
     between(content)
 }
 
-/// Checks what was measured between slices.
+/// Checks the errors measured between slices.
 fn between(content: &Content) -> Result<(), ContentError> {
     ascending("between_r", &content.between_r)?;
     ascending("between_z", &content.between_z)?;
@@ -72,14 +76,14 @@ pub(crate) fn slices(content: &Content) -> Result<(), ContentError> {
     Ok(())
 }
 
-/// Numbers of cells and of terms of a slice.
+/// Number of cells and number of tail terms of a slice.
 fn size(content: &Content, slice: &Slice) -> [usize; 2] {
     let nodes = content.r.len() * content.z.len();
     [slice.cells, slice.tail_terms(nodes)]
 }
 
-/// Checks that the slice of a ratio has as many cells and terms as `needed`: slices are interpolated cell by cell and term
-/// by term.
+/// Checks that the slice of a ratio has `needed` cells and tail terms: slices are interpolated cell by cell and term by
+/// term.
 pub(crate) fn same_size(
     poisson_ratio: f64,
     size: [usize; 2],
@@ -95,12 +99,12 @@ pub(crate) fn same_size(
     Ok(())
 }
 
-/// Path of the group of the slice of a ratio.
+/// Path of the group that contains the slice of a ratio.
 pub(crate) fn group(poisson_ratio: f64) -> String {
     format!("slices/{}", schema::slice_name(poisson_ratio))
 }
 
-/// Checks a slice as far as it is indexed by: the lengths of its lists, and what was measured.
+/// Checks the lengths of the lists of a slice, and its measured errors.
 fn fits(content: &Content, slice: &Slice) -> Result<(), ContentError> {
     let group = group(slice.poisson_ratio);
     let nodes = content.r.len() * content.z.len();
@@ -116,7 +120,7 @@ fn fits(content: &Content, slice: &Slice) -> Result<(), ContentError> {
     probes(content, &group, &slice.verification, places)
 }
 
-/// Checks that the numbers of a slice that fits are finite.
+/// Checks that the numbers of a slice are finite.
 fn finite(content: &Content, slice: &Slice) -> Result<(), ContentError> {
     let nodes = content.r.len() * content.z.len();
     for (dataset, list) in slice.lists() {
@@ -131,7 +135,7 @@ fn finite(content: &Content, slice: &Slice) -> Result<(), ContentError> {
     Ok(())
 }
 
-/// Checks what was measured at so many places.
+/// Checks the errors measured at a number of places.
 pub(crate) fn probes(
     content: &Content,
     group: &str,
@@ -157,7 +161,7 @@ pub(crate) fn probes(
     Ok(())
 }
 
-/// The product, or more than any list has where it is more than a number holds.
+/// The product, or the largest integer if it overflows.
 pub(crate) fn product(factors: &[usize]) -> usize {
     factors.iter().fold(1, |all, &x| all.saturating_mul(x))
 }
@@ -170,7 +174,7 @@ fn axis(name: &'static str, nodes: &[f64]) -> Result<(), ContentError> {
     }
 }
 
-/// Finite values, each above the one before.
+/// Checks that the values are finite and ascend strictly.
 pub(crate) fn ascending(name: &'static str, values: &[f64]) -> Result<(), ContentError> {
     for (index, &x) in values.iter().enumerate() {
         if !x.is_finite() || index > 0 && x <= values[index - 1] {

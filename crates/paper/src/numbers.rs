@@ -1,4 +1,4 @@
-//! Every number that the paper prints, with ours.
+//! Every number that the paper prints, with our result.
 
 use crate::case::{NAMED_STRENGTH_PA, RADIUS_M, Runs, STRENGTH_PA, TABLE_1_PA, VELOCITY_M_S};
 use crate::case::{anvil, coupled, kmax, mean_pa};
@@ -8,31 +8,31 @@ use fault::AnyError;
 use halfspace::{Arrivals, Medium, Profile};
 use impact::Run;
 
-/// A number of the paper beside ours.
+/// A number of the paper and our result.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Row {
-    /// Where the paper has it: an equation, a figure, a table, a page of text.
+    /// Place in the paper: an equation, figure, table or section.
     pub place: &'static str,
     pub what: &'static str,
-    /// Its unit; empty for a number without one.
+    /// Unit; empty for a dimensionless number.
     pub unit: &'static str,
-    /// As printed.
+    /// Printed value.
     pub paper: f64,
-    /// As computed here.
+    /// Our value.
     pub here: f64,
-    /// Digits after the point that are told.
+    /// Number of digits after the decimal point to print.
     pub digits: usize,
-    /// Why they differ; empty where they do not, beyond the printed digits.
+    /// Reason for the difference; empty if the printed digits agree.
     pub why: &'static str,
 }
 
 impl Row {
-    /// Ours over the paper's, less one.
+    /// Relative difference of our value from the paper's.
     pub fn difference(&self) -> f64 {
         self.here / self.paper - 1.0
     }
 
-    /// Its columns in numbers.csv.
+    /// Columns of the row in numbers.csv.
     pub(crate) fn cells(&self, section: &str) -> [String; 8] {
         let [paper, here, difference] =
             [self.paper, self.here, self.difference()].map(|x| x.to_string());
@@ -41,7 +41,7 @@ impl Row {
         [section, place, what, unit, paper, here, difference, why]
     }
 
-    /// The two numbers and their difference as text, without unit.
+    /// Text of the two values and of their difference, without unit.
     pub fn told(&self) -> [String; 3] {
         let digits = self.digits;
         [
@@ -52,21 +52,21 @@ impl Row {
     }
 }
 
-/// Rows that belong together.
+/// A section of rows.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PrintedSection {
-    /// What they are.
+    /// Title.
     pub title: &'static str,
-    /// The rows.
+    /// Rows.
     pub rows: Vec<Row>,
 }
 
-/// Every number that the paper prints, with ours.
+/// Every number that the paper prints, with our result.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Numbers {
-    /// The rows, in the order of the paper.
+    /// Sections, in the order of the paper.
     pub sections: Vec<PrintedSection>,
-    /// What no row can hold, a sentence each.
+    /// Remarks on the paper that are not a comparison of numbers, one sentence each.
     pub remarks: Vec<String>,
 }
 
@@ -77,7 +77,7 @@ impl Numbers {
     /// Solves the contacts.
     ///
     /// # Errors
-    /// [`AnyError`] where something that must work does not.
+    /// [`AnyError`] if a contact or field of the paper's case cannot be computed.
     pub fn compute() -> Result<Self, AnyError> {
         Self::of(&Runs::solve()?)
     }
@@ -89,12 +89,12 @@ impl Numbers {
         })
     }
 
-    /// The numbers that matter most, those of the contact, few enough for a screen.
+    /// Text with the most important numbers, those of the contact, for one screen.
     pub fn short(&self) -> String {
         lines(&self.sections[1..3]).join("\n")
     }
 
-    /// All numbers, with remarks.
+    /// Text with all numbers and remarks.
     pub fn text(&self) -> String {
         let mut lines = lines(&self.sections);
         lines.push(String::new());
@@ -119,7 +119,7 @@ fn line(what: &str, [paper, here, difference]: [String; 3], unit: &str) -> Strin
     text.trim_end().to_owned()
 }
 
-/// A number that the paper prints, and how ours is computed.
+/// A number that the paper prints, with the function that computes ours.
 struct Printed {
     place: &'static str,
     what: &'static str,
@@ -154,10 +154,10 @@ macro_rules! printed {
     };
 }
 
-/// Sections with their rows: where the paper has a number, what it is, its unit, digits after the point that are told, the
-/// printed number, the reason why ours differs where it does, and ours.
+/// Sections with their rows: place in the paper, quantity, unit, digits after the decimal point, printed number, reason
+/// for a difference in parentheses, and our number.
 const PRINTED: &[(&str, &[Printed])] = printed! {
-    "Table 1: what follows from its moduli" {
+    "Table 1: quantities that follow from its moduli" {
         "Tab. 1" | "copper, longitudinal speed c1" | "m/s" | 0 | 4597.0 = |o| longitudinal_m_s(&o.copper);
         "Tab. 1" | "copper, shear speed c2"        | "m/s" | 0 | 2263.0 = |o| shear_m_s(&o.copper);
         "Tab. 1" | "copper, lambda"                | "GPa" | 2 | 97.53  = |o| lambda_gpa(&o.copper);
@@ -212,7 +212,7 @@ const PRINTED: &[(&str, &[Printed])] = printed! {
     }
 };
 
-// why a number differs
+// reasons for differences
 const STIFFER: &str = "the printed value belongs to copper of 129 GPa, Table 1 has 123 GPa";
 const YIELD: &str =
     "57 MPa is the yield point of Table 1; the value was divided by its tensile strength, 227 MPa";
@@ -221,7 +221,7 @@ const STEP_ERROR: &str = "time-step error of the explicit scheme, see its own ro
 const THREE_RADII: &str = "the text has t = r0/c1; the number is that of 3 r0/c1";
 const FORMULA: &str = "its own formula with its own numbers gives 0.774";
 
-/// Bodies and solved contacts that our numbers follow from.
+/// Bodies and solved contacts for our numbers.
 struct Ours<'a> {
     runs: &'a Runs,
     copper: Material,
@@ -230,12 +230,12 @@ struct Ours<'a> {
 }
 
 impl Ours<'_> {
-    /// Mean pressure of the largest force on the rod.
+    /// Mean pressure in Pa of the largest force on the section of the rod.
     fn on_rod_pa(&self) -> f64 {
         mean_pa(self.runs.table_1.peak_force_n, RADIUS_M)
     }
 
-    /// First arrival in us at a point in r0.
+    /// First arrival in us at a point (r, z) in r0.
     fn first_us(&self, r: f64, z: f64) -> Result<f64, AnyError> {
         let medium = Medium::new(self.block.material().poisson_ratio)?;
         let unit_us = US * RADIUS_M / self.block.longitudinal_speed_m_s();
@@ -259,12 +259,12 @@ fn time_us(run: &Run) -> f64 {
     US * run.contact_time_s
 }
 
-/// (47) with the factor 2.94 of the paper; exactly it is 2.9433.
+/// Contact time in us by (47) with the paper's factor 2.94; the exact factor is 2.9433.
 fn hertz_time_us(run: &Run) -> f64 {
     US * (run.contact_time_s * 2.94 / CONTACT_TIME)
 }
 
-/// Drop of the peak force against Hertz's for copper of the same modulus, in percent.
+/// Drop of the peak force in percent relative to Hertz's for copper of the same modulus.
 fn drop_percent(run: &Run, ours: &Ours<'_>) -> f64 {
     100.0 * (1.0 - run.peak_force_n / ours.runs.hertz_printed.peak_force_n)
 }
@@ -295,7 +295,7 @@ fn sections(runs: &Runs) -> Result<Vec<PrintedSection>, AnyError> {
     PRINTED.iter().map(section).collect()
 }
 
-/// What no row can hold, in sentences.
+/// The remarks.
 fn remarks(runs: &Runs) -> Result<Vec<String>, AnyError> {
     let medium = Medium::new(anvil()?.material().poisson_ratio)?;
     let at = |q: f64| {
@@ -312,11 +312,11 @@ fn remarks(runs: &Runs) -> Result<Vec<String>, AnyError> {
         ),
         "The paper gives no transform of the hoop stress; here it is theory.md (T6).".to_owned(),
         format!(
-            "The paper's restitution of 0.991 is the time-step error of its scheme, which loses less than the waves take away: {:.4} with a step of 0.164 us, {:.3} with 0.5 us (the striker leaves faster than it came), {:.4} converged.",
+            "The paper's restitution of 0.991 is the time-step error of its scheme, which loses less energy than the waves carry away: {:.4} with a step of 0.164 us, {:.3} with 0.5 us (the striker leaves faster than it came), {:.4} converged.",
             runs.scheme.restitution, runs.coarse.restitution, runs.printed.restitution
         ),
         format!(
-            "Hertz's K holds the static deflection of the half-space already, so that (8) counts it twice: a contact whose radius follows the load, and which counts it once, has a peak force of {:.0} N, lasts {:.2} us and leaves with {:.2} m/s.",
+            "Hertz's K already includes the static deflection of the half-space, so that (8) counts it twice. A contact whose radius follows the load counts it once: it has a peak force of {:.0} N, lasts {:.2} us and leaves with {:.2} m/s.",
             growing.peak_force_n,
             US * growing.contact_time_s,
             VELOCITY_M_S * growing.restitution

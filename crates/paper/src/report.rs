@@ -1,4 +1,4 @@
-//! Everything together, and the folder that it is written into: report.md, numbers, claims, figures and their curves.
+//! The report and its folder: report.md, numbers, claims, figures and their curves.
 
 use crate::case::Runs;
 use crate::figures::{self, Claim, Redrawn};
@@ -7,18 +7,18 @@ use fault::AnyError;
 use figure::{Figure, FigureError, Layer, to_png, to_svg};
 use output::Folder;
 
-/// Pixels of a PNG for each of the SVG's.
+/// Scale of a PNG relative to its SVG.
 const SCALE: f32 = 1.5;
 
 /// Columns of numbers.csv.
 const NUMBERS: &str = "section place what unit paper here relative_difference why";
 
-/// The paper redone.
+/// The reproduced paper.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Redone {
-    /// Its numbers.
+    /// Numbers.
     pub numbers: Numbers,
-    /// Its figures 4 to 11.
+    /// Figures 4 to 11.
     pub figures: Vec<Redrawn>,
 }
 
@@ -26,7 +26,7 @@ impl Redone {
     /// Solves the contacts and computes the fields.
     ///
     /// # Errors
-    /// [`AnyError`] where something that must work does not.
+    /// [`AnyError`] if a contact or field of the paper's case cannot be computed.
     pub fn compute() -> Result<Self, AnyError> {
         let runs = Runs::solve()?;
         Ok(Self {
@@ -35,10 +35,10 @@ impl Redone {
         })
     }
 
-    /// Writes report.md, numbers.csv, claims.csv, and of each figure SVG, PNG and the CSV of its curves.
+    /// Writes report.md, numbers.csv, claims.csv, and for each figure an SVG, a PNG and a CSV of its curves.
     ///
     /// # Errors
-    /// The file or the figure, with the reason; no file has changed then.
+    /// The file or figure at fault, with the reason; no file has changed then.
     pub fn write(&self, folder: &Folder) -> Result<(), AnyError> {
         let sections = self.numbers.sections.iter();
         let rows = sections.flat_map(|s| s.rows.iter().map(|row| row.cells(s.title)));
@@ -63,19 +63,19 @@ impl Redone {
         Ok(folder.write(files)?)
     }
 
-    /// The report as Markdown; the figures are named as they are beside it.
+    /// The report as Markdown, with links to the figures in the same folder.
     pub fn report(&self) -> String {
         let mut lines = vec![
             "# The paper, redone\n".to_owned(),
-            "A copper rod of 12.2 g with a hemispherical end of 4 mm strikes a steel anvil at 100 m/s: every number that the source paper prints and its Figures 4 to 11, beside those of this program.".to_owned(),
+            "A copper rod of 12.2 g with a hemispherical end of 4 mm strikes a steel anvil at 100 m/s: every number that the source paper prints and its Figures 4 to 11, compared with the results of this program.".to_owned(),
             format!("Written by `hertzlamb paper`, version {}; equations, figures and tables have the paper's numbers.\n", env!("CARGO_PKG_VERSION")),
             "- \"Converged\" is the paper's model (a disc of radius r0 under Hertz's pressure, its whole deflection added to Hertz's indentation), solved to 1e-6.".to_owned(),
-            "- \"The paper's scheme\" is (40)-(44) with a step of 0.164 us, a 150th of (47), and copper of 129 GPa: with these every number that the paper prints of it comes out to its last digit.".to_owned(),
-            "- Fields are exact for the force that they belong to; z points into the block, and compression is negative.\n".to_owned(),
+            "- \"The paper's scheme\" is (40)-(44) with a step of 0.164 us, a 150th of (47), and copper of 129 GPa: they reproduce every number that the paper prints for its scheme, to the last digit.".to_owned(),
+            "- Fields are exact for the given force; z points into the block, and compression is negative.\n".to_owned(),
             "## Numbers\n".to_owned(),
         ];
         for section in &self.numbers.sections {
-            let head = "| where | what | paper | this program | difference | why |";
+            let head = "| place | quantity | paper | this program | difference | reason |";
             lines.push(format!(
                 "### {}\n\n{head}\n|---|---|---|---|---|---|",
                 section.title
@@ -90,7 +90,7 @@ impl Redone {
             }));
             lines.push(String::new());
         }
-        lines.push("### What no row can hold\n".to_owned());
+        lines.push("### Remarks\n".to_owned());
         let remarks = self.numbers.remarks.iter();
         lines.extend(remarks.map(|remark| format!("- {remark}")));
         lines.push("\n## Figures\n".to_owned());
@@ -114,7 +114,7 @@ impl Redone {
 /// A table as CSV.
 ///
 /// # Errors
-/// None for as many columns as a row has.
+/// None if `columns` has `N` names.
 pub fn csv_file<const N: usize>(
     name: &str,
     columns: &str,
@@ -142,7 +142,7 @@ pub fn drawn(name: &str, figure: &Figure) -> Result<[(String, Vec<u8>); 2], Figu
     ])
 }
 
-/// The points of a figure's curves: times in s, lengths in m, forces in N, speeds in m/s.
+/// The points of the curves of a figure: times in s, lengths in m, forces in N, speeds in m/s.
 fn points(figure: &Figure) -> Vec<[String; 5]> {
     let mut points = Vec::new();
     for panel in &figure.panels {

@@ -1,4 +1,4 @@
-//! Errors as exceptions of `hertzlamb._errors`, with the numbers that their sentences have.
+//! Converts errors to exceptions of `hertzlamb._errors`, with the values in their messages as attributes.
 
 use crate::values::from_json;
 use fault::{Class, Fault};
@@ -9,7 +9,7 @@ use serde_json::{Map, Value};
 use std::ops::RangeInclusive;
 use std::path::Path;
 
-/// An exception of a class of `hertzlamb._errors`.
+/// An exception of a class in `hertzlamb._errors`, with attributes.
 fn exception(class: &str, message: &str, fields: Map<String, Value>) -> PyErr {
     let made = |py: Python<'_>| -> PyResult<PyErr> {
         let class = py.import("hertzlamb._errors")?.getattr(class)?;
@@ -20,12 +20,12 @@ fn exception(class: &str, message: &str, fields: Map<String, Value>) -> PyErr {
     Python::attach(made).unwrap_or_else(|error| error)
 }
 
-/// The exception of an error.
+/// The exception for an error.
 pub(crate) fn raise(error: impl Fault) -> PyErr {
     raised_in(error, None)
 }
 
-/// The same where work with a file fails, which the error may not name.
+/// The exception for an error in work with a file; adds the file if the error does not name one.
 pub(crate) fn raised_in(error: impl Fault, file: Option<&Path>) -> PyErr {
     let culprit = error.culprit();
     let (class, key) = match culprit.class {
@@ -41,7 +41,7 @@ pub(crate) fn raised_in(error: impl Fault, file: Option<&Path>) -> PyErr {
     };
     let mut message = error.to_string();
     if culprit.class == Class::Exists {
-        message.push_str("; give overwrite=True to replace it");
+        message.push_str("; pass overwrite=True to replace it");
     }
     let of_a_file = matches!(culprit.class, Class::OutsideTable | Class::Table);
     let file = culprit.file.as_deref().or(file.filter(|_| of_a_file));
@@ -61,12 +61,12 @@ pub(crate) fn raised_in(error: impl Fault, file: Option<&Path>) -> PyErr {
     exception(class, &message, known.collect())
 }
 
-/// An exception of a class, with its sentence alone.
+/// An exception with a message and no attributes.
 pub(crate) fn plain(class: &str, message: &str) -> PyErr {
     exception(class, message, Map::new())
 }
 
-/// What an argument names, of all that it may name.
+/// The value that the argument `what` names, or a `DomainError` with the allowed names.
 pub(crate) fn one_of<T: Copy>(what: &str, found: &str, all: &[(&str, T)]) -> PyResult<T> {
     let known = all.iter().find(|(name, _)| *name == found);
     let names = all.iter().map(|(name, _)| *name);
@@ -74,7 +74,7 @@ pub(crate) fn one_of<T: Copy>(what: &str, found: &str, all: &[(&str, T)]) -> PyR
     known.map(|(_, value)| *value).ok_or_else(otherwise)
 }
 
-/// A profile, an integral or a deflection that does not exist.
+/// The `DomainError` for a name that the argument `what` does not allow.
 pub(crate) fn unknown(what: &str, found: &str, allowed: &[&str]) -> PyErr {
     let allowed = allowed.join(", ");
     let message = format!("{what} = \"{found}\" is not one of {allowed}");
@@ -83,7 +83,7 @@ pub(crate) fn unknown(what: &str, found: &str, allowed: &[&str]) -> PyErr {
     exception("DomainError", &message, fields.into_iter().collect())
 }
 
-/// A number of an argument that is outside its range, as it is to be shown.
+/// The `DomainError` for an argument outside its range; `value` is its text.
 pub(crate) fn outside(argument: &str, value: &str, range: &str) -> PyErr {
     let message = format!("{argument} = {value} is outside {range}");
     let mut fields = Map::new();
@@ -94,7 +94,7 @@ pub(crate) fn outside(argument: &str, value: &str, range: &str) -> PyErr {
     exception("DomainError", &message, fields)
 }
 
-/// A whole number of an argument in a range with a name.
+/// The value of an integer argument, or a `DomainError` that shows the range as `name`.
 pub(crate) fn whole_in(
     argument: &str,
     value: &Bound<'_, PyAny>,
@@ -110,7 +110,7 @@ pub(crate) fn whole_in(
     found.ok_or_else(|| outside(argument, &shown(value), name))
 }
 
-/// A value as Python writes it, the beginning of a long one.
+/// The `repr` of a value, cut after 60 characters.
 pub(crate) fn shown(value: &Bound<'_, PyAny>) -> String {
     let shown = value.repr().map(|text| text.to_string());
     let shown = shown.unwrap_or_else(|_| "?".to_owned());
@@ -120,18 +120,18 @@ pub(crate) fn shown(value: &Bound<'_, PyAny>) -> String {
     }
 }
 
-/// Refuses arrays that the memory does not hold: so many things of so many bytes each.
+/// Raises `TooMuchMemory` if `count` things of `bytes` each need more than the free memory.
 pub(crate) fn check_memory(count: usize, things: &str, bytes: usize) -> PyResult<()> {
     let short = shortage(count, things, bytes);
     short.map_or(Ok(()), |short| Err(plain("TooMuchMemory", &short)))
 }
 
-/// What to say where the memory does not hold so many things of so many bytes each.
+/// The message if `count` things of `bytes` each need more than the free memory, otherwise none.
 pub(crate) fn shortage(count: usize, things: &str, bytes: usize) -> Option<String> {
     let (needed, free) = (count as f64 * bytes as f64, output::free_memory());
     (needed > free).then(|| {
         format!(
-            "{count} {things} need about {:.3} GB of memory, more than the {:.3} GB there are: ask for fewer at a time",
+            "{count} {things} need about {:.3} GB of memory, more than the {:.3} GB that are free: compute fewer at a time",
             1e-9 * needed,
             1e-9 * free
         )

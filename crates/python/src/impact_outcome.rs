@@ -1,4 +1,4 @@
-//! One impact: computed, looked at by the names of results files, written.
+//! One impact: computation, results under the names of results files, and output.
 
 use crate::errors::{one_of, plain, raise, raised_in, unknown};
 use crate::scene::{scene, spelled_out};
@@ -61,7 +61,7 @@ pub(crate) fn run_impact(
     })
 }
 
-/// Yield pressure or velocity of a scene from what was measured of a rebound, by name.
+/// Infers a yield pressure or velocity from a measurement of a rebound; `measured` is the name of the measurement.
 #[pyfunction]
 pub(crate) fn infer<'py>(
     given: &Bound<'py, PyAny>,
@@ -87,7 +87,7 @@ fn kernels(name: &str, table: Option<Arc<Opened>>) -> PyResult<KernelChoice> {
         ("auto", Some(table)) => Ok(KernelChoice::Auto(table)),
         ("table", None) => Err(plain(
             "SceneError",
-            "kernel = \"table\" needs a table: give table=hertzlamb.Table.open(...)",
+            "kernel = \"table\" needs a table: pass table=hertzlamb.Table.open(...)",
         )),
         _ => Err(unknown("kernel", name, &["auto", "direct", "table"])),
     }
@@ -95,7 +95,7 @@ fn kernels(name: &str, table: Option<Arc<Opened>>) -> PyResult<KernelChoice> {
 
 #[pymethods]
 impl Outcome {
-    /// The scalar results by name; None where one does not exist.
+    /// The scalar results by name; None for a result that does not exist.
     fn numbers<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let found = PyDict::new(py);
         for quantity in &QUANTITIES {
@@ -108,18 +108,18 @@ impl Outcome {
         Ok(found)
     }
 
-    /// What `hertzlamb impact --json` prints.
+    /// The report of `hertzlamb impact --json`.
     fn report<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let (scene, computed) = &*self.found;
         from_json(py, &json_report(scene, computed, self.wall_s))
     }
 
-    /// What the user should know.
+    /// Messages of all warnings.
     fn warnings(&self) -> Vec<String> {
         self.found.1.warnings.clone()
     }
 
-    /// The scene with every default and material spelled out.
+    /// The scene with every default and material property written out.
     fn scene<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         spelled_out(py, &self.found.0)
     }
@@ -136,7 +136,7 @@ impl Outcome {
         columns.transpose()
     }
 
-    /// Fields at the probes by name: (probe, time), with errors, places and, where they are asked for, peaks by probe.
+    /// Fields at the probes by name, each (probe, time), with places, errors and requested peaks, each (probe,).
     fn probes<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {
         let (scene, computed) = &*self.found;
         let Some(fields) = &computed.probes else {
@@ -158,7 +158,7 @@ impl Outcome {
         Ok(Some(found))
     }
 
-    /// Fields on the section by name: (time, z, r), with errors, arrivals and, where they are asked for, peaks by place.
+    /// Fields on the section by name, each (time, z, r), with arrivals (3, z, r), errors and requested peaks, each (z, r).
     fn section<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {
         let Some(section) = &self.found.1.section else {
             return Ok(None);
@@ -179,7 +179,7 @@ impl Outcome {
         Ok(Some(found))
     }
 
-    /// Writes the command's results file, or its table of text.
+    /// Writes a results file, as HDF5 or as text.
     fn save(&self, py: Python<'_>, path: PathBuf, overwrite: bool, csv: bool) -> PyResult<()> {
         let found = Arc::clone(&self.found);
         run(py, None, None, move |_| {
@@ -197,7 +197,7 @@ impl Outcome {
     }
 }
 
-/// Columns by name.
+/// A dictionary of arrays from labelled columns.
 fn columns_of<'py, 'a, 'b>(
     py: Python<'py>,
     columns: impl Iterator<Item = (&'a Labels<'static>, &'b [f64])>,
@@ -209,7 +209,7 @@ fn columns_of<'py, 'a, 'b>(
     Ok(found)
 }
 
-/// What stands beside a quantity: its errors and, where they are asked for, its largest values over time and their instants.
+/// Adds the errors of a quantity and, if requested, its peaks and their times.
 fn put_beside(
     found: &Bound<'_, PyDict>,
     beside: Vec<(Described, &[f64])>,

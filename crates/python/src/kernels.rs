@@ -1,4 +1,4 @@
-//! The exact kernels at many places and times, in reduced units.
+//! Exact kernels at many places and times, in reduced units.
 
 use crate::errors::{check_memory, one_of, plain, raise};
 use crate::values::{Array, fields, numbers, vector};
@@ -13,7 +13,7 @@ use pyo3::types::PyDict;
 use rayon::prelude::*;
 use tabulator::Progress;
 
-/// A medium, or the exception that names its range.
+/// The medium of a Poisson's ratio, or a `DomainError`.
 fn medium_of(nu: f64) -> PyResult<Medium> {
     Medium::new(nu).map_err(raise)
 }
@@ -27,7 +27,7 @@ const PROFILES: [(&str, Profile); 3] = [
 const DEFLECTIONS: [(&str, Deflection); 2] =
     [("centre", Deflection::Centre), ("mean", Deflection::Mean)];
 
-/// A function of time: as a kernel gives it at (r, z, t), and as the surface does.
+/// A function of time: of a kernel at (r, z, t), and of the surface at t.
 type Order = (
     fn(&Kernel, [f64; 3]) -> Result<Estimate, DomainError>,
     fn(&SurfaceResponse, f64) -> f64,
@@ -58,7 +58,7 @@ const ORDERS: [(&str, Order); 4] = [
     ),
 ];
 
-/// The step response, the static field and the remainder.
+/// The step response, static field plus remainder, with the error of the remainder.
 fn step(kernel: &Kernel, [r, z, t]: [f64; 3]) -> Result<Estimate, DomainError> {
     let rest = kernel.static_field(r, z)?;
     let mut found = kernel.remainder(r, z, t)?;
@@ -66,7 +66,7 @@ fn step(kernel: &Kernel, [r, z, t]: [f64; 3]) -> Result<Estimate, DomainError> {
     Ok(found)
 }
 
-/// Values of kernels and their errors at places of equal number, one row of six fields a place.
+/// Values and errors of a kernel, both (place, 6), at the places (r, z, t); the three arrays have equal lengths.
 #[pyfunction]
 #[pyo3(signature = (order, nu, r, z, t, profile, tolerance, threads=None, progress=None))]
 pub(crate) fn kernel<'py>(
@@ -88,7 +88,7 @@ pub(crate) fn kernel<'py>(
     if z.len()? != rows || t.len()? != rows {
         return Err(plain("SceneError", "r, z and t differ in their lengths"));
     }
-    // the places, the estimates, and the two arrays that are made of them
+    // the places, the estimates, and the two returned arrays
     check_memory(rows, "places", 3 * 8 + size_of::<Estimate>() + 2 * 6 * 8)?;
     let (r, z, t) = (numbers(&r), numbers(&z), numbers(&t));
     let one = move |ticker: &Ticker, i: usize| {
@@ -111,7 +111,7 @@ pub(crate) fn kernel<'py>(
     Ok((fields(py, values)?, fields(py, limits)?))
 }
 
-/// The static fields at places of equal number.
+/// The static fields (place, 6) at the places (r, z).
 #[pyfunction]
 pub(crate) fn static_field<'py>(
     py: Python<'py>,
@@ -120,7 +120,7 @@ pub(crate) fn static_field<'py>(
     z: PyReadonlyArray1<'py, f64>,
     profile: &str,
 ) -> PyResult<Array<'py>> {
-    // no quadrature: the tolerance is of no consequence
+    // a closed form: the tolerance has no effect
     let profile = one_of("profile", profile, &PROFILES)?;
     let kernel = Kernel::new(&medium_of(nu)?, profile, 1e-6).map_err(raise)?;
     let rows = r.len()?;
@@ -132,7 +132,7 @@ pub(crate) fn static_field<'py>(
     fields(py, found.map_err(raise)?)
 }
 
-/// The deflection of the loaded surface over its static value, or its integral or impulse response.
+/// The deflection of the loaded surface over its static value, or its time integral or derivative.
 #[pyfunction]
 pub(crate) fn surface<'py>(
     py: Python<'py>,
@@ -164,7 +164,7 @@ pub(crate) fn surface_centre<'py>(
     vector(py, found)
 }
 
-/// What follows from Poisson's ratio.
+/// The reduced wave speeds, compliances and memories of a Poisson's ratio.
 #[pyfunction]
 pub(crate) fn medium(py: Python<'_>, nu: f64) -> PyResult<Bound<'_, PyDict>> {
     let medium = medium_of(nu)?;
@@ -182,7 +182,7 @@ pub(crate) fn medium(py: Python<'_>, nu: f64) -> PyResult<Bound<'_, PyDict>> {
     Ok(found)
 }
 
-/// Arrival times at a place, by wave; none where a wave does not come.
+/// Arrival times at a place by wave; None for a wave that does not reach it.
 #[pyfunction]
 pub(crate) fn arrivals<'py>(
     py: Python<'py>,

@@ -1,20 +1,17 @@
-//! `hertzlamb._core`: the library behind the Python package `hertzlamb`.
+//! `hertzlamb._core`: the compiled part of the Python package `hertzlamb`.
 //!
-//! Functions take what Python has and give read-only numpy arrays, dictionaries and plain values; names, units and
-//! defaults for people are in `python/hertzlamb`, with the types in `_core.pyi`.
-//! Whatever takes more than a millisecond runs without the interpreter's lock ([`work`]).
+//! Functions return read-only numpy arrays, dictionaries and plain values. The public names, defaults and documentation
+//! are in `python/hertzlamb`, the types of this module in `_core.pyi`.
+//! Work of more than a millisecond runs without the interpreter's lock ([`work`]).
 
 #![allow(
     clippy::needless_pass_by_value,
-    reason = "Python gives arguments by value"
+    reason = "Python passes arguments by value"
 )]
-#![allow(
-    clippy::too_many_arguments,
-    reason = "the Python layer gives them names"
-)]
+#![allow(clippy::too_many_arguments, reason = "the Python layer names them")]
 #![allow(
     missing_docs,
-    reason = "the stubs in python/hertzlamb document what Python sees"
+    reason = "python/hertzlamb documents the public interface"
 )]
 
 // From the bottom up: a module uses only those above it.
@@ -31,7 +28,7 @@ mod impact_outcome;
 
 use pyo3::prelude::*;
 
-/// What Python sees.
+/// The Python module.
 #[pymodule]
 mod _core {
     #[pymodule_export]

@@ -1,4 +1,4 @@
-//! The materials, and what every name of a result means.
+//! Materials, and the units and descriptions of all results.
 
 use crate::errors::raise;
 use crate::values::from_json;
@@ -12,7 +12,7 @@ use pyo3::prelude::*;
 use serde_json::{Value, json};
 use std::path::PathBuf;
 
-/// Materials that match a word, as dictionaries.
+/// Dictionaries of the materials whose name, group or source contains `search`.
 #[pyfunction]
 #[pyo3(signature = (search, file=None))]
 pub(crate) fn materials<'py>(
@@ -29,7 +29,7 @@ pub(crate) fn materials<'py>(
     from_json(py, &found)
 }
 
-/// Unit and meaning of every name of a result, by the part of the results that it is in.
+/// Unit and description of every name in the results, by the part of the results that contains it.
 #[pyfunction]
 pub(crate) fn describe(py: Python<'_>) -> PyResult<Bound<'_, PyAny>> {
     let part = |list: &[Labels<'_>]| -> Value {

@@ -1,4 +1,4 @@
-//! Scenes and sweeps as people give them: a dictionary, a path, or TOML text.
+//! Conversion of scenes and sweeps: dictionaries, paths and TOML text to TOML tables, and back.
 
 use crate::errors::{self, raise};
 use formats::SceneError;
@@ -10,15 +10,18 @@ use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyString};
 use std::path::{Path, PathBuf};
 use toml::{Table, Value};
 
-/// What was given, and the file that it is in, beside which the files are that it names.
+/// A scene, sweep or grid as a TOML table.
 #[derive(Debug)]
 pub(crate) struct Given {
     table: Table,
+    /// File that contains it; the relative paths in it refer to the folder of this file.
     file: Option<PathBuf>,
 }
 
 impl Given {
-    /// A text has more than one line, or is one assignment or section; anything else is a path.
+    /// Reads a dictionary, a path or a text.
+    ///
+    /// A string that has several lines, contains `=` or begins with `[` is TOML text; any other string is a path.
     pub(crate) fn new(given: &Bound<'_, PyAny>) -> PyResult<Self> {
         let path: PathBuf = if let Ok(text) = given.cast::<PyString>() {
             let text: String = text.extract()?;
@@ -45,7 +48,7 @@ impl Given {
         Ok(Self { table, file })
     }
 
-    /// What it is read as, with the folder of its files; an error names the file.
+    /// Applies a reader to the table and the folder of its relative paths; an error names the file.
     pub(crate) fn read<T>(
         &self,
         of: impl FnOnce(&Table, &Path) -> Result<T, SceneError>,
@@ -59,7 +62,7 @@ impl Given {
     }
 }
 
-/// The scene that was given.
+/// The scene of a dictionary, path or text.
 pub(crate) fn scene(given: &Bound<'_, PyAny>) -> PyResult<Scene> {
     let py = given.py();
     let given = Given::new(given)?;
@@ -67,25 +70,25 @@ pub(crate) fn scene(given: &Bound<'_, PyAny>) -> PyResult<Scene> {
     found.map_err(raise)
 }
 
-/// The scene with every default and material spelled out, as a dictionary.
+/// The scene with every default and material property written out, as a dictionary.
 pub(crate) fn spelled_out<'py>(py: Python<'py>, scene: &Scene) -> PyResult<Bound<'py, PyAny>> {
     to_python(py, Value::Table(resolved_table(scene)))
 }
 
-/// A scene with every default and material spelled out.
+/// The scene of a dictionary, path or text, with every default and material property written out.
 #[pyfunction]
 pub(crate) fn resolved<'py>(given: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
     spelled_out(given.py(), &scene(given)?)
 }
 
-/// The sections of a contact that have a key of this name; `others` are names that may stand in its place.
+/// The sections of a contact that have a key of this name; `others` are further names that a suggestion may contain.
 #[pyfunction]
 pub(crate) fn sections_of(key: &str, others: Vec<String>) -> PyResult<Vec<&'static str>> {
     let others: Vec<&str> = others.iter().map(String::as_str).collect();
     formats::scene::sections_of(key, &others).map_err(raise)
 }
 
-/// A mapping of Python, which lies so deep in others, as a table; keys whose value is None are left out.
+/// Converts a Python mapping to a TOML table; keys whose value is None are skipped. `deep` counts the containers around it.
 pub(crate) fn table(mapping: &Bound<'_, PyAny>, name: &str, deep: usize) -> PyResult<Table> {
     let mut found = Table::new();
     for item in mapping.call_method0("items")?.try_iter()? {
@@ -109,18 +112,18 @@ pub(crate) fn table(mapping: &Bound<'_, PyAny>, name: &str, deep: usize) -> PyRe
     Ok(found)
 }
 
-/// Containers in one another at most, as in a text.
+/// Largest depth of nested containers, as in a text.
 const MOST_DEEP: usize = 80;
-/// Keys of a section at most: ten times as many as any has, so that an endless mapping is refused.
+/// Largest number of keys in a section: ten times that of any valid section, so that an endless mapping is rejected.
 const MOST_KEYS: usize = 1000;
-/// Entries of a list at most: as many as the values of an axis of a sweep.
+/// Largest number of entries in a list: that of the values of a sweep axis.
 const MOST_ENTRIES: usize = 10_000_000;
-/// Bytes that an entry of a list takes, about: a number or a word, or a section with some keys.
+/// Approximate memory in bytes of a list entry: a number or string, and a section with some keys.
 const ENTRY: [usize; 2] = [2 * size_of::<Value>(), 1500];
-/// Bytes that the tokens of a byte of TOML take at most, about.
+/// Approximate upper bound on the memory in bytes that the parser needs for a byte of TOML.
 const TOKENS: usize = 120;
 
-/// One value; nothing for None.
+/// Converts a value to TOML; none for None.
 fn to_toml(value: &Bound<'_, PyAny>, name: &str, deep: usize) -> PyResult<Option<Value>> {
     if value.is_none() {
         return Ok(None);
@@ -131,7 +134,7 @@ fn to_toml(value: &Bound<'_, PyAny>, name: &str, deep: usize) -> PyResult<Option
     let found = if value.cast::<PyDict>().is_ok() {
         Value::Table(table(value, name, deep)?)
     } else if let Ok(flag) = value.cast::<PyBool>() {
-        // before the numbers: True is an int to Python
+        // before the integers, since True is an int in Python
         Value::Boolean(flag.is_true())
     } else if let Ok(number) = value.cast::<PyFloat>() {
         Value::Float(number.extract()?)
@@ -140,7 +143,7 @@ fn to_toml(value: &Bound<'_, PyAny>, name: &str, deep: usize) -> PyResult<Option
     } else if let Ok(text) = value.cast::<PyString>() {
         Value::String(text.extract()?)
     } else if value.hasattr("tolist")? {
-        // scalars and arrays of numpy and of others
+        // scalars and arrays of numpy and other libraries
         let arrays = value.py().import("hertzlamb._arrays")?;
         let listed = arrays.call_method1("listed", (name, value))?;
         return to_toml(&listed, name, deep + 1);
@@ -158,7 +161,7 @@ fn to_toml(value: &Bound<'_, PyAny>, name: &str, deep: usize) -> PyResult<Option
     Ok(Some(found))
 }
 
-/// A whole number; one beyond all floats is infinite, as in a text.
+/// An integer; one that no float can represent becomes infinite, as in a text.
 fn whole(value: &Bound<'_, PyAny>) -> PyResult<Value> {
     if let Ok(whole) = value.extract() {
         return Ok(Value::Integer(whole));
@@ -170,7 +173,7 @@ fn whole(value: &Bound<'_, PyAny>) -> PyResult<Value> {
     Ok(Value::Float(number))
 }
 
-/// The entries of a list of a known length; an iterator that goes on beyond it is cut there.
+/// The entries of a list; an iterator is read up to the length that the list reports.
 fn list(value: &Bound<'_, PyAny>, count: usize, name: &str, deep: usize) -> PyResult<Vec<Value>> {
     if count > MOST_ENTRIES {
         let key = format!("the number of entries of {name}");
@@ -184,7 +187,7 @@ fn list(value: &Bound<'_, PyAny>, count: usize, name: &str, deep: usize) -> PyRe
         let known = to_toml(&item?, &name, deep + 1)?;
         let known = known.ok_or_else(|| wrong(&name, &none(), "a value"))?;
         if place == 0 {
-            // the others are likely of its kind
+            // all entries are assumed to be like the first
             let bytes = ENTRY[usize::from(known.is_table())];
             errors::check_memory(count, &format!("entries such as {name}"), bytes)?;
         }
@@ -201,13 +204,13 @@ fn wrong(name: &str, value: &Bound<'_, PyAny>, expected: &'static str) -> PyErr 
     ))
 }
 
-/// TOML text as a dictionary.
+/// Converts TOML text to a dictionary.
 pub(crate) fn from_toml<'py>(py: Python<'py>, text: &str) -> PyResult<Bound<'py, PyAny>> {
     let table: Result<Table, String> = text.parse().map_err(|e: toml::de::Error| e.to_string());
     to_python(py, Value::Table(table.map_err(raise)?))
 }
 
-/// A value of TOML as Python's.
+/// Converts a TOML value to Python.
 fn to_python(py: Python<'_>, value: Value) -> PyResult<Bound<'_, PyAny>> {
     match value {
         Value::String(text) => text.into_bound_py_any(py),

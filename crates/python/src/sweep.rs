@@ -1,4 +1,4 @@
-//! Many impacts: rows of a sweep, and keys that vary together.
+//! Many impacts: rows of a sweep, and scenes whose keys vary together.
 
 use crate::errors::{self, raise};
 use crate::scene::{Given, from_toml};
@@ -18,22 +18,22 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use tabulator::Progress;
 
-/// A sweep: a base scene and what varies.
+/// A sweep: a base scene and the keys that vary.
 #[pyclass(module = "hertzlamb._core", frozen)]
 pub(crate) struct Plan {
     spec: Arc<Spec>,
-    /// Places of the results that are kept of a row: without a choice all of them, else those that are chosen and those
-    /// that a file of the sweep needs beside them.
+    /// Indices in [`QUANTITIES`] of the results to keep. Default: all; with `columns`, these and the ones that a sweep
+    /// file needs in addition.
     places: Vec<usize>,
 }
 
-/// Checks that so many rows can be held in memory together.
+/// Raises `SceneError` if a sweep in memory may not have that many rows.
 #[pyfunction]
 pub(crate) fn check_at_once(rows: usize) -> PyResult<()> {
     formats::sweep::check_at_once(rows).map_err(raise)
 }
 
-/// The sweep of a dictionary, a path or a text, with all results or those of some names.
+/// The sweep of a dictionary, path or text; `columns` names the results to keep, default: all.
 #[pyfunction]
 #[pyo3(signature = (given, columns=None))]
 pub(crate) fn plan(given: &Bound<'_, PyAny>, columns: Option<Vec<String>>) -> PyResult<Plan> {
@@ -43,8 +43,8 @@ pub(crate) fn plan(given: &Bound<'_, PyAny>, columns: Option<Vec<String>>) -> Py
     wrapped(run(py, None, None, spec)?, columns)
 }
 
-/// The sweep of a scene whose keys (section, key) take values together, an array of numbers or a list of words each, with
-/// all results or those of some names.
+/// The sweep of a scene whose keys (section, key, values) vary together; values are an array of numbers or a list of
+/// strings. `columns` names the results to keep, default: all.
 #[pyfunction]
 #[pyo3(signature = (given, keys, columns=None))]
 pub(crate) fn plan_of_columns(
@@ -71,7 +71,7 @@ pub(crate) fn plan_of_columns(
     wrapped(run(py, None, None, spec)?, columns)
 }
 
-/// Values of an axis at most.
+/// Largest length of an axis.
 const MOST_VALUES: usize = 10_000_000;
 
 fn wrapped(spec: Result<Spec, SceneError>, columns: Option<Vec<String>>) -> PyResult<Plan> {
@@ -86,17 +86,17 @@ fn wrapped(spec: Result<Spec, SceneError>, columns: Option<Vec<String>>) -> PyRe
         return Err(raise(SceneError::out_of_range(
             format!("the length of the axis {}", axis.name),
             axis.len as f64,
-            "[1, 10000000] in Python, which has the values of every axis as an array",
+            "[1, 10000000] in Python, which holds the values of every axis in an array",
         )));
     }
     let spec = Arc::new(spec);
     Ok(Plan { spec, places })
 }
 
-/// Results by quantity and row, models, and failed rows with their reasons.
+/// Results by quantity and row, models by row, and failed rows with their reasons.
 type Computed<'py> = (Array<'py>, Array<'py, u8>, Vec<(usize, String)>);
 
-/// Bytes that the reason of a failed row takes, in Python and beside it.
+/// Approximate memory in bytes for the reason of a failed row, in Rust and Python together.
 const REASON: usize = 500;
 
 #[pymethods]
@@ -107,7 +107,7 @@ impl Plan {
         self.spec.rows()
     }
 
-    /// The axes: name, length, and the keys along it with their values.
+    /// Name, length, and values by key of each axis.
     fn axes<'py>(&self, py: Python<'py>) -> PyResult<Vec<(String, usize, Bound<'py, PyDict>)>> {
         let mut found = Vec::new();
         for axis in &self.spec.axes {
@@ -125,18 +125,18 @@ impl Plan {
         Ok(found)
     }
 
-    /// Everything spelled out.
+    /// The sweep with every default and material property written out.
     fn resolved<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         from_toml(py, &self.spec.resolved)
     }
 
-    /// Names of the results that are kept of a row, in order.
+    /// Names of the results to keep, in order.
     fn results(&self) -> Vec<&'static str> {
         let names = self.places.iter().map(|&place| QUANTITIES[place].name);
         names.collect()
     }
 
-    /// Computes the rows from `start` on, every `step`-th.
+    /// Computes `count` rows: `start`, `start + step` and so on.
     #[pyo3(signature = (start, step, count, threads=None, progress=None))]
     fn compute<'py>(
         &self,
@@ -147,7 +147,7 @@ impl Plan {
         threads: Option<Threads>,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<Computed<'py>> {
-        // a row, and room for the reason of one that fails
+        // the results and the model of a row, and as much again for the reasons of failed rows
         errors::check_memory(count, "rows", 2 * 8 * (self.places.len() + 1))?;
         let (spec, places) = (Arc::clone(&self.spec), self.places.clone());
         let (found, short) = run(py, threads, progress, move |ticker| {
@@ -170,7 +170,7 @@ impl Plan {
         Ok((numbers, vector(py, held.models)?, held.failures))
     }
 
-    /// Writes the command's file of all rows, or its text.
+    /// Writes a sweep file: text if the extension is that of text, otherwise HDF5 or Parquet.
     fn save(
         &self,
         py: Python<'_>,
@@ -188,7 +188,7 @@ impl Plan {
         let held = Held {
             width: QUANTITIES.len(),
             places: self.places.clone(),
-            // in the order of the indices, however they lie in memory
+            // in the order of the indices, whatever the layout in memory
             numbers: numbers.as_array().iter().copied().collect(),
             models: models.as_array().iter().copied().collect(),
             failures,

@@ -1,4 +1,4 @@
-//! A kernel table: opened once, asked often; the parts that impacts have needed are kept for the next ones.
+//! Kernel tables: opened once, used often. The part that the latest impact needed stays in memory for the next one.
 
 use crate::errors::{self, raise, whole_in};
 use crate::values::{Array, fields, from_json, frozen, numbers};
@@ -14,7 +14,7 @@ use std::path::PathBuf;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use tabulator::Progress;
 
-/// Points that a thread looks up at a time.
+/// Number of points that a thread looks up at a time.
 const GRAIN: usize = 16;
 
 /// A kernel table on disk.
@@ -25,7 +25,7 @@ pub(crate) struct Table {
 
 #[pymethods]
 impl Table {
-    /// The table of a file.
+    /// Opens the table of a file.
     #[staticmethod]
     fn open(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
         let file = run(py, None, None, move |_| TableFile::open(&path))?.map_err(raise)?;
@@ -37,13 +37,13 @@ impl Table {
         Ok(Self { opened })
     }
 
-    /// Where it is.
+    /// Path of the file.
     #[getter]
     fn path(&self) -> PathBuf {
         self.opened.file.path().to_owned()
     }
 
-    /// Its settings and measured errors, as `hertzlamb table info --json` has them.
+    /// Settings and measured errors, with the keys of `hertzlamb table info --json`.
     fn info<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let opened = Arc::clone(&self.opened);
         let info = move |_: &Ticker| Ok(table_report(opened.file.path(), &*opened.whole()?));
@@ -51,14 +51,14 @@ impl Table {
         from_json(py, &found.map_err(raise)?)
     }
 
-    /// Identity of the settings that it was made with.
+    /// Hash of the settings of the table.
     #[getter]
     fn id(&self) -> &str {
         self.opened.file.id()
     }
 
-    /// Step responses at places of equal number, averaged over each of so many cells, with their static fields and errors, and
-    /// the width of a cell.
+    /// Step responses at the places (r, z): means over time cells (place, cell, 6), static fields and errors (place, 6),
+    /// and the width of a cell.
     #[pyo3(signature = (nu, r, z, coarsening, cells, smooth, threads=None, progress=None))]
     fn trace<'py>(
         &self,
@@ -87,17 +87,17 @@ impl Table {
         let table = run(py, threads, None, move |_| opened.whole())?.map_err(raise)?;
         let held = table.content().slices.iter().map(|slice| slice.cells).max();
         let cells = cells.unwrap_or((held.unwrap_or(0) >> coarsening.min(31)).max(1));
-        // asked for before it is taken: an allocation that fails would end the process
+        // reserved first, since an allocation that fails would abort the process
         let mut values = Vec::new();
         let all = rows.checked_mul(cells);
         if all.is_none_or(|all| values.try_reserve_exact(all).is_err()) {
             let message = format!(
-                "{rows} points of {cells} cells need {:.3} GB of memory, more than there is: ask for fewer points or cells, or for a larger coarsening",
+                "{rows} points of {cells} cells need {:.3} GB of memory, more than there is: pass fewer points or cells, or a larger coarsening",
                 48e-9 * rows as f64 * cells as f64
             );
             return Err(errors::plain("TooMuchMemory", &message));
         }
-        // points, cells, fields; some points at a time
+        // (point, cell, field); each task has GRAIN points
         let found = run(py, threads, progress, move |ticker| {
             ticker.total("points", rows as u64);
             values.resize(rows * cells, [0.0; 6]);
@@ -128,21 +128,21 @@ impl Table {
     }
 }
 
-/// A part that was loaded, for a Poisson's ratio and a span.
+/// A loaded part of a table: its Poisson's ratio, its span of r and z in r0, and the part.
 #[derive(Debug)]
 struct Part(f64, [[f64; 2]; 2], Arc<lookup::Table>);
 
-/// A table on disk with what was loaded of it.
+/// A table on disk with the parts that are in memory.
 #[derive(Debug)]
 pub(crate) struct Opened {
     pub(crate) file: TableFile,
-    /// The part of the last impact: a part answers as the whole does.
+    /// Part for the latest impact; its values equal those of the whole table.
     part: Mutex<Option<Part>>,
     whole: OnceLock<Arc<lookup::Table>>,
 }
 
 impl Opened {
-    /// All of it, loaded once.
+    /// The whole table, loaded at the first call.
     pub(crate) fn whole(&self) -> Result<Arc<lookup::Table>, TableError> {
         if let Some(table) = self.whole.get() {
             return Ok(Arc::clone(table));

@@ -1,4 +1,4 @@
-//! Builds and extends kernel tables.
+//! Computation and extension of kernel tables.
 
 use crate::errors::{self, raise};
 use crate::scene::table;
@@ -19,7 +19,7 @@ fn grid_of(given: &Bound<'_, PyAny>) -> PyResult<Grid> {
         } else if path.extension().is_some_and(|end| end == "toml") {
             return Grid::from_file(path).map_err(raise);
         }
-        let words = format!("{}, or the name of a .toml file", PRESETS.join(", "));
+        let words = format!("{}, or the path of a .toml file", PRESETS.join(", "));
         return Err(errors::unknown("grid", &name, &[&words]));
     }
     if given.hasattr("__fspath__")? {
@@ -28,7 +28,7 @@ fn grid_of(given: &Bound<'_, PyAny>) -> PyResult<Grid> {
     Grid::parse(&table(given, "", 0)?.to_string()).map_err(raise)
 }
 
-/// Builds a table.
+/// Computes a table and writes it; `accuracy` is a tolerance and a length of pulses in r0/c1.
 #[pyfunction]
 #[pyo3(signature = (path, grid, nu=None, r_max=None, z_max=None, time_factor=None, accuracy=None, overwrite=false, threads=None, progress=None))]
 pub(crate) fn tabulate(
@@ -55,7 +55,7 @@ pub(crate) fn tabulate(
     built.map(drop).map_err(raise)
 }
 
-/// Adds slices and reach to a table.
+/// Adds Poisson's ratios or a larger range to a table.
 #[pyfunction]
 #[pyo3(signature = (path, nu=None, r_max=None, z_max=None, time_factor=None, threads=None, progress=None))]
 pub(crate) fn extend(

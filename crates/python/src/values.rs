@@ -1,14 +1,14 @@
-//! Values of Python: arrays of numpy that nobody can write into, and what JSON says.
+//! Python values: read-only numpy arrays, and values from JSON.
 
 use numpy::ndarray::ArrayD;
 use numpy::{Element, IntoPyArray, PyArrayDyn, PyArrayMethods, PyReadonlyArray1};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 
-/// An array of numpy.
+/// A numpy array of any number of dimensions.
 pub(crate) type Array<'py, T = f64> = Bound<'py, PyArrayDyn<T>>;
 
-/// The numbers as an array of some shape, without a copy; read-only, since others may look at the same.
+/// The numbers as an array of the given shape, without a copy; read-only, since several objects may share it.
 pub(crate) fn frozen<'py, T: Element>(
     py: Python<'py>,
     numbers: Vec<T>,
@@ -21,13 +21,13 @@ pub(crate) fn frozen<'py, T: Element>(
     Ok(array)
 }
 
-/// One dimension of [`frozen`].
+/// The numbers as a read-only array of one dimension, see [`frozen`].
 pub(crate) fn vector<'py, T: Element>(py: Python<'py>, numbers: Vec<T>) -> PyResult<Array<'py, T>> {
     let length = numbers.len();
     frozen(py, numbers, &[length])
 }
 
-/// Six fields at each place.
+/// Array (place, 6) of the six fields at each place.
 pub(crate) fn fields<'py>(py: Python<'py>, places: Vec<[f64; 6]>) -> PyResult<Array<'py>> {
     let shape = [places.len(), 6];
     frozen(py, places.into_flattened(), &shape)
@@ -38,7 +38,7 @@ pub(crate) fn numbers(array: &PyReadonlyArray1<'_, f64>) -> Vec<f64> {
     array.as_array().iter().copied().collect()
 }
 
-/// A value of JSON as Python's.
+/// Converts a JSON value to Python.
 pub(crate) fn from_json<'py>(
     py: Python<'py>,
     value: &serde_json::Value,

@@ -1,7 +1,7 @@
-//! Work that takes long: without the interpreter's lock, stopped by Ctrl-C, told to a bar.
+//! Long computations: run without the interpreter's lock, can be interrupted by Ctrl-C, and report their progress.
 //!
-//! The work runs on a thread of its own while the caller's waits, attaches to the interpreter now and then, looks for
-//! signals, and calls the function that wants to know how far the work is.
+//! The work runs on a separate thread. Meanwhile the caller's thread waits; at intervals it attaches to the interpreter,
+//! checks for signals and calls the progress function.
 
 use crate::errors::{outside, plain, raise, whole_in};
 use output::MOST_THREADS;
@@ -14,19 +14,19 @@ use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::{Duration, Instant};
 use tabulator::Progress;
 
-/// Time between two looks for signals.
+/// Interval between two checks for signals.
 const LOOK: Duration = Duration::from_millis(50);
-/// Time between two calls of the function that wants to know.
+/// Interval between two calls of the progress function.
 const TELL: Duration = Duration::from_millis(100);
-/// Time that interrupted work gets to end; a call that takes longer is left to end by itself, and its result is dropped.
+/// Longest wait for interrupted work to end; later the work ends in the background, and its result is dropped.
 const GRACE: Duration = Duration::from_millis(150);
 
-/// Range of a number of threads.
+/// Allowed range of the number of threads, as text.
 fn thread_range() -> String {
     format!("[1, {MOST_THREADS}]")
 }
 
-/// A number of threads that was asked for.
+/// A requested number of threads, in [1, [`MOST_THREADS`]].
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Threads(usize);
 
@@ -38,10 +38,10 @@ impl<'py> FromPyObject<'_, 'py> for Threads {
     }
 }
 
-/// The process that started the threads of the library; 0 while there are none.
+/// Id of the process that started the threads of the library; 0 before any was started.
 static OWNER: AtomicU32 = AtomicU32::new(0);
 
-/// How far work is, and whether it shall stop.
+/// Progress of a computation, and the request to stop it.
 #[derive(Debug, Default)]
 pub(crate) struct Ticker {
     done: AtomicU64,
@@ -50,20 +50,20 @@ pub(crate) struct Ticker {
 }
 
 impl Ticker {
-    /// So many are done.
+    /// Sets the number of finished units of work.
     pub(crate) fn at(&self, done: u64) {
         self.done.store(done, Ordering::Relaxed);
     }
 
-    /// Work that shall stop ends here.
+    /// Unwinds to [`run`] if the work is to stop.
     fn or_stop(&self) {
         if self.is_stopped() {
-            // unwinds to `run` without a word: what is half-done is dropped
+            // no message is printed; unfinished work is dropped
             resume_unwind(Box::new(()));
         }
     }
 
-    /// Whether the work shall stop.
+    /// Whether the work is to stop.
     pub(crate) fn is_stopped(&self) -> bool {
         self.stopped.load(Ordering::Relaxed)
     }
@@ -85,14 +85,16 @@ impl Progress for Ticker {
     }
 }
 
-/// Does work that takes a millisecond at most.
+/// Runs work of at most a millisecond on the caller's thread.
 pub(crate) fn run_short<T: Send>(py: Python<'_>, work: impl FnOnce() -> T + Send) -> PyResult<T> {
     own()?;
     Ok(py.detach(work))
 }
 
-/// Does work that may take long, on so many threads, all processors otherwise; `progress` is called with what is done and how
-/// much there is.
+/// Runs work that may take longer, on `threads` threads (default: one for each processor).
+///
+/// `progress` is called with the finished and the total units of work. An exception of it, or of a signal handler, stops
+/// the work and is raised.
 pub(crate) fn run<T: Send + 'static>(
     py: Python<'_>,
     threads: Option<Threads>,
@@ -106,7 +108,7 @@ pub(crate) fn run<T: Send + 'static>(
     let body = move || {
         let work = AssertUnwindSafe(|| within(threads, || work(&watched)));
         let done = catch_unwind(work).unwrap_or_else(|panic| Err(in_words(&*panic)));
-        // nobody may be listening any more
+        // the receiver is gone after an interruption
         let _ = sender.send(done);
     };
     let worker = std::thread::Builder::new().name("hertzlamb".to_owned());
@@ -139,7 +141,7 @@ pub(crate) fn run<T: Send + 'static>(
     }
 }
 
-/// The work among so many threads.
+/// Runs the work in a pool of `threads` threads, by default in the global pool.
 fn within<T: Send>(threads: Option<Threads>, work: impl FnOnce() -> T + Send) -> Result<T, String> {
     let Some(Threads(count)) = threads else {
         return Ok(work());
@@ -149,7 +151,7 @@ fn within<T: Send>(threads: Option<Threads>, work: impl FnOnce() -> T + Send) ->
     Ok(pool.install(work))
 }
 
-/// Calls the function that wants to know.
+/// Calls the progress function.
 fn tell(py: Python<'_>, progress: Option<&Py<PyAny>>, ticker: &Ticker) -> PyResult<()> {
     let total = ticker.total.load(Ordering::Relaxed);
     if let Some(progress) = progress.filter(|_| total > 0) {
@@ -158,7 +160,10 @@ fn tell(py: Python<'_>, progress: Option<&Py<PyAny>>, ticker: &Ticker) -> PyResu
     Ok(())
 }
 
-/// Refuses more threads than a system has room for, and to work in a process that was forked from one whose threads it would wait for in vain.
+/// Checks that work can start in this process.
+///
+/// Raises `DomainError` if `RAYON_NUM_THREADS` exceeds [`MOST_THREADS`], and `ForkError` if the process was forked from one
+/// that had computed: it would wait forever for the threads of its parent.
 fn own() -> PyResult<()> {
     let asked = std::env::var("RAYON_NUM_THREADS").unwrap_or_default();
     let too_many = |threads: usize| threads > MOST_THREADS;
@@ -169,7 +174,7 @@ fn own() -> PyResult<()> {
     match OWNER.compare_exchange(0, process, Ordering::Relaxed, Ordering::Relaxed) {
         Err(owner) if owner != process => {
             let message = format!(
-                "this process was forked from process {owner} after that one had begun to compute, and the threads of hertzlamb do not survive a fork: start processes with multiprocessing.get_context(\"spawn\") or \"forkserver\""
+                "this process was forked from process {owner} after that process had computed, and the threads of hertzlamb do not survive a fork: start processes with multiprocessing.get_context(\"spawn\") or \"forkserver\""
             );
             Err(plain("ForkError", &message))
         }
@@ -177,9 +182,9 @@ fn own() -> PyResult<()> {
     }
 }
 
-/// What a panic says.
+/// Message of a panic.
 fn in_words(panic: &(dyn Any + Send)) -> String {
     let text = panic.downcast_ref::<String>().map(String::as_str);
     let text = text.or(panic.downcast_ref::<&str>().copied());
-    format!("the program is at fault: {}", text.unwrap_or("it gave up"))
+    format!("the program has a fault: {}", text.unwrap_or("it panicked"))
 }

@@ -1,9 +1,9 @@
-//! What a disc of the largest radius throughout costs: its fields beside those of the contact that follows its load.
+//! Error of a disc that has the largest radius throughout, compared with the contact whose radius follows the load.
 //!
 //! `cargo run --release --package hertzlamb-study --example growing_fields -- PICTURE.svg`
 //!
-//! A steel ball of 10 mm strikes steel at 5 m/s. Both loads have the same force; the difference over time is taken over
-//! the largest value of the field at the place.
+//! A steel ball of 10 mm strikes steel at 5 m/s. Both loads have the same force; the largest difference over time is
+//! relative to the largest value of the field at the place.
 
 use figure::{Axis, ColourMap, Figure, Image, Layer, Panel, Sharing, to_svg};
 use impact::{Field, HalfSpace, Impact, Material, Striker};
@@ -21,7 +21,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let radius_m = following.radius().largest_m();
     let fixed = following.on_disc(radius_m);
 
-    // from the contact to six radii; just below the surface, where stresses of the surface itself are the load's
+    // from the contact to six radii, and just below the surface, where the stresses equal those of the load
     let r: Vec<f64> = (0..PLACES).map(|i| 0.5 * i as f64).collect();
     let z: Vec<f64> = (0..PLACES).map(|i| 0.05 + 0.495 * i as f64).collect();
     let fields = [Field::DisplacementZ, Field::StressZz];

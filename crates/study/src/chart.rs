@@ -1,4 +1,4 @@
-//! The whole chart: what is measured and drawn.
+//! The chart: all measurements and pictures.
 
 use crate::map;
 use crate::measure::Effort;
@@ -11,28 +11,28 @@ use fault::AnyError;
 use std::time::Instant;
 use tabulator::Progress;
 
-/// Everything that a chart holds.
+/// Content of a chart.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Chart {
-    /// How much was computed.
+    /// Extent of the measurements.
     pub effort: Effort,
-    /// The machine that the times depend on, in one line.
+    /// Description of the machine, on which the times depend, in one line.
     pub machine: String,
-    /// Rows.
+    /// Measured rows.
     pub records: Vec<Record>,
     /// Work-precision diagrams.
     pub diagrams: Vec<Picture>,
     /// Stability maps and errors over time.
     pub maps: Vec<Picture>,
-    /// Time taken.
+    /// Elapsed time in s.
     pub wall_s: f64,
 }
 
 impl Chart {
-    /// Measures everything.
+    /// Measures all methods and computes all maps.
     ///
     /// # Errors
-    /// [`AnyError`] where a part that must work does not; failures of the methods compared are results.
+    /// [`AnyError`] if a reference or one of the program's methods fails; failures of compared methods are results.
     pub fn run(effort: Effort, progress: &dyn Progress) -> Result<Self, AnyError> {
         let (started, machine) = (Instant::now(), machine());
         let uniform = [None, Some(0.25), Some(0.125), Some(0.0625)];
@@ -70,17 +70,18 @@ impl Chart {
         })
     }
 
-    /// What is ahead of the default path at 1e-3 to 1e-8 without a reason, in words; empty as it should be.
+    /// Descriptions of methods that are ahead of the default path at 1e-3 to 1e-8 without a stated reason; expected to
+    /// be empty.
     pub fn unexplained(&self) -> Vec<String> {
         let rankings = rankings(&self.records);
         rankings.iter().filter_map(Ranking::unexplained).collect()
     }
 }
 
-/// This machine: processor, threads, operating system and architecture, whether the program is optimised, and what else
-/// the machine does.
+/// Description of this machine: processor, threads, operating system, architecture, optimisation of the program, and
+/// load.
 fn machine() -> String {
-    /// Threads that run, from which on times mean little.
+    /// Number of busy threads above which times are unreliable.
     const BUSY: f64 = 0.5;
     let read = |path: &str| std::fs::read_to_string(path).unwrap_or_default();
     let text = read("/proc/cpuinfo");

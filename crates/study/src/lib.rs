@@ -1,15 +1,15 @@
-//! Methods compared: speed against accuracy, and where each becomes unstable.
+//! Comparison of numerical methods: speed against accuracy, and limits of stability.
 //!
-//! Four questions, answered by measurement: how to compute a kernel, an impact, fields, and the fields of an impact.
-//! Beside the ways that the program takes stand those that it does not: five numerical inversions of the
-//! Laplace transform with the Hankel quadrature that they need, marches of known order, whole-response
-//! interpolation. [`Chart::run`] measures them, [`Chart::write`] writes rows, pictures and a report; the
-//! maps show where each method works, with the boundary that theory gives.
+//! Measurements answer four questions: how to compute a kernel, an impact, fields, and the fields of an impact.
+//! The program's own methods are compared with others: five numerical inversions of the Laplace transform with their
+//! Hankel quadrature, marches of known order, and interpolation of the whole response. [`Chart::run`] measures them,
+//! and
+//! [`Chart::write`] writes rows, pictures and a report. Maps show where each method works, with the theoretical boundaries.
 //!
-//! Used by the command `hertzlamb chart` and by tests, by no other crate.
+//! Only the command `hertzlamb chart` and tests use this crate.
 //!
-//! In reading order: `chart`; `method` (the table of methods), `measure` (one at a setting, timed) and `record` (its row);
-//! the questions, with `scenes` and `inversion` for them; the maps; `ranking`, `picture` and `report`.
+//! In reading order: `chart`; `method` (the table of methods), `measure` (a method at a setting, timed) and `record`
+//! (its row); the questions, with `scenes` and `inversion`; the maps; `ranking`, `picture` and `report`.
 
 // From the bottom up: a module uses only those above it.
 mod method;

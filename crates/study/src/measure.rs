@@ -1,4 +1,4 @@
-//! How a method is measured: its error against what is exact, and the median time of repeated runs.
+//! Measurement of a method: its error relative to a reference, and the median time of repeated runs.
 
 use crate::method::ComparedMethod;
 use crate::record::{Question, Record, sizes};
@@ -6,17 +6,17 @@ use fault::AnyError;
 use std::hint::black_box;
 use std::time::Instant;
 
-/// How much is computed.
+/// Extent of the measurements.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Effort {
     /// Few settings, few times, coarse maps.
     Quick,
-    /// All of them.
+    /// All settings.
     Full,
 }
 
 impl Effort {
-    /// One of two.
+    /// The value for this extent.
     pub(crate) fn pick<T>(self, quick: T, full: T) -> T {
         match self {
             Self::Quick => quick,
@@ -25,10 +25,11 @@ impl Effort {
     }
 }
 
-/// The first result of `run`, and the ns of one of the `values` that a run makes: median and half the distance between
-/// the quartiles.
+/// The first result of `run`, and the time in ns for one of the `values` of a run: median and half the interquartile
+/// range.
 ///
-/// From at least three of some runs of a shortest time each, none begun after a longest time in all.
+/// The times are those of at least three samples. Each sample repeats the run for a minimum time, and no sample begins
+/// after a maximum total time.
 fn time<T>(effort: Effort, values: f64, run: impl Fn() -> T) -> (T, [f64; 2]) {
     let (runs, shortest_s, longest_s) = effort.pick((5, 5e-4, 0.06), (11, 5e-3, 1.5));
     let begun = Instant::now();
@@ -37,7 +38,7 @@ fn time<T>(effort: Effort, values: f64, run: impl Fn() -> T) -> (T, [f64; 2]) {
     let repeats = (shortest_s / once_s).ceil().max(1.0);
     let mut samples = Vec::with_capacity(runs);
     if repeats <= 1.0 {
-        // long enough for a run, and for the caches not to matter
+        // long enough that a run fits and caches do not matter
         samples.push(once_s * 1e9 / values);
     }
     while samples.len() < runs {
@@ -55,33 +56,33 @@ fn time<T>(effort: Effort, values: f64, run: impl Fn() -> T) -> (T, [f64; 2]) {
     (first, [at(0.5), 0.5 * (at(0.75) - at(0.25))])
 }
 
-/// What a run found, and its work where that is counted.
+/// Result of a run, and its work if it is counted.
 pub(crate) type Found<T> = Result<(T, Option<u64>), AnyError>;
 
-/// What a question measures.
+/// Rows of a question.
 pub(crate) type Rows = Result<Vec<Record>, AnyError>;
 
-/// A tolerance as a setting.
+/// Text of a tolerance as a setting.
 pub(crate) fn at(tolerance: f64) -> String {
     format!("tolerance {tolerance:.0e}")
 }
 
-/// A scene of a question: what of a method is measured in it.
+/// A scene of a question, with the measurement of methods in it.
 pub(crate) struct MeasuredScene<'a, T> {
     pub(crate) effort: Effort,
     pub(crate) question: Question,
     pub(crate) name: &'static str,
-    /// Values that a run makes.
+    /// Number of values that a run computes.
     pub(crate) values: f64,
-    /// Relative errors of what a run found.
+    /// Relative errors of the result of a run.
     pub(crate) errors: &'a dyn Fn(&T) -> Result<Vec<f64>, AnyError>,
-    /// Where the rows go.
+    /// Rows measured so far.
     pub(crate) records: &'a mut Vec<Record>,
 }
 
 impl<T> MeasuredScene<'_, T> {
-    /// Adds a row of one method at one setting, which is not the program's own until it is said to be: a method that
-    /// fails is a row that says why.
+    /// Adds the row of a method at a setting, at first not marked as part of the default path. For a method that fails
+    /// the row contains the reason.
     pub(crate) fn add(
         &mut self,
         method: ComparedMethod,
@@ -99,7 +100,7 @@ impl<T> MeasuredScene<'_, T> {
             Err(error) => (vec![f64::NAN], None, Some(error.to_string())),
         };
         let work = work.map(|work| work as f64 / self.values);
-        // tests look at errors and work, which are the same on every machine
+        // tests use errors and work, which are the same on every machine
         let [cost_ns, cost_spread_ns] = timed.unwrap_or([work.unwrap_or(f64::INFINITY), 0.0]);
         let [error_max, error_rms] = sizes(&errors);
         let place = self.records.len();

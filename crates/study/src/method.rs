@@ -1,17 +1,17 @@
-//! The one table of methods that are compared: their names, and why the program does not take those that are ahead of its own
-//! somewhere.
+//! Table of the compared methods: their names, and the reasons why the program does not use those that are ahead of its
+//! own methods somewhere.
 
 macro_rules! methods {
     ($($method:ident $name:literal $(not taken: $why:literal)?;)*) => {
         contact::choice! {
-            /// A method that a chart compares, by its name in files and pictures.
+            /// A compared method, with its name in files and pictures.
             #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
             pub enum ComparedMethod { $(#[doc = $name] $method = $name,)* }
         }
 
         impl ComparedMethod {
-            /// Why the program does not take a method that is cheaper than its own somewhere, in one clause, for methods
-            /// that have been looked at; none for others.
+            /// Reason why the program does not use this method although it is cheaper somewhere; none if no reason is
+            /// recorded.
             pub(crate) fn why_not(self) -> Option<&'static str> {
                 match self { $(Self::$method => methods!(@why $($why)?)),* }
             }
@@ -33,9 +33,9 @@ methods! {
     Kausel "closed form (Kausel): the reference";
     TableOfKernels "table";
 
-    WaveImplicit "wave implicit" not taken: "its number of steps is known beforehand; the program does not know how many a tolerance needs, halves the step until the results stand still, and pays for the coarser marches as well";
+    WaveImplicit "wave implicit" not taken: "its number of steps is given in advance; the program does not know how many steps a tolerance needs, halves the step until the results no longer change, and computes the coarser marches as well";
     ImplicitFirst "implicit of order 1";
-    ImplicitSecond "implicit of order 2" not taken: "it knows the loss 1 - e^2 from the momentum alone, to the digits of the restitution and not to its own; what the program's march takes longer at 1e-3 goes into the loss and the instant of separation";
+    ImplicitSecond "implicit of order 2" not taken: "it computes the loss 1 - e^2 from the momentum, so that the loss has only the absolute accuracy of the restitution; the additional time of the program's march at 1e-3 is spent on the loss and the time of separation";
     WaveExplicit "wave explicit (the paper's)";
     Hertz "hertz";
     TwoSprings "two springs, no waves";
@@ -51,13 +51,13 @@ methods! {
     DirectLinear "direct, linear cells";
     TableDirectSums "table, direct sums";
     TableTransform "table, FFT";
-    TableLinear "table, linear cells" not taken: "it reads a third of the numbers and needs a step many times finer as soon as more is asked; the program takes it for forces with corners";
-    TableOfPulse "table, sums for this pulse only" not taken: "its sums know that this pulse is two exponentials, which no computed force is";
-    TableOther "table, other nodes or points" not taken: "fewer nodes are enough at this place and not at the worst places of a table, for which its nodes are chosen";
+    TableLinear "table, linear cells" not taken: "it reads a third of the numbers, but needs a much finer step for higher accuracy; the program uses it for forces with corners";
+    TableOfPulse "table, sums for this pulse only" not taken: "its sums exploit that this pulse consists of two exponentials, and no computed force does";
+    TableOther "table, other nodes or points" not taken: "fewer nodes are enough at this place, but the nodes of a table are chosen for its worst places";
     WholeResponse "interpolated whole response";
     RemainderAlone "interpolated remainder";
 
     Computed "computed";
-    CellsAlone "cells alone" not taken: "its step is known beforehand, many times finer than that of the output; the program does not know how fine is enough, and integrates the ends of the contact instead";
+    CellsAlone "cells alone" not taken: "its step is given in advance and much finer than that of the output; the program does not know the step needed, and integrates the ends of the contact instead";
     LookedUp "looked up";
 }

@@ -1,5 +1,5 @@
-//! A picture of the chart: one panel with a name, a caption, and the numbers behind it; and the work-precision diagrams:
-//! error against cost, one curve a method, the Pareto front drawn.
+//! Pictures of the chart: one panel with a name, a caption and its data; and the work-precision diagrams, which show
+//! error over cost with a curve for each method and the Pareto front.
 
 use crate::method::ComparedMethod;
 use crate::record::{Question, Record, by_scene, distinct, pareto_front};
@@ -11,7 +11,7 @@ use figure::{Axis, Figure, Layer, Legend, Panel, Style};
 pub struct Picture {
     /// Name of its files.
     pub name: &'static str,
-    /// Its one panel with a title.
+    /// Figure with one panel and a title.
     pub figure: Figure,
     /// Sentences for the report.
     pub caption: String,
@@ -44,7 +44,7 @@ impl Picture {
         self.figure.panels[0].layers.push(layer);
     }
 
-    /// What it is made of: the points of its curves, and the centres of the cells of its map under their classes.
+    /// Data of the picture: the points of its curves, and the centres of the cells of its map under their classes.
     pub(crate) fn points(&self) -> Vec<(&str, f64, f64)> {
         let mut points = Vec::new();
         let panel = &self.figure.panels[0];
@@ -68,7 +68,7 @@ impl Picture {
     }
 }
 
-/// One diagram a scene.
+/// One diagram for each scene.
 pub(crate) fn diagrams(records: &[Record]) -> Vec<Picture> {
     let scenes = by_scene(records).into_iter();
     let drawn = scenes.filter_map(|(question, place, rows)| {
@@ -78,12 +78,12 @@ pub(crate) fn diagrams(records: &[Record]) -> Vec<Picture> {
     drawn.collect()
 }
 
-/// Cost and error of a record as they are drawn: errors below 1e-16 there.
+/// Cost and error of a record as drawn; errors below 1e-16 are drawn at 1e-16.
 fn place(record: &Record) -> (f64, f64) {
     (record.cost_ns, record.error_max.max(1e-16))
 }
 
-/// The places that the frame holds.
+/// The places within the frame.
 fn places(rows: &[&Record]) -> Vec<(f64, f64)> {
     let shown = rows.iter().filter(|r| r.error_max < 2.0);
     shown.map(|r| place(r)).collect()
@@ -92,7 +92,7 @@ fn places(rows: &[&Record]) -> Vec<(f64, f64)> {
 fn diagram(question: Question, name: &'static str, rows: &[&Record]) -> Picture {
     let scene = rows[0].scene;
     let shown = places(rows);
-    // half a marker of room around the outermost points
+    // a margin of half a marker around the outermost points
     let low = shown.iter().fold(f64::INFINITY, |low, p| low.min(p.0));
     let high = shown.iter().fold(0.0, |high, p| p.0.max(high));
     let lowest = shown.iter().fold(1.0, |low, p| p.1.min(low));
@@ -117,7 +117,7 @@ fn diagram(question: Question, name: &'static str, rows: &[&Record]) -> Picture 
             n if n == own.len() => " (fails)".to_owned(),
             n => format!(" ({n} of {} fail)", own.len()),
         };
-        // settings of fields and tables vary in several ways at once: no line orders them
+        // settings of fields and tables vary in several ways at once, so that no line can connect them
         let cloud = question == Question::Fields || method == ComparedMethod::TableOfKernels;
         let style = if cloud { Style::Points } else { Style::Marked };
         let name = format!("{}{default}{failures}", method.name());
@@ -127,7 +127,7 @@ fn diagram(question: Question, name: &'static str, rows: &[&Record]) -> Picture 
     figure
 }
 
-/// What a diagram needs to be read.
+/// Explanation of a diagram.
 fn caption(question: Question, scene: &str) -> &'static str {
     match question {
         Question::Kernels if scene.starts_with("interior point, across") => {
@@ -159,7 +159,7 @@ fn caption(question: Question, scene: &str) -> &'static str {
     }
 }
 
-/// The border of what the front dominates.
+/// Border of the region that the front dominates.
 fn staircase(rows: &[&Record]) -> Vec<(f64, f64)> {
     let mut points: Vec<(f64, f64)> = Vec::new();
     for (cost, error) in pareto_front(rows).into_iter().map(place) {

@@ -1,12 +1,12 @@
-//! The cheapest method for each accuracy, and the default path compared with it.
+//! The cheapest method for each accuracy, compared with the default path.
 
 use crate::record::{Question, Record, by_scene};
 use contact::Choice;
 
-/// Accuracies at which the default path is to be on the Pareto front.
+/// Accuracies at which the default path should be on the Pareto front.
 pub(crate) const LEVELS: [f64; 6] = [1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8];
 
-/// Costs within this factor count as equal: times on a busy machine scatter so.
+/// Ratio of costs below which they count as equal; times on a busy machine scatter by as much.
 pub(crate) const EQUAL: f64 = 1.25;
 
 /// The cheapest records of a scene that reach an accuracy.
@@ -18,24 +18,24 @@ pub(crate) struct Ranking<'a> {
     pub(crate) scene: &'a str,
     /// Accuracy.
     pub(crate) level: f64,
-    /// Cheapest of all methods.
+    /// Cheapest record of all methods.
     pub(crate) best: Option<&'a Record>,
-    /// Cheapest of the default path.
+    /// Cheapest record of the default path.
     pub(crate) own: Option<&'a Record>,
-    /// Cheapest of every method that is ahead of the default path by more than [`EQUAL`], by ascending cost; all
-    /// that reach the accuracy where the default path does not.
+    /// Cheapest record of each method that is ahead of the default path by more than [`EQUAL`], by ascending cost; of
+    /// all methods that reach the accuracy if the default path does not.
     pub(crate) ahead: Vec<&'a Record>,
 }
 
 impl Ranking<'_> {
-    /// The cheapest that is ahead of the default path, in words; nothing where it is on the front.
+    /// Description of the cheapest method that is ahead of the default path; none if the default path is on the front.
     pub(crate) fn first_ahead(&self) -> Option<String> {
         Some(self.words(self.ahead.first()?))
     }
 
-    /// The cheapest that is ahead of the default path for no reason that is written down, in words.
+    /// Description of the cheapest method that is ahead of the default path without a recorded reason.
     ///
-    /// A reason excuses its own method and no other one behind it.
+    /// A reason applies to its own method only, not to more expensive ones.
     pub(crate) fn unexplained(&self) -> Option<String> {
         let found = self.ahead.iter().find(|r| r.method.why_not().is_none());
         Some(self.words(found?))
@@ -51,16 +51,16 @@ impl Ranking<'_> {
     }
 }
 
-/// Of every scene with a default path at every accuracy.
+/// Rankings of every scene with a default path, at every accuracy.
 pub(crate) fn rankings(records: &[Record]) -> Vec<Ranking<'_>> {
     let mut scenes = by_scene(records);
-    // a scene that only compares other ways has no default path to judge
+    // a scene that compares other methods only has no default path
     scenes.retain(|(.., rows)| rows.iter().any(|r| r.default_path));
     let at_levels = |(.., rows): &(_, _, Vec<_>)| LEVELS.map(|level| ranking(rows, level));
     scenes.iter().flat_map(at_levels).collect()
 }
 
-/// Of the rows of one scene, at one accuracy.
+/// Ranking of the rows of a scene at an accuracy.
 fn ranking<'a>(rows: &[&'a Record], level: f64) -> Ranking<'a> {
     let reaches = |r: &&&Record| !r.failed() && r.error_max <= level && r.cost_ns.is_finite();
     let mut reached: Vec<&Record> = rows.iter().filter(reaches).copied().collect();
@@ -97,7 +97,7 @@ mod tests {
             let ranking = found.iter().find(|s| s.level == level).unwrap();
             (ranking.first_ahead(), ranking.unexplained().is_some())
         };
-        // a tenth cheaper is equal
+        // a difference of 10 % counts as equal
         assert_eq!(at(&[own.clone(), near], 1e-6), (None, false));
         let stranger = Record::of(ComparedMethod::Durbin, false, 50.0, 1e-7);
         let (ahead, unexplained) = at(&[own.clone(), stranger.clone()], 1e-6);
@@ -105,7 +105,7 @@ mod tests {
         let known = Record::of(ComparedMethod::TableLinear, false, 50.0, 1e-7);
         let (ahead, unexplained) = at(&[own.clone(), known.clone()], 1e-6);
         assert!(ahead.is_some() && !unexplained);
-        // a reason does not excuse what is hidden behind its method
+        // a reason does not apply to a more expensive method
         let behind = Record::of(ComparedMethod::Durbin, false, 60.0, 1e-7);
         let rows = [own.clone(), known, behind];
         let found = rankings(&rows);
@@ -117,11 +117,11 @@ mod tests {
                 .contains("table, linear cells")
         );
         assert!(ranking.unexplained().unwrap().contains("Durbin"));
-        // nothing of the program's own reaches it
+        // none of the program's methods reaches the accuracy
         let exact = Record::of(ComparedMethod::Durbin, false, 1e3, 1e-9);
         let (ahead, unexplained) = at(&[own, exact], 1e-8);
         assert!(ahead.unwrap().contains("only Durbin reaches it") && unexplained);
-        // a scene that only compares other ways has nothing to judge
+        // a scene that compares other methods only has no ranking
         assert!(rankings(&[stranger]).is_empty());
     }
 }

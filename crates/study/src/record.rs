@@ -1,11 +1,11 @@
-//! What is measured of one method at one setting in one scene.
+//! Rows: the measurement of a method at a setting in a scene.
 
 use crate::method::ComparedMethod;
 use contact::Choice;
 use halfspace::Six;
 
 contact::choice! {
-    /// The four questions of the chart, by their names in files.
+    /// The four questions of the chart, with their names in files.
     #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
     pub enum Question {
         /// How to compute a kernel: the fields at a point and time after a unit step of force.
@@ -20,8 +20,7 @@ contact::choice! {
 }
 
 impl Question {
-    /// What one value is for cost and work, what the report calls it, and the names of its diagrams in the order in which
-    /// the scenes appear.
+    /// Unit of cost and work, heading in the report, and names of the diagrams in the order of the scenes.
     pub(crate) fn words(self) -> [&'static str; 3] {
         match self {
             Self::Kernels => [
@@ -49,19 +48,19 @@ impl Question {
     }
 }
 
-/// The largest size of each field.
+/// Largest magnitude of each field.
 pub(crate) fn peaks(values: &[Six]) -> Six {
     std::array::from_fn(|f| values.iter().fold(0.0_f64, |most, v| most.max(v[f].abs())))
 }
 
-/// Errors of some of the six fields at many places, each over the scale of its field.
+/// Errors of some of the six fields at many places, each relative to the scale of its field.
 pub(crate) fn off(found: &[Six], exact: &[Six], scale: &Six, fields: &[usize]) -> Vec<f64> {
     let pairs = found.iter().zip(exact);
     let errors = pairs.flat_map(|(a, b)| fields.iter().map(|&f| (a[f] - b[f]) / scale[f]));
     errors.collect()
 }
 
-/// The largest of relative errors, and the root of their mean square; anything that is not a number is infinite.
+/// Maximum and root mean square of relative errors; infinite if any of them is NaN.
 pub(crate) fn sizes(errors: &[f64]) -> [f64; 2] {
     let finite = |e: f64| if e.is_nan() { f64::INFINITY } else { e.abs() };
     let max = errors.iter().fold(0.0_f64, |most, &e| most.max(finite(e)));
@@ -69,7 +68,7 @@ pub(crate) fn sizes(errors: &[f64]) -> [f64; 2] {
     [max, (squares / errors.len().max(1) as f64).sqrt()]
 }
 
-/// A method has failed when its largest error is above this or is not a number.
+/// Error above which a method has failed, as it has if the error is NaN.
 const FAILED: f64 = 0.1;
 
 /// One row of the chart.
@@ -81,21 +80,21 @@ pub struct Record {
     pub scene: &'static str,
     /// Method.
     pub method: ComparedMethod,
-    /// Its setting.
+    /// Setting of the method.
     pub setting: String,
-    /// Whether the program itself takes this way unless told otherwise.
+    /// Whether the program uses this method by default.
     pub default_path: bool,
-    /// Nanoseconds per value on one core, the median over the runs.
+    /// Cost in ns per value on one core, the median over the runs.
     pub cost_ns: f64,
-    /// Half the distance between the quartiles of the runs.
+    /// Half the interquartile range of the cost, in ns.
     pub cost_spread_ns: f64,
     /// Largest error against the converged reference, relative to the largest value of each quantity.
     pub error_max: f64,
     /// Root of the mean square of these errors.
     pub error_rms: f64,
-    /// Work per value, where it is counted.
+    /// Work per value, if it is counted.
     pub work: Option<f64>,
-    /// Why it failed, where it says so itself.
+    /// Reason for a failure, if the method reports one.
     pub refusal: Option<String>,
 }
 
@@ -104,7 +103,7 @@ impl Record {
     pub const COLUMNS: &str = "question scene method setting default_path cost_ns cost_spread_ns \
         error_max error_rms work failed refusal";
 
-    /// Its columns.
+    /// Values of the columns.
     pub(crate) fn row(&self) -> [String; 12] {
         let number = |x: f64| format!("{x:.4e}");
         [
@@ -123,15 +122,15 @@ impl Record {
         ]
     }
 
-    /// Whether the method gave no usable answer.
+    /// Whether the method returned no usable result.
     pub(crate) fn failed(&self) -> bool {
         self.refusal.is_some() || self.error_max > FAILED || self.error_max.is_nan()
     }
 }
 
-/// The records that no other beats in both cost and error, by ascending cost.
+/// The records that no other record beats in both cost and error, by ascending cost.
 ///
-/// Failures are left out.
+/// Failures are skipped.
 pub(crate) fn pareto_front<'a>(records: &[&'a Record]) -> Vec<&'a Record> {
     let mut front: Vec<&Record> = records.iter().filter(|r| !r.failed()).copied().collect();
     front.sort_by(|a, b| {
@@ -147,7 +146,7 @@ pub(crate) fn pareto_front<'a>(records: &[&'a Record]) -> Vec<&'a Record> {
     front
 }
 
-/// The rows of each scene, with its question and its place among that question's scenes.
+/// The rows of each scene, with its question and the index of the scene in the question.
 pub(crate) fn by_scene(records: &[Record]) -> Vec<(Question, usize, Vec<&Record>)> {
     let mut scenes = Vec::new();
     for &question in Question::ALL {

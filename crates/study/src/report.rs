@@ -1,4 +1,4 @@
-//! The folder of a chart: rows, pictures, and report.md, which has an answer to each question, generated from the rows.
+//! Folder of a chart: rows, pictures, and report.md with an answer to each question, generated from the rows.
 
 use crate::chart::Chart;
 use crate::measure::Effort;
@@ -17,7 +17,7 @@ impl Chart {
     /// Writes chart.csv, pictures.csv, report.md and the pictures into a folder.
     ///
     /// # Errors
-    /// The file or the picture, with the reason; no file has changed then.
+    /// The file or picture at fault, with the reason; no file has changed then.
     pub fn write(&self, folder: &Folder) -> Result<(), AnyError> {
         let rows = self.records.iter().map(Record::row);
         let mut files = vec![csv_file("chart.csv", Record::COLUMNS, rows)?];
@@ -49,8 +49,8 @@ fn markdown(chart: &Chart) -> String {
         format!("Machine: {}.", chart.machine),
         format!("Time taken: {:.0} s.", chart.wall_s),
         "Costs are nanoseconds per value on one core, the median of repeated runs; `chart.csv` has their spread, the work counts and the errors of every row.".to_owned(),
-        "Setting up (weights, nodes, a table, the force's spectrum) is not part of a cost; everything that a new point, time or impact needs is.".to_owned(),
-        "In the diagrams `[default]` marks the ways that the program itself takes, and `(fails)` those whose largest error is above a tenth at every setting; what is above the frame is not drawn.\n".to_owned(),
+        "Costs exclude the set-up (weights, nodes, a table, the spectrum of the force) and include everything that a new point, time or impact needs.".to_owned(),
+        "In the diagrams `[default]` marks the methods that the program uses by default, and `(fails)` the methods whose largest error is above 0.1 at every setting; points above the frame are not drawn.\n".to_owned(),
     ];
     let all = rankings(&chart.records);
     for &question in Question::ALL {
@@ -82,15 +82,15 @@ fn shown(picture: &Picture) -> String {
     format!("![{}]({}.png)\n", picture.figure.title, picture.name)
 }
 
-/// Methods that are ahead somewhere, with the reason why the program does not take them.
+/// Methods that are ahead somewhere, with the reason why the program does not use them.
 fn not_taken(rankings: &[&Ranking<'_>]) -> Vec<String> {
     let ahead = rankings.iter().flat_map(|s| &s.ahead);
     let methods = distinct(ahead.map(|record| record.method));
     let mut lines = Vec::new();
     if !methods.is_empty() {
-        lines.push("Ahead of the default path somewhere, and not taken:\n".to_owned());
+        lines.push("Methods that are ahead of the default path somewhere, and the reasons why the program does not use them:\n".to_owned());
         lines.extend(methods.into_iter().map(|method| {
-            let unknown = "no reason is written down: it should be adopted";
+            let unknown = "no reason is recorded: it should be adopted";
             let why = method.why_not().unwrap_or(unknown);
             format!("- {}: {why}.", method.name())
         }));
@@ -99,7 +99,7 @@ fn not_taken(rankings: &[&Ranking<'_>]) -> Vec<String> {
     lines
 }
 
-/// Three sentences: what is cheapest, where the default path is, what does not work.
+/// Three sentences: the cheapest methods, the rank of the default path, and the failures.
 fn answer(chart: &Chart, question: Question, rankings: &[&Ranking<'_>]) -> [String; 4] {
     let cheapest = |level: f64| {
         let at = rankings.iter().filter(|s| s.level == level);
@@ -118,11 +118,11 @@ fn answer(chart: &Chart, question: Question, rankings: &[&Ranking<'_>]) -> [Stri
     let off: Vec<String> = rankings.iter().filter_map(|s| s.first_ahead()).collect();
     let second = if off.is_empty() {
         format!(
-            "The default path is on the front by time at all {of} accuracies from 1e-3 to 1e-8 that anything reaches."
+            "The default path is on the front by time at all {of} accuracies from 1e-3 to 1e-8 that any method reaches."
         )
     } else {
         format!(
-            "The default path is on the front by time at {} of {of} accuracies from 1e-3 to 1e-8 that anything reaches, and not at {}.",
+            "The default path is on the front by time at {} of {of} accuracies from 1e-3 to 1e-8 that any method reaches, and not at {}.",
             of - off.len(),
             off.join(", ")
         )
@@ -133,7 +133,7 @@ fn answer(chart: &Chart, question: Question, rankings: &[&Ranking<'_>]) -> [Stri
         "No method failed in any scene.".to_owned()
     } else {
         format!(
-            "These methods give errors above a tenth, or nothing, at some setting or in some scene: {}.",
+            "These methods have errors above 0.1, or no result, at some setting or in some scene: {}.",
             failed.join(", ")
         )
     };
@@ -168,7 +168,7 @@ fn failures(records: &[Record]) -> Vec<String> {
     lines
 }
 
-/// A time in a unit that suits it.
+/// Text of a time in a suitable unit.
 fn time(ns: f64) -> String {
     match ns {
         x if x < 1e3 => format!("{x:.0} ns"),

@@ -1,4 +1,4 @@
-//! The impacts of the chart, and its small kernel tables: several densities, each read with stencils of several orders.
+//! Impacts of the chart, and its small kernel tables: several densities, each read with stencils of several orders.
 
 use contact::{FixedDisc, HalfSpace, Material, StaticShare, Striker};
 use fault::AnyError;
@@ -11,7 +11,7 @@ use tabulator::{Axis, Grid, Silent};
 /// Radius of the ball in m.
 const BALL_RADIUS_M: f64 = 0.005;
 
-/// The paper's disc, with copper of a Young's modulus in Pa.
+/// The paper's disc, for a Young's modulus of copper in Pa.
 pub(crate) fn paper_disc(
     copper_pa: f64,
     response: &SurfaceResponse,
@@ -20,12 +20,12 @@ pub(crate) fn paper_disc(
     Ok(collision.fixed_disc(response, RADIUS_M, StaticShare::Full))
 }
 
-/// The steel block's response under the paper's disc.
+/// Response of the steel block under the paper's disc.
 pub(crate) fn paper_response() -> Result<SurfaceResponse, AnyError> {
     Ok(SurfaceResponse::new(&Medium::new(0.3)?, Deflection::Centre))
 }
 
-/// A steel ball of 10 mm on a block of a material of the library.
+/// Impact of a steel ball of 10 mm on a block of a built-in material.
 pub(crate) fn ball(target: &str, velocity_m_s: f64) -> Result<Impact, AnyError> {
     let block = HalfSpace::new(Material::named(target)?)?;
     let mass_kg = 4.0 / 3.0 * std::f64::consts::PI * BALL_RADIUS_M.powi(3) * 7850.0;
@@ -38,7 +38,8 @@ const EXTENT: f64 = 2.0;
 
 /// A table of one density.
 pub(crate) struct Density {
-    /// Distance of its nodes in r0; none: as in the demo table, which is graded toward the disc's edge and the surface.
+    /// Distance of the nodes in r0; none for the nodes of the demo table, which is graded toward the edge of the disc
+    /// and the surface.
     spacing: Option<f64>,
     content: Content,
 }
@@ -61,18 +62,18 @@ impl Density {
         })
     }
 
-    /// Its density in words.
+    /// Description of the density.
     pub(crate) fn label(&self) -> String {
         let uniform = |spacing| format!("spacing {spacing} r0");
         self.spacing.map_or("graded".to_owned(), uniform)
     }
 
-    /// Nodes along each axis of the stencils of the program's own tables.
+    /// Number of stencil points along each axis in the program's own tables.
     pub(crate) fn points() -> usize {
         Grid::demo().stencil_points
     }
 
-    /// Whether the program's own tables are like this one when read with `points` nodes along each axis.
+    /// Whether this table, read with `points` nodes along each axis, equals the program's own tables.
     pub(crate) fn is_default(&self, points: usize) -> bool {
         self.spacing.is_none() && points == Self::points()
     }

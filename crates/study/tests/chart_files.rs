@@ -110,7 +110,7 @@ fn a_folder_has_its_rows_and_says_what_failed_and_what_is_ahead() {
     for part in [
         "## How to compute a kernel",
         "The cheapest for an error of 1e-3 is Euler (1.0 us)",
-        "- Euler: no reason is written down: it should be adopted.",
+        "- Euler: no reason is recorded: it should be adopted.",
         "at some setting or in some scene: Durbin.",
         "| kernels | axis, w | Durbin |",
     ] {

@@ -1,5 +1,5 @@
-//! Whether the error estimate is true, at random places with random pulses: by the route that built the table, and by
-//! values of R alone, on slices, between them, near the axis and the surface.
+//! Test of the error estimate at random places with random pulses: by the method that built the table, and by values of
+//! R, on slices, between them, near the axis and near the surface.
 //!
 //! `cargo run --release -p hertzlamb-tabulator --example certificate -- TABLE.h5 [PLACES [PULSES]]`
 
@@ -37,7 +37,7 @@ fn report(title: &str, found: &[Observation]) {
     );
     let mut all = Vec::new();
     for f in 0..6 {
-        // a field that is zero throughout says nothing
+        // a field that is always zero is skipped
         let found = || found.iter().filter(|o| o.peak[f] > 0.0);
         let ratios: Vec<f64> = found().map(|o| o.estimate[f] / o.error[f]).collect();
         let relative = found().map(|o| o.error[f] / o.peak[f]).collect();

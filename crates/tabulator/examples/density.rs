@@ -1,4 +1,4 @@
-//! Error against the size of a table and the time of a lookup: spacings, uniform and graded axes, stencils, storage.
+//! Error over the size of a table and the time of a lookup, for several spacings, axes, stencils and storage types.
 //!
 //! `cargo run --release -p hertzlamb-tabulator --example density > density.csv`; `scripts/plot_table_density.py` draws it.
 
@@ -18,7 +18,7 @@ const LENGTHS: [f64; 3] = [3.0, 10.0, 40.0];
 
 fn main() -> Result<(), Failure> {
     println!("axes,spacing,stencil_points,storage,megabytes,lookup_us,pulse_length,p50,p99");
-    // its own: what an interrupted run left is not in the way
+    // a separate folder, without files of an interrupted run
     let folder = tempfile::tempdir()?;
     for spacing in [0.4, 0.3, 0.2, 0.15, 0.1] {
         for (name, grid) in [("uniform", uniform(spacing)), ("graded", graded(spacing))] {
@@ -33,7 +33,7 @@ fn main() -> Result<(), Failure> {
                 )?;
             }
             std::fs::remove_file(Path::new(&path))?;
-            // 64 bits are twice the bytes; they hardly compress more.
+            // 64 bits take twice the bytes, since the additional ones hardly compress
             for (storage, label, factor) in
                 [(Storage::Single, "f32", 1.0), (Storage::Double, "f64", 2.0)]
             {
@@ -76,7 +76,7 @@ fn row(label: &str, length: f64, sorted: &[f64]) {
     );
 }
 
-/// Errors at the same random places whatever the table, with stencils of `points` points.
+/// Errors at random places, the same for all tables, with stencils of `points` points.
 fn stencils(content: &Content, points: usize, label: &str) -> Result<(), Failure> {
     let mut content = content.clone();
     content.stencil_points = points;

@@ -1,4 +1,4 @@
-//! Quantiles of the errors that a table carries, by pulse, region and field; of a grid after building it.
+//! Quantiles of the errors stored in a table, by pulse, region and field; a grid is built first.
 //!
 //! `cargo run --release -p hertzlamb-tabulator --example measure -- [TABLE.h5 | GRID.toml]`
 

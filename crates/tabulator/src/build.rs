@@ -1,4 +1,4 @@
-//! From a grid to a complete, verified file.
+//! Building: from a grid to a complete, verified file.
 
 use crate::assemble::{BuildSummary, complete};
 use crate::error::BuildError;
@@ -12,10 +12,10 @@ use std::path::Path;
 use std::sync::PoisonError;
 use std::time::Instant;
 
-/// Builds the table of `grid` at `path`, which must not exist.
+/// Builds the table of `grid` at `path`, which must not exist; resumes an interrupted build.
 ///
 /// # Errors
-/// [`BuildError`]: a setting outside its range, a file in the way, a value that cannot be computed, a full disk.
+/// [`BuildError`]: a setting is outside its range, the file exists or cannot be written, or a value cannot be computed.
 pub fn build(
     grid: &Grid,
     path: &Path,
@@ -24,7 +24,7 @@ pub fn build(
     build_over(grid, path, Existing::Keep, progress)
 }
 
-/// [`build`] with a choice of what happens to a file that is there already.
+/// [`build`] with a choice of whether an existing file is kept or replaced.
 pub fn build_over(
     grid: &Grid,
     path: &Path,
@@ -46,7 +46,7 @@ pub fn build_over(
     compute(&work, &output, &title(&text, None), drops, started)
 }
 
-/// Computes what neither a journal nor a known table has, and writes the table; the journal goes when it is there.
+/// Computes the numbers that neither a journal nor a known table contains, writes the table and removes the journal.
 pub(crate) fn compute(
     work: &TableWork<'_>,
     output: &Output,
@@ -67,7 +67,7 @@ pub(crate) fn compute(
     })
 }
 
-/// Removes the journal of a finished table: a run that was killed after it had named the table has left it.
+/// Removes the journal of a finished table, which remains if a run was killed after it had named the table.
 fn clear(work: &TableWork<'_>, path: &Path, settings: &str) -> Result<(), BuildError> {
     let journal = journal_of(&Output::claim(path, Existing::Replace)?);
     let Ok(mut records) = records(&journal) else {

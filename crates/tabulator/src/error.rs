@@ -1,4 +1,4 @@
-//! What can stop a build.
+//! Errors of a build.
 
 use fault::{Class, Culprit, Fault};
 use halfspace::DomainError;
@@ -7,36 +7,36 @@ use output::OutputError;
 use std::path::Path;
 use thiserror::Error;
 
-/// A table could not be built.
+/// Reason why a table could not be built.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum BuildError {
-    /// Settings that are no grid, outside their ranges or less than a table has, files that cannot be read, shards that make no
-    /// table.
+    /// Settings that are not a grid, are outside their ranges or less than those of the table to extend; files that
+    /// cannot be read; shards that do not make a table.
     #[error("{sentence}")]
     Refused {
-        /// What is wrong and, where there is one, the way out.
+        /// Description of the error and, if there is one, of the way out.
         sentence: String,
-        /// The key or the file, where one is wrong.
+        /// Key or file at fault, if there is one.
         culprit: Box<Culprit<'static>>,
     },
-    /// A kernel value that is no number; it does not happen at a point that a grid can have.
+    /// A kernel value that is not finite; this does not occur at the points of a valid grid.
     #[error("no finite kernel value at {0}")]
     NotFinite(String),
     /// The settings cannot be written as TOML.
     #[error("grid: {0}")]
     Unwritable(#[from] toml::ser::Error),
-    /// The output cannot be written, or is not to be; something else that is unfinished is in the way, or cannot be read.
+    /// The output cannot be written or must not be replaced, or an unfinished file of another run is in its place.
     #[error(transparent)]
     Output(#[from] OutputError),
-    /// The exact kernels refuse a point.
+    /// The exact kernels reject a point.
     #[error(transparent)]
     Domain(#[from] DomainError),
-    /// The table cannot be written, read back or accepted.
+    /// The table cannot be written, read back or validated.
     #[error(transparent)]
     Table(#[from] TableError),
-    /// The numbers computed are no table.
-    #[error("the numbers computed are no table: {0}")]
+    /// The computed numbers are not a table.
+    #[error("the computed numbers are not a table: {0}")]
     Content(#[from] ContentError),
     /// A probe cannot be looked up.
     #[error("verification: {0}")]
@@ -52,7 +52,7 @@ impl BuildError {
         Self::Refused { sentence, culprit }
     }
 
-    /// The error of a key with a number that it cannot have.
+    /// Error of a key with a number outside its range.
     pub(crate) fn of_key(
         key: &str,
         value: f64,
@@ -68,7 +68,7 @@ impl BuildError {
         Self::Refused { sentence, culprit }
     }
 
-    /// The error of settings that came from a file.
+    /// The error with the file of the settings.
     pub(crate) fn in_file(mut self, path: &Path) -> Self {
         if let Self::Refused { sentence, culprit } = &mut self {
             *sentence = format!("{}: {sentence}", path.display());

@@ -1,4 +1,4 @@
-//! Adds slices, places and times to a finished table, computing only what it lacks.
+//! Extension of a finished table by slices, places and times; only the missing numbers are computed.
 
 use crate::assemble::BuildSummary;
 use crate::build::compute;
@@ -13,28 +13,27 @@ use output::{Existing, Output};
 use std::path::Path;
 use std::time::Instant;
 
-/// What a table is to have in addition.
+/// Additions to a table.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Extension {
-    /// Poisson ratios with a slice of their own; those that are there already are left.
+    /// Poisson ratios that get an exact slice; existing slices are kept.
     pub exact_ratios: Vec<f64>,
-    /// Radius to be served, in r0.
+    /// New largest distance from the axis in r0.
     pub r_max: Option<f64>,
-    /// Depth to be served, in r0.
+    /// New largest depth in r0.
     pub z_max: Option<f64>,
-    /// Multiple of the last arrival at which the time cells end.
+    /// New end of the time cells, as a multiple of the last arrival.
     pub time_factor: Option<f64>,
 }
 
-/// Extends the table at `path`; it is replaced when the larger one is complete and verified.
+/// Extends the table at `path`; the file is replaced when the larger table is complete and verified.
 ///
-/// An interrupted run goes on where it stopped. An extension by nothing writes the table anew in the present format,
-/// without computing a number. Nodes keep their numbers: an extended axis goes on from its
-/// last node at its last spacing.
+/// An interrupted run can be resumed by the same call. An empty extension rewrites the table in the present format
+/// without computing a number. Existing nodes keep their numbers; an axis is extended with its last spacing.
 ///
 /// # Errors
-/// [`BuildError`]: a table that cannot be read or is not what its settings say, a value outside its range or
-/// less than what the table has, or as [`crate::build`].
+/// [`BuildError`]: the table cannot be read or does not match its settings, a value is outside its range or less than in the
+/// table, or as [`crate::build`].
 pub fn extend(
     path: &Path,
     extension: &Extension,
@@ -50,7 +49,7 @@ pub fn extend(
     apply(&mut grid, &known, extension)?;
     grid.validate()?;
     let title = title(&grid.to_toml()?, Some(&base));
-    // one that became the table which is there may go
+    // a journal with the settings of the present table may be removed
     let drops = |settings: &str| settings == present;
     let work = TableWork::new(&grid, Some(&known), progress)?;
     compute(&work, &output, &title, drops, started)

@@ -1,7 +1,7 @@
-//! What a journal, or a shard, keeps of a table: one block a record, and the settings beside them.
+//! Journals and shards of a table: the settings, and one record for each finished block.
 //!
-//! A block is its slice, kind, row and four lengths as integers of eight bytes, then the numbers. The finished table is
-//! made from the blocks in the order of the grid, so its bytes do not depend on the order in which they were recorded.
+//! A record contains slice, kind, row and four lengths as integers of eight bytes, then the numbers. The finished table
+//! is made from the blocks in the order of the grid, so its bytes do not depend on the order of the records.
 
 use crate::block::{PointKind, Row, TableBlock};
 use crate::error::BuildError;
@@ -10,17 +10,17 @@ use ledger::Identity;
 use output::{Output, Records, Title, packed, unpacked};
 use std::path::{Path, PathBuf};
 
-/// What is done.
+/// Kind of work in the title of a journal.
 const KIND: &str = "kernel table";
 
-/// Where the journal of an output is.
+/// Path of the journal of an output.
 pub(crate) fn journal_of(output: &Output) -> PathBuf {
     let mut name = output.real.as_os_str().to_owned();
     name.push(".journal");
     PathBuf::from(name)
 }
 
-/// Blocks of a table of some settings or, beyond those of a smaller one with a hash, of an extension of it.
+/// Title of a journal for a table with the settings `grid`, or for an extension of the table with the hash `extends`.
 pub(crate) fn title(grid: &str, extends: Option<&str>) -> Title {
     let identity = Identity::default()
         .with("numbers", NUMBERS_REVISION.to_le_bytes())
@@ -47,7 +47,7 @@ pub(crate) fn records(path: &Path) -> Result<Records, BuildError> {
         })
 }
 
-/// What is kept of a block.
+/// The record of a block.
 pub(crate) fn kept(block: TableBlock, row: &Row) -> Vec<u8> {
     let [a, b, c, d] = row.each_ref().map(Vec::len);
     let mut bytes = packed([block.slice, block.kind as usize, block.row, a, b, c, d]);
@@ -58,7 +58,7 @@ pub(crate) fn kept(block: TableBlock, row: &Row) -> Vec<u8> {
     bytes
 }
 
-/// The block of a record and its numbers, as many as it says.
+/// The block and the numbers of a record; none if the record is invalid.
 pub(crate) fn parsed(kept: &[u8]) -> Option<(TableBlock, Row)> {
     let ([slice, kind, row, lengths @ ..], numbers) = unpacked::<7>(kept)?;
     let kind = *PointKind::ALL.get(kind)?;

@@ -1,10 +1,10 @@
-//! A finished table from which another takes the numbers that it already has.
+//! A finished table whose numbers are reused in another one.
 
 use crate::block::{PointKind, Row};
 use lookup::{Content, Numbers, Slice, Verification};
 use std::ops::Range;
 
-/// The content of the older table, which is valid.
+/// Valid content of the older table.
 pub(crate) struct Known {
     pub(crate) content: Content,
 }
@@ -15,7 +15,7 @@ impl Known {
         slices.find(|slice| slice.poisson_ratio == poisson_ratio)
     }
 
-    /// The row of the nodes at a radius and these depths, if it is there as a whole.
+    /// The row of nodes at a radius and these depths, if the table contains all of it.
     pub(crate) fn nodes(&self, poisson_ratio: f64, cells: usize, r: f64, z: &[f64]) -> Option<Row> {
         let content = &self.content;
         let slice = self.slice(poisson_ratio)?;
@@ -30,7 +30,7 @@ impl Known {
         Some(slice.lists().map(|(_, values)| part(values)))
     }
 
-    /// Puts the cells of a node that are there in place of those computed.
+    /// Replaces the computed cells of a node by the existing ones.
     pub(crate) fn keep(&self, poisson_ratio: f64, [r, z]: [f64; 2], point: &mut Numbers) {
         let content = &self.content;
         let place = |nodes: &[f64], x: f64| nodes.iter().position(|&node| node == x);
@@ -39,7 +39,7 @@ impl Known {
             return;
         };
         let (node, cells) = (i * content.z.len() + k, slice.cells);
-        // their tails are computed anew
+        // tails are always computed anew
         for (values, (_, stored)) in point.iter_mut().zip(slice.lists()).take(3) {
             let stored = &stored[node * 6 * cells..][..6 * cells];
             for (f, list) in stored.chunks(cells).enumerate() {
@@ -50,9 +50,10 @@ impl Known {
         }
     }
 
-    /// What holds the errors that were measured at a probe of a slice or between slices, and where in its lists.
+    /// The verification that contains the errors of a probe, on a slice or between slices, and the index of the probe
+    /// in it.
     ///
-    /// Its stencil is that of the new table: nodes are only ever added beyond the old ones.
+    /// The stencil of the probe is the same in the new table, since nodes are only added beyond the old ones.
     pub(crate) fn probe(
         &self,
         kind: PointKind,

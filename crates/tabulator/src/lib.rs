@@ -1,12 +1,13 @@
-//! Fills kernel tables of the elastic half-space: grid, exact values, verification, one complete file.
+//! Computes kernel tables of the elastic half-space: from a grid to exact values, their verification and one complete
+//! file.
 //!
-//! A table is built from blocks, each one row of points of one slice; a block depends on the settings
-//! alone, so the bytes of the table do not depend on threads, interruptions or the order of work.
+//! A table is built from blocks, each of which is one row of points of one slice. A block depends on the settings only,
+//! so the bytes of a table do not depend on threads, interruptions or the order of work.
 //!
 //! ```
 //! use tabulator::{Axis, Grid, Silent, build};
 //!
-//! // Eight by eight nodes and cells five times as wide as those of a real table.
+//! // eight by eight nodes, and cells five times as wide as in a real table
 //! let grid = Grid {
 //!     cell_width: 0.5,
 //!     pulse_lengths: vec![10.0],

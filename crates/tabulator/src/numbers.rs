@@ -1,10 +1,10 @@
-//! The revision of the numbers: which versions of the program compute the same ones.
+//! Revision of the numbers; versions of the program with the same revision compute the same numbers.
 
 /// Revision of the numbers that [`PointPlan`](crate::PointPlan) computes.
 ///
-/// Tables, journals and shards carry it; an extended table has that of the older part. It is raised by hand with
-/// every change that alters a number of a point by more than the rounding of double precision, in this crate or in
-/// `halfspace`; a test compares numbers of each kind with those that were written down for it.
+/// Tables, journals and shards contain it; an extended table has the revision of its older part. It is raised by hand
+/// with every change, in this crate or in `halfspace`, that alters a number by more than the rounding of double
+/// precision. `numbers_are_those_of_the_revision` compares numbers of each kind with recorded ones.
 pub const NUMBERS_REVISION: u64 = 7;
 
 #[cfg(test)]
@@ -19,14 +19,14 @@ mod tests {
         numbers.zip(weights).map(|(x, w)| w * x).sum()
     }
 
-    /// If this fails, numbers have changed: raise [`super::NUMBERS_REVISION`] and write down the new sums, which the
+    /// If this fails, numbers have changed: raise [`super::NUMBERS_REVISION`] and record the new sums, which the
     /// failure prints.
     #[test]
     fn numbers_are_those_of_the_revision() {
         let mut found = Vec::new();
         for nu in [0.0, 0.3, 0.45] {
             let plan = PointPlan::new(nu, 1e-8, 0.125, 60, 12).unwrap();
-            // On the axis, near the surface, beside the disc's edge, far away.
+            // on the axis, near the surface, near the edge of the disc, far away
             for (r, z) in [(0.0, 0.7), (0.4, 0.02), (1.05, 0.1), (2.5, 1.5)] {
                 let point = plan.compute(r, z).unwrap();
                 found.extend(point.each_ref().map(|list| sum(list)));
@@ -34,7 +34,7 @@ mod tests {
         }
         assert_eq!(found.len(), SUMS.len(), "{found:?}");
         for (i, (a, b)) in found.iter().zip(SUMS).enumerate() {
-            // The moments are rounded to steps of about 1e-5 of the field, which another library of sines may cross.
+            // moments are rounded to steps of about 1e-5 of the field, and another sine function may change the step
             let allowed = if matches!(i % 4, 1 | 2) { 2e-5 } else { 1e-10 };
             assert!(
                 (a - b).abs() < allowed,

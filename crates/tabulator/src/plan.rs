@@ -1,4 +1,4 @@
-//! Time, memory and size of a table before it is built.
+//! Estimated time, memory and size of a table, before it is built.
 
 use crate::block::{PointKind, TableBlock};
 use crate::error::BuildError;
@@ -13,22 +13,23 @@ use std::time::Instant;
 /// Estimated cost of building a table.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TableCost {
-    /// Points at which kernels are computed: the nodes, and the places where their errors are measured.
+    /// Number of points at which kernels are computed: nodes and verification probes.
     pub points: usize,
-    /// Blocks, which shards share out.
+    /// Number of blocks, which are divided among shards.
     pub blocks: usize,
-    /// Points of the measurement.
+    /// Number of points computed for this estimate.
     pub measured_points: usize,
-    /// Time in s of one thread for all points.
+    /// Time in s for all points on one thread.
     pub seconds: f64,
-    /// Memory in bytes while the table is put together.
+    /// Memory in bytes while the table is assembled.
     pub memory_bytes: f64,
-    /// The numbers of the table in bytes. The file is smaller: it is compressed.
+    /// Size of the numbers of the table in bytes; the compressed file is smaller.
     pub most_bytes: f64,
 }
 
 impl Grid {
-    /// Measures the kernels at some points of the grid for about `measured_s` seconds of the clock `now`, in s.
+    /// Estimates the cost from kernels at some points of the grid, for about `measured_s` seconds of the clock `now`,
+    /// in s.
     ///
     /// # Errors
     /// [`BuildError`] for a grid that cannot be built.
@@ -37,7 +38,7 @@ impl Grid {
         measured_s: f64,
         now: impl Fn() -> Option<f64>,
     ) -> Result<TableCost, BuildError> {
-        /// Fewest points: some take ten times as long as others.
+        /// Smallest number of points to measure; some take ten times as long as others.
         const FEWEST_POINTS: usize = 32;
         let memory_bytes = self.memory_bytes()?;
         let work = TableWork::new(self, None, &Silent)?;
@@ -96,7 +97,7 @@ mod tests {
         let one = grid.cost(0.0, || None).unwrap();
         let two = grid.clone().with(Some(vec![0.1, 0.3]), [None; 3]);
         let two = two.cost(0.0, || None).unwrap();
-        // of two slices the places between them are more
+        // two slices have probes between them in addition
         assert!(two.points > 2 * one.points && one.points > 64);
         assert_eq!(two.most_bytes, 2.0 * one.most_bytes);
         assert!(one.measured_points >= 32 && one.seconds > 0.0);

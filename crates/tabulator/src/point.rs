@@ -1,4 +1,4 @@
-//! All numbers of one point: cell averages, first moments and tail.
+//! All numbers of one point: cell averages, first and second moments, and the tail.
 
 use crate::error::BuildError;
 use crate::grid::Grid;
@@ -6,7 +6,7 @@ use halfspace::{Kernel, Medium, Profile, Six};
 use lookup::{Moments, Numbers};
 use std::f64::consts::PI;
 
-/// What is asked of every point of a slice; lengths in r0, times in r0/c1.
+/// Specification of the numbers at every point of a slice; lengths in r0, times in r0/c1.
 #[derive(Debug, Clone)]
 pub struct PointPlan {
     kernel: Kernel,
@@ -15,27 +15,28 @@ pub struct PointPlan {
     tail_terms: usize,
 }
 
-/// Accuracy of moments relative to the field there: they enter with the second difference of the force, far below one.
+/// Relative accuracy of moments; it can be low, since they are multiplied with the second difference of the force,
+/// which is far below one.
 const MOMENT_ACCURACY: f64 = 1e-5;
 
-/// Tolerance of the trace over that of the kernels: most errors of averages are a hundredth of what is promised, so that
-/// at 25 times 1e-8 99 in 100 stay below the rounding to single precision.
+/// Ratio of the tolerance of the trace to that of the kernels. Most errors of averages are a hundredth of the
+/// tolerance, so that at 25 times 1e-8 the 99th percentile stays below the rounding to single precision.
 const TRACE: f64 = 25.0;
 
-/// Tolerance of the points off the grid over that of its nodes. What it leaves adds to the errors that are measured there: at
-/// 30 it is seen where these are 1e-8, at 100 where they are 1e-7.
+/// Ratio of the tolerance at the verification probes to that at the nodes. The error of the probes adds to the measured
+/// errors: a ratio of 30 affects errors of 1e-8, a ratio of 100 errors of 1e-7.
 const PROBE_TOLERANCE: f64 = 30.0;
 
 impl Grid {
-    /// What is computed at every node of one slice.
+    /// The plan for the nodes of a slice.
     ///
     /// # Errors
-    /// [`BuildError::Domain`] when the exact kernels refuse the ratio.
+    /// [`BuildError::Domain`] if the exact kernels reject the ratio.
     pub fn point(&self, poisson_ratio: f64) -> Result<PointPlan, BuildError> {
         self.plan(poisson_ratio, self.tolerance)
     }
 
-    /// The same for the points at which errors of the nodes' interpolation are measured, which need fewer digits.
+    /// The plan for the verification probes of a slice, which need fewer digits.
     pub(crate) fn probe(&self, poisson_ratio: f64) -> Result<PointPlan, BuildError> {
         self.plan(poisson_ratio, (PROBE_TOLERANCE * self.tolerance).min(0.1))
     }
@@ -51,7 +52,7 @@ impl PointPlan {
     /// Plan for `cells` cells of `width` at one Poisson ratio.
     ///
     /// # Errors
-    /// [`BuildError::Domain`] when the exact kernels refuse the ratio or the tolerance.
+    /// [`BuildError::Domain`] if the exact kernels reject the ratio or the tolerance.
     pub fn new(
         poisson_ratio: f64,
         tolerance: f64,
@@ -75,13 +76,13 @@ impl PointPlan {
 
     /// Computes the numbers of the point (r, z).
     ///
-    /// R follows from polynomials between the fronts, of which averages and moments are integrals.
+    /// Between the fronts R is a series of polynomials, and averages and moments are its integrals.
     ///
     /// # Errors
-    /// [`BuildError`] when the exact kernels refuse the point or a value is not finite.
+    /// [`BuildError`] if the exact kernels reject the point, or a value is not finite.
     pub fn compute(&self, r: f64, z: f64) -> Result<Numbers, BuildError> {
         let end = self.cells as f64 * self.width;
-        // what lasts less than a cell is seen as its part of the cell
+        // an interval shorter than a cell counts in proportion to its length
         let part = |length: f64| [(length / self.width).min(1.0); 6];
         let tolerance = [TRACE * self.kernel.tolerance(); 6];
         let trace = self.kernel.trace_under(r, z, end, (tolerance, &part))?;
@@ -133,10 +134,10 @@ impl PointPlan {
     }
 }
 
-/// Step to which moments are rounded: a power of two near [`MOMENT_ACCURACY`] of the largest average of the field
-/// or of the static displacement or stress, whichever is less.
+/// Rounding step of moments: a power of two near [`MOMENT_ACCURACY`] times the largest average of the field, or the
+/// static displacement or stress, whichever is less.
 ///
-/// Away from fronts most of their digits are then zero and cost nothing in a compressed file.
+/// Away from fronts most of their digits are then zero, which saves space in a compressed file.
 fn quantum(averages: &[Six], rest: &Six) -> Six {
     let most = averages.iter().fold([1e-12_f64; 6], |most, six| {
         std::array::from_fn(|f| most[f].max(six[f].abs()))
@@ -154,7 +155,7 @@ mod tests {
     use super::*;
     use lookup::quantile;
 
-    /// Average, first and second moment from the remainder itself, by the midpoint rule on 4000 parts of a cell.
+    /// Average, first and second moment by the midpoint rule with 4000 intervals in a cell, for comparison.
     fn summed(kernel: &Kernel, r: f64, z: f64, width: f64, j: usize) -> [Six; 3] {
         const MIDPOINTS: usize = 4000;
         let mut sums = [[0.0; 6]; 3];
@@ -176,7 +177,7 @@ mod tests {
     fn averages_and_moments_agree_with_sums_over_the_remainder() {
         let width = 0.1;
         let plan = PointPlan::new(0.3, 1e-9, width, 80, 12).unwrap();
-        // First, shear, head and Rayleigh fronts, quiet and late cells.
+        // cells with the first, shear, head and Rayleigh fronts, quiet cells and late cells
         for (r, z) in [(0.4, 0.3), (0.95, 0.0), (1.3, 0.1), (0.06, 3.0), (2.0, 1.0)] {
             let point = plan.compute(r, z).unwrap();
             let rest = plan.kernel().static_field(r, z).unwrap();
@@ -186,7 +187,8 @@ mod tests {
                 let exact = summed(plan.kernel(), r, z, width, j);
                 for (order, (found, exact)) in found.iter().zip(exact).enumerate() {
                     for f in 0..6 {
-                        // A front of height one is seen to 1/4000 by the sum; it is 25 times the static field deep on the axis.
+                        // the sum resolves a front of height one to 1/4000; deep on the axis a front is 25 times the
+                        // static field
                         let error = (found[f] - exact[f]).abs() / size;
                         assert!(
                             error < 1e-4 * z.max(1.0).powi(2),
@@ -229,7 +231,7 @@ mod tests {
         }
     }
 
-    /// Errors of cells over the largest of their field, against a tolerance of 1e-12.
+    /// Errors of cells relative to the largest cell of the field, compared with a tolerance of 1e-12.
     #[test]
     fn cells_are_within_the_rounding_to_single_precision() {
         let rounding = 0.5 * f64::from(f32::EPSILON);

@@ -1,16 +1,16 @@
-//! How a long build tells its caller where it is.
+//! Progress of a build, as reported to its caller.
 
-/// Receives the advance of a build; called from several threads.
+/// Receiver of the progress of a build; called from several threads.
 pub trait Progress: Sync {
-    /// `total` units of work follow under the name `stage`.
+    /// The stage `stage` begins, with `total` units of work.
     fn total(&self, stage: &str, total: u64);
-    /// `done` more units are finished.
+    /// Another `done` units of work are finished.
     fn advance(&self, done: u64);
-    /// The work is at this Poisson ratio.
+    /// The work on the slice of this Poisson ratio begins.
     fn slice(&self, _poisson_ratio: f64) {}
 }
 
-/// Tells nobody.
+/// Receiver that ignores all reports.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Silent;
 

@@ -1,4 +1,4 @@
-//! All rows of a table: those that are there already, and the others computed on all threads.
+//! All rows of a table: the existing ones, and the others, computed on all threads.
 
 use crate::block::{PointKind, Row, TableBlock, positions};
 use crate::error::BuildError;
@@ -12,25 +12,25 @@ use std::collections::HashMap;
 use std::path::Path;
 use std::sync::{Mutex, PoisonError};
 
-/// A table that is to be made of a grid.
+/// Work on the table of a grid.
 pub(crate) struct TableWork<'a> {
     pub(crate) grid: &'a Grid,
-    /// A smaller table that has some of the numbers.
+    /// Smaller table with some of the numbers.
     pub(crate) known: Option<&'a Known>,
     pub(crate) progress: &'a dyn Progress,
-    /// Cells of a slice.
+    /// Number of cells of a slice.
     pub(crate) cells: usize,
-    /// Of each kind of points: Poisson's ratios, then radii and depths.
+    /// Poisson's ratios, radii and depths of each kind of points.
     pub(crate) points: [(Vec<f64>, [Vec<f64>; 2]); 3],
-    /// The blocks in the order in which they are stored.
+    /// Blocks in the order of storage.
     pub(crate) blocks: Vec<TableBlock>,
 }
 
 impl<'a> TableWork<'a> {
-    /// All blocks of a grid.
+    /// The work on all blocks of a grid.
     ///
     /// # Errors
-    /// [`BuildError::Domain`], which no valid grid causes.
+    /// [`BuildError::Domain`], which does not occur for a valid grid.
     pub(crate) fn new(
         grid: &'a Grid,
         known: Option<&'a Known>,
@@ -69,13 +69,13 @@ impl<'a> TableWork<'a> {
         (ratios[block.slice], r[block.row], z)
     }
 
-    /// Numbers of a point in each list of a row.
+    /// Number of values of a point in each list of a row.
     fn each(&self) -> [usize; 4] {
         [self.cells, self.cells, self.cells, self.grid.tail_terms].map(|n| 6 * n)
     }
 
-    /// Opens a journal, or begins it, and gives the finished rows; one that is of something else is replaced where `drops`
-    /// says so of its settings.
+    /// Opens or creates a journal and returns the finished rows. A journal with other settings is replaced if `drops`
+    /// accepts them.
     pub(crate) fn open(
         &self,
         path: &Path,
@@ -89,10 +89,10 @@ impl<'a> TableWork<'a> {
         Ok((Mutex::new(journal), found))
     }
 
-    /// Takes the row that a record keeps, if this work can use it; false where the record has none.
+    /// Adds the row of a record if this work can use it; returns false if the record is invalid.
     ///
-    /// Left out are blocks that the grid does not have, rows of another length, and rows with blanks: an extension leaves
-    /// probes blank whose errors it knows, and without that knowledge they are not there.
+    /// Skipped are blocks that are not in the grid, rows of another length, and rows with blanks: an extension leaves
+    /// probes blank if it knows their errors, and without the older table these probes are missing.
     pub(crate) fn take(&self, found: &mut HashMap<TableBlock, Row>, kept: &[u8]) -> bool {
         let Some((block, row)) = parsed(kept) else {
             return false;
@@ -121,8 +121,8 @@ impl<'a> TableWork<'a> {
         known.is_some_and(|known| known.probe(block.kind, ratio, [r, z]).is_some())
     }
 
-    /// Adds the rows of which nothing needs to be computed: those of nodes that are known as a whole, and empty ones for
-    /// probes whose errors are all known.
+    /// Adds the rows that need no computation: rows of known nodes, and empty rows for probes whose errors are all
+    /// known.
     pub(crate) fn add_known(&self, finished: &mut HashMap<TableBlock, Row>) {
         for &block in &self.blocks {
             let (ratio, r, z) = self.place(block);
@@ -134,11 +134,11 @@ impl<'a> TableWork<'a> {
         }
     }
 
-    /// All rows in the order of the blocks: those finished before, and the others computed and, with a journal, recorded
-    /// now.
+    /// All rows in the order of the blocks. Rows that are not in `finished` are computed and recorded in the journal,
+    /// if there is one.
     ///
     /// # Errors
-    /// [`BuildError`] when the exact kernels refuse a point or the journal cannot be written.
+    /// [`BuildError`] if the exact kernels reject a point, or the journal cannot be written.
     pub(crate) fn rows(
         &self,
         mut finished: HashMap<TableBlock, Row>,
@@ -166,7 +166,7 @@ impl<'a> TableWork<'a> {
         Ok(blocks.filter_map(|block| finished.remove(block)).collect())
     }
 
-    /// Computes a row, of which known cells keep their numbers; probes whose errors are known are left blank.
+    /// Computes a row; known cells keep their numbers, and probes whose errors are known stay blank.
     fn row(&self, block: TableBlock) -> Result<Row, BuildError> {
         let (ratio, r, depths) = self.place(block);
         let plan = match block.kind {

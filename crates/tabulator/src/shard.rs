@@ -1,4 +1,4 @@
-//! A table in parts: shards computed apart, joined into one.
+//! Shards: parts of a table that are computed separately and then merged.
 
 use crate::assemble::{BuildSummary, complete};
 use crate::error::BuildError;
@@ -12,9 +12,9 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-/// Computes a part of the blocks of `grid` into the file `path`, to be joined by [`merge`].
+/// Computes a part of the blocks of `grid` and writes it to the file `path`, for [`merge`].
 ///
-/// Given again, it goes on where it stopped; when all blocks of the part are there it does nothing.
+/// The same call resumes an interrupted run; it does nothing if all blocks of the part are finished.
 ///
 /// # Errors
 /// As [`build`](crate::build).
@@ -35,10 +35,10 @@ pub fn build_shard(
     Ok(work.blocks.len())
 }
 
-/// Joins the shards at `parts` into a table at `path`.
+/// Merges the shards at `parts` into a table at `path`.
 ///
 /// # Errors
-/// [`BuildError`]: a file that is no shard, shards of different settings, blocks that are missing, or as [`build`](crate::build).
+/// [`BuildError`]: a file is not a shard, shards have different settings, blocks are missing, or as [`build`](crate::build).
 pub fn merge(
     parts: &[PathBuf],
     path: &Path,
@@ -52,7 +52,7 @@ pub fn merge(
     apart(&[path], &inputs)?;
     let output = Output::claim(path, existing)?;
     let Some(first) = parts.first() else {
-        let none = "a table is joined from one shard or more";
+        let none = "a table is merged from at least one shard";
         return Err(BuildError::refused(None, none.to_owned()));
     };
     let settings = records(first)?.title.about;
@@ -63,7 +63,7 @@ pub fn merge(
         let mut records = records(part)?;
         if records.title.about != settings {
             let sentence = format!(
-                "{} was made with other settings than {}: shards of one table have the same grid",
+                "{} has other settings than {}: all shards of a table have the same grid",
                 part.display(),
                 first.display()
             );

@@ -74,7 +74,7 @@ fn an_interrupted_build_goes_on_and_gives_the_same_content() {
     assert!(!journal(&broken).exists());
 }
 
-/// What an extension computes goes on from numbers of its table: it is no part of a build with the same settings.
+/// An extension depends on the numbers of its table, so its journal is not part of a build with the same settings.
 #[test]
 fn a_build_takes_nothing_that_an_interrupted_extension_left() {
     let folder = tempfile::tempdir().unwrap();

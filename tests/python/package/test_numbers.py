@@ -121,7 +121,7 @@ def test_a_file_gives_what_the_command_gives(name, tmp_path):
 def test_what_is_inferred_is_that_of_the_command(asked, given):
     scene = SCENES / "plastic-drop.toml"
     assert hl.infer(scene, **given)._asdict() == run_well("infer", scene, *asked)
-    with pytest.raises(hl.SceneError, match="2 measures are given"):
+    with pytest.raises(hl.SceneError, match="2 measurements are given"):
         hl.infer(scene, restitution=0.5, bounces=(0.3, 0.1))
 
 
@@ -286,7 +286,7 @@ def test_chosen_columns_are_those_of_the_command(tmp_path):
     assert same(out.restitution, all_of_them.restitution) and list(out) == ["striker.velocity_m_s", "restitution", "model"]
     assert list(out.to_xarray().data_vars) == ["restitution", "model"] and list(out.to_pandas())[1:] == ["restitution", "model", "failure"]
     assert hl.collide(scene, columns=["loss"], velocity_m_s=[]).loss.shape == (0,)
-    with pytest.raises(AttributeError, match="loss is not among the columns asked for, restitution"):
+    with pytest.raises(AttributeError, match="loss is not among the requested columns, restitution"):
         _ = out.loss
     with pytest.raises(hl.SceneError, match="\"losss\" is not one of"):
         hl.collide(scene, columns=["losss"], velocity_m_s=velocity)

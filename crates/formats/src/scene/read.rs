@@ -52,7 +52,11 @@ pub fn read_scene(path: &Path) -> Result<Scene, SceneError> {
     read_with_inputs(path).map(|(scene, _)| scene)
 }
 
-/// Reads a scene from text; other files it names are found in `directory`.
+/// Reads a scene from TOML text; relative paths of other files in it refer to `directory`.
+///
+/// # Errors
+/// [`SceneError`]: the text is not TOML, a key is unknown, missing or outside its range, or a file that it names cannot be
+/// read. The error contains the key, the value, the allowed range and the nearest name, as far as they apply.
 pub fn parse_scene(text: &str, directory: &Path) -> Result<Scene, SceneError> {
     scene_of(&parse(text)?, directory)
 }

@@ -1,8 +1,8 @@
 //! The axis under a point force or a punch, and under the impulse of any load.
 //!
-//! There the fronts of opposite edges meet and the compact potentials become delta functions. Off the axis
-//! nothing is special: each field is r to its parity times a smooth function of r^2 between fronts, so its
-//! values at a few small radii continue it to the axis.
+//! On the axis the fronts of opposite edges meet and the compact potentials become delta functions. Near the axis each
+//! field is, between fronts, r to the power of its parity times a smooth function of r^2, so its values at a few small
+//! radii determine those on the axis.
 
 use crate::arrivals::Arrivals;
 use crate::field::{Estimate, FIELDS, Point, Six};
@@ -11,16 +11,16 @@ use crate::numeric::polynomial::lagrange;
 use crate::potentials::IMPULSE;
 use crate::profile::Profile;
 
-/// Radii below this fraction of the distance from the edge of the disc are continued.
+/// Fraction of the distance from the edge of the disc below which fields are extrapolated to a radius.
 const NEAR_AXIS: f64 = 0.03;
 
-/// Across a front nothing is known: the error over the size of what is combined.
+/// Error over the size of the combined fields if they lie on both sides of a front.
 const ACROSS: f64 = 30.0;
 
 /// Number of radii used.
 const RADII: usize = 6;
 
-/// Whether the fields at a point are continued from larger radii.
+/// Whether the fields at a point are extrapolated from larger radii.
 pub(crate) fn is_near<const N: i32>(profile: Profile, at: Point) -> bool {
     (profile != Profile::Hertz || N == IMPULSE) && at.r < NEAR_AXIS * at.z.hypot(profile.radius())
 }
@@ -52,11 +52,12 @@ pub(crate) fn continued(
     }
 }
 
-/// A spacing that keeps all radii on one side of every front, and whether there is one.
+/// A spacing for which all radii are on the same side of every front, and whether there is one.
 ///
-/// Off the axis a front from the edge of a disc arrives earlier or later by at most r, one from a point by r^2/(2 z).
+/// At radius r a front from the edge of a disc arrives at most r earlier or later than on the axis, one from a point
+/// r^2/(2 z).
 fn step(medium: &Medium, profile: Profile, at: Point) -> (f64, bool) {
-    /// Widest and least spacing over the distance from the edge of the disc.
+    /// Largest and smallest spacing over the distance from the edge of the disc.
     const WIDEST_SPACING: f64 = 0.05;
     const LEAST_SPACING: f64 = 1e-4;
     let radius = profile.radius();
@@ -75,8 +76,8 @@ fn step(medium: &Medium, profile: Profile, at: Point) -> (f64, bool) {
     (step.clamp(least, WIDEST_SPACING * distance), step >= least)
 }
 
-/// What the fields at the i-th of some radii weigh in those at r: by Lagrange's polynomials in r^2, of the fields divided by
-/// r where odd.
+/// Weights of the fields at the i-th of some radii in those at r, by Lagrange interpolation in r^2; odd fields are
+/// divided by r first.
 pub fn weights_off_axis(r: f64, radii: &[f64], i: usize) -> Six {
     let weight = lagrange(|j| radii[j] * radii[j], radii.len(), i, r * r);
     FIELDS.map(|field| match field.is_odd_in_r() {

@@ -1,7 +1,7 @@
 //! Singularities of the amplitudes: zeros of the Rayleigh function on neighbouring sheets, branch points, infinity.
 //!
-//! They depend on the medium alone and are given in the half-angle variables of [`fronts`](crate::integral::fronts), those of the
-//! slow interval in a stretched one.
+//! They depend on the medium only, and are given in the half-angle variables of [`fronts`](crate::integral::fronts); in
+//! the slow interval the variable is stretched.
 
 use crate::integral::panels::smallest_ellipse;
 use crate::integral::singularities::Singularities;
@@ -10,20 +10,20 @@ use crate::numeric::lanes::ComplexMap;
 use crate::numeric::scalar::{Complex, Real, Scalar};
 use num_complex::Complex64;
 
-/// Singularities of the amplitudes, fixed for a medium.
+/// Singularities of the amplitudes, which depend on the medium only.
 #[derive(Debug, Clone)]
 pub(crate) struct FixedSingularities {
-    /// In u, with the pole at slowness zero, where the argument of the potentials is infinite.
+    /// Singularities in u, with the pole at slowness zero, where the argument of the potentials is infinite.
     pub(crate) fast: Singularities,
-    /// In the stretched variable of the slow interval, with the pole at infinite slowness.
+    /// Singularities in the stretched variable of the slow interval, with the pole at infinite slowness.
     pub(crate) slow: Singularities,
     pub(crate) stretch: Stretch,
 }
 
 /// A stretched variable s of the slow interval, q = centre + width sinh(rate s - shift), 0 <= s <= 1.
 ///
-/// A zero of the Rayleigh function on the neighbouring sheet lies near the slow interval; the stretch
-/// moves it away as far as the Rayleigh pole beyond the other end allows.
+/// A zero of the Rayleigh function on the neighbouring sheet lies near the slow interval; the stretch moves it away, as
+/// far as the Rayleigh pole beyond the other end allows.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Stretch {
     centre: f64,
@@ -43,7 +43,7 @@ impl Stretch {
         }
     }
 
-    /// The stretch that keeps the given points farthest from the interval.
+    /// The stretch with the largest distance of the given points from the interval.
     fn farthest(points: &[Complex64]) -> Self {
         let nearest = points
             .iter()
@@ -89,13 +89,14 @@ impl ComplexMap for Stretch {
 
 impl FixedSingularities {
     pub(crate) fn new(medium: &Medium) -> Self {
-        /// A zero this close to slowness one has a residue as small and is removable in the limit (nu = 0).
+        /// Distance of a zero from slowness one below which it is skipped: its residue is as small, and it is removable
+        /// at nu = 0.
         const REMOVABLE: f64 = 1e-9;
         let k = medium.shear_slowness_squared();
         let span = k - 1.0;
         let i = Complex64::i();
         let both = |v: Complex64| [v, -v];
-        // x is infinite at u = i, p and y vanish together with a square root at the branch points
+        // x is infinite at u = i; p and y vanish like a square root at the branch points
         let mut fast = vec![i, k.sqrt() / (1.0 - i * span.sqrt())];
         let mut slow = vec![i];
         for s in both(i / span.sqrt()) {
@@ -124,7 +125,7 @@ impl FixedSingularities {
                 }
             }
         }
-        // Far ones cost no node, and only the distance from the real axis counts.
+        // distant singularities need no additional node, and only the distance from the real axis counts
         for points in [&mut fast, &mut slow] {
             points.retain(|v| v.re > -1.0 && v.norm() < 2.5);
             points.iter_mut().for_each(|v| v.im = v.im.abs());

@@ -1,4 +1,4 @@
-//! Slownesses below one: waves that travel as plane fronts, felt only while they pass.
+//! Slownesses below one: waves that travel as plane fronts and act only while they pass.
 //!
 //! Theory: `docs/theory.md` (T17).
 
@@ -71,7 +71,7 @@ impl Setting {
         )
     }
 
-    /// Replaces the tractions by those of differences to the surface.
+    /// Replaces the tractions by their differences from the surface.
     pub(crate) fn set_fast_traction(
         &self,
         at: Point,

@@ -1,21 +1,20 @@
-//! Where the integrands of the kernels are singular, in closed form.
+//! Singularities of the integrands of the kernels, in closed form.
 //!
-//! A wave is felt at slowness x when its plane front from an edge of the disc passes:
+//! A wave of slowness x arrives when its plane front from an edge of the disc passes:
 //!
 //! ```text
 //! z gamma^ + sense t = e x,     e = +-1 +- r
 //! ```
 //!
-//! With x = 2u/(1 + u^2) and gamma^ = (1 - u^2)/(1 + u^2), scaled by the slowness of the wave, this is a
-//! quadratic in u. The integrals run over such half-angle variables, in which every square root of the
-//! problem is rational or analytic:
+//! With x = 2u/(1 + u^2) and gamma^ = (1 - u^2)/(1 + u^2), scaled by the slowness of the wave, this is a quadratic
+//! equation in u. The integrals are over such half-angle variables, in which every square root is rational or analytic:
 //!
 //! ```text
 //! fast  0 < x < 1           x = 2u/(1 + u^2)      p = (1 - u^2)/(1 + u^2)
 //! slow  1 < x < sqrt(K)     sqrt(x^2 - 1) = sqrt(K - 1) 2q/(1 + q^2)     y = sqrt(K - 1) (1 - q^2)/(1 + q^2)
 //! ```
 //!
-//! Singularities that do not depend on the place are those of [`branch_points`](crate::integral::branch_points).
+//! [`branch_points`](crate::integral::branch_points) contains the singularities that do not depend on the place.
 //!
 //! Theory: `docs/theory.md` (T18).
 
@@ -85,8 +84,8 @@ fn add_fast(
 
 /// Adds the fronts of one wave in both senses to the singularities of the slow interval.
 ///
-/// Reversing time turns q into its reciprocal, and the other sheet of the root that a wave does not
-/// contain turns it into its negative.
+/// Time reversal turns q into its reciprocal, and the other sheet of the root that does not belong to the wave into its
+/// negative.
 fn add_slow(singularities: &mut Singularities, setting: &Setting, at: Point, wave: Wave) {
     let span = setting.span;
     let mut points = Points::default();
@@ -94,7 +93,7 @@ fn add_slow(singularities: &mut Singularities, setting: &Setting, at: Point, wav
         with_mirror(q, |q| points.push(q));
         with_reciprocal(q, |q| points.push(q));
     };
-    // On the surface the roots of a pair are reciprocal and stand for the same two fronts.
+    // on the surface the roots of a pair are reciprocal and represent the same two fronts
     let is_reciprocal = |v: Complex64| at.z == 0.0 && v.norm_sqr() > 1.0 && v.im == 0.0;
     for_each_front(setting, at, wave, Sense::Outgoing, |v| match wave {
         Wave::P | Wave::S if is_reciprocal(v) => {}
@@ -113,10 +112,10 @@ fn add_slow(singularities: &mut Singularities, setting: &Setting, at: Point, wav
     }
 }
 
-/// Passes on a point and its negative: the one on the right, and the other where it is near enough to matter.
+/// Passes on a point and its negative: the one on the right, and the other if it is near enough to matter.
 fn with_mirror(point: Complex64, mut add: impl FnMut(Complex64)) {
     const NEAR_ZERO: f64 = 0.3;
-    /// Beyond this a half-angle costs no node.
+    /// Half-angle beyond which a singularity needs no additional node.
     const COSTLESS_ANGLE: f64 = 2.5;
     let right = if point.re < 0.0 { -point } else { point };
     if right.norm_sqr() > COSTLESS_ANGLE * COSTLESS_ANGLE {
@@ -128,7 +127,7 @@ fn with_mirror(point: Complex64, mut add: impl FnMut(Complex64)) {
     }
 }
 
-/// Passes on the reciprocal of a point, or its negative, where it is near enough to matter.
+/// Passes on the reciprocal of a point, or its negative, if it is near enough to matter.
 fn with_reciprocal(point: Complex64, mut add: impl FnMut(Complex64)) {
     const NEAR_ONE: f64 = 0.4;
     if point.norm_sqr() > NEAR_ONE * NEAR_ONE {
@@ -142,8 +141,8 @@ fn cosine(u: Complex64) -> Complex64 {
     (1.0 - square) / (1.0 + square)
 }
 
-/// Roots u of (sense t - z) u^2 - 2 e u + (z + sense t) = 0, t in units of the slowness of the wave, for
-/// both e > 0, or the one for a point force; those for -e are their negatives. Of a conjugate pair one is given.
+/// Roots u of (sense t - z) u^2 - 2 e u + (z + sense t) = 0, t in units of the slowness of the wave, for both e > 0, or
+/// the single e of a point force; the roots for -e are their negatives. Of a conjugate pair only one is passed on.
 fn for_each_front(
     setting: &Setting,
     at: Point,

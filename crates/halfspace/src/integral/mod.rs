@@ -1,13 +1,13 @@
-//! The single integral over slowness, put together from its parts.
+//! The single integral over slowness, assembled from its parts.
 //!
 //! ```text
 //! R = 2/(c D'(c)) Re sum_{P,S} N Psi(gamma z - i c t)
 //!     + (1/pi) Re int_0^{1/kappa} dx sum_{P,S} amplitude(x) [ Psi(xi-) + Psi(xi+) ],   xi-+ = i (z gamma^ -+ t)/x
 //! ```
 //!
-//! with gamma^ = sqrt(1 - x^2) for P and sqrt(1/kappa^2 - x^2) for S. Below x = 1 only the compact parts of
-//! the potentials enter, so each wave and each direction of travel has an interval of its own; above it the
-//! potentials are taken whole.
+//! with gamma^ = sqrt(1 - x^2) for P and sqrt(1/kappa^2 - x^2) for S. Below x = 1 only the compact parts of the
+//! potentials enter, so each wave and each direction of travel has its own interval; above x = 1 the whole potentials
+//! enter.
 //!
 //! In reading order: the integrand (`spectrum`, `setting`), its two parts below and above slowness 1/c1 (`fast`, `slow`) and
 //! the Rayleigh wave (`rayleigh_pole`, `rayleigh_front`); where it is singular (`fronts`, `branch_points`), and
@@ -42,8 +42,8 @@ use std::f64::consts::PI;
 use sum::{QuadraturePanel, Sum};
 
 impl Setting {
-    /// The remainder or one of its time integrals, continued to the axis where the fronts of a point force or a punch
-    /// meet there.
+    /// The remainder or one of its time integrals; extrapolated to the axis where the fronts of a point force or a
+    /// punch meet.
     pub(crate) fn evaluate<const N: i32>(&self, at: Point) -> Estimate {
         let t = at.t.max(NEAREST);
         let at = Point { t, ..at };
@@ -52,7 +52,7 @@ impl Setting {
         } else {
             self.integrate::<N>(at)
         };
-        // on the surface sigma_zz is the load and sigma_rz is zero from the start: both remainders vanish
+        // on the surface sigma_zz equals the load and sigma_rz is zero at all times: both remainders vanish
         if at.z == 0.0 {
             for field in [Field::StressZz, Field::StressRz] {
                 estimate.value[field.index()] = 0.0;
@@ -63,7 +63,7 @@ impl Setting {
     }
 
     fn integrate<const N: i32>(&self, at: Point) -> Estimate {
-        /// Outside the disc the pressure is zero, and at a distance from the edge so are its rounding errors.
+        /// Radius from which the pressure and its rounding errors are zero.
         const CLEAR_OF_EDGE: f64 = 1.01;
         let mut sum = Sum::default();
         self.rayleigh_wave::<N>(at, &mut sum);
@@ -97,7 +97,7 @@ impl Setting {
         shallow: bool,
         sum: &mut Sum,
     ) {
-        // many are step responses and velocities, time integrals are not worth so much code
+        // step responses and velocities are frequent; time integrals do not justify the additional code
         if N != STEP_INTEGRAL && !shallow {
             dispatch(QuadraturePanel::<N> {
                 setting: self,
@@ -126,10 +126,10 @@ impl Setting {
     }
 }
 
-/// Rounding errors of what cancels within the potentials.
+/// Rounding errors of terms that cancel within the potentials.
 ///
-/// The terms of the closed forms grow with the radius; those of the step response at a distant front do not, and fall as
-/// its inverse root.
+/// The terms of the closed forms grow with the radius; those of the step response at a distant front decrease as its
+/// inverse root.
 fn rounding_floor<const N: i32>(profile: Profile, r: f64) -> Six {
     const UNIT: f64 = 2.0 * f64::EPSILON;
     let [displacement, stress] = if N == STEP && profile == Profile::Hertz && r > FAR_RADIUS {

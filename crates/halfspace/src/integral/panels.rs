@@ -1,8 +1,8 @@
-//! Gauss rules on panels that keep clear of singularities.
+//! Gauss rules on panels that avoid singularities.
 //!
-//! A panel is accepted when every singularity lies outside a Bernstein ellipse large enough for a Gauss rule to reach
-//! the accuracy asked for, else it is halved. So the number of nodes follows from the geometry, and nothing is
-//! evaluated twice. How singular an integrand is at the fronts says how far its rules are trusted there.
+//! A panel is accepted if every singularity lies outside a Bernstein ellipse that is large enough for a Gauss rule of
+//! the requested accuracy; otherwise it is halved. The number of nodes follows from the geometry, and no integrand is
+//! evaluated twice. The error estimate depends on the strength of the singularities at the fronts.
 //!
 //! Theory: `docs/theory.md` (T18).
 
@@ -14,32 +14,32 @@ use crate::profile::Profile;
 use arrayvec::ArrayVec;
 use num_complex::Complex64;
 
-/// Panels are halved rather than given more nodes than this, a whole number of blocks.
+/// Largest number of nodes of a panel, a whole number of blocks; panels that need more are halved.
 const MOST_NODES: usize = 24;
 
-/// A panel narrower than this fraction of its piece is not halved.
+/// Width of a panel, as a fraction of its piece, below which it is not halved.
 const NARROWEST: f64 = 1e-9;
 
-/// Axis of the ellipse through what is left out as too far to matter.
+/// Axis of the ellipse beyond which singularities are ignored.
 const FARTHEST_ELLIPSE: f64 = 7.0;
 
-/// Singularities on ellipses so many times larger than the smallest leave nothing beside what that leaves.
+/// Ratio to the smallest ellipse above which the errors of other singularities are negligible.
 const FARTHER_ELLIPSE: f64 = 2.0;
 
-/// The error at a pole of third order over that at a simple one.
+/// Ratio of the error at a pole of third order to that at a simple pole.
 const POLE: f64 = 30.0;
 
 /// Relative rounding error of a term.
 pub(crate) const TERM_ROUNDING: f64 = 4.0 * f64::EPSILON;
 
-/// One end of an interval and where it goes: v = start + scale s^power for s in [0, 1].
+/// The map from one end of an interval: v = start + scale s^power for s in [0, 1].
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct IntervalEnd {
     pub(crate) start: f64,
     pub(crate) scale: f64,
     pub(crate) power: i32,
     pub(crate) strength: SingularityStrength,
-    /// Rounding error of `start`, where that counts.
+    /// Rounding error of `start`, if it matters.
     pub(crate) place_error: f64,
 }
 
@@ -50,13 +50,13 @@ pub(crate) struct PanelNodes {
     middle: f64,
     half: f64,
     piece: IntervalEnd,
-    /// Of the integrand, relative.
+    /// Relative error of the integrand.
     error: f64,
 }
 
 impl PanelNodes {
-    /// Place, weight and relative errors for displacements and stresses of a node of the rule and its weight; squares of
-    /// errors add up. What rounds to the start of the piece has no weight, and is elsewhere.
+    /// Place and weight of a node, with the relative errors of displacements and stresses; the squares of errors add
+    /// up. A node that rounds to the start of the piece is moved and has zero weight.
     #[inline(always)]
     pub(crate) fn at<T: Real>(&self, node: T, weight: T) -> (T, T, [T; 2]) {
         let piece = self.piece;
@@ -76,15 +76,15 @@ impl PanelNodes {
         (along + piece.start, weight, errors)
     }
 
-    /// Place, weight and errors of each.
+    /// Place, weight and errors of each node.
     pub(crate) fn iter(&self) -> impl Iterator<Item = (f64, f64, [f64; 2])> {
         let rule = self.rule.nodes().iter().zip(self.rule.weights());
         rule.map(|(&node, &weight)| self.at(node, weight))
     }
 }
 
-/// Calls `f` with the nodes of each panel of a piece, at least `least`; the panels of [0, 1] keep clear of the singularities,
-/// to exp(-`digits`) of the integrand.
+/// Calls `f` with the nodes of each panel of a piece, whose places are at least `least`. The panels of [0, 1] avoid the
+/// singularities, for errors of exp(-`digits`) of the integrand.
 ///
 /// The integral may be the finite part of an inverse square at zero.
 #[inline(always)]
@@ -104,7 +104,7 @@ pub(crate) fn panels(
         let pole = half_axes(major_axis(pole.re, pole.im, ends));
         let (rate, pole_rate) = (half_axes(smallest).ln(), pole.ln());
         let at_cut = s0 == 0.0 && finite_part;
-        // Gauss's rule has twice the degree of one that only interpolates.
+        // a Gauss rule has twice the degree of an interpolatory one
         let degree = if at_cut { 1.0 } else { 2.0 };
         let least_nodes = (digits / rate).max((digits + POLE.ln()) / pole_rate);
         let nodes = (least_nodes / degree) as usize;
@@ -117,7 +117,7 @@ pub(crate) fn panels(
         let n = nodes.saturating_add(2).max(least).min(MOST_NODES);
         let exponent = degree as u32 * n as u32;
         let all = singularities.sum_of_inverse_powers(ends, FARTHER_ELLIPSE * smallest, exponent);
-        // of the whole panel, as if one node had it
+        // error of the whole panel, assigned to its nodes
         let of_rule = caution * (all + POLE * power(pole, exponent).recip()) * (n as f64).sqrt();
         let (rule, middle, half) = if at_cut {
             (gauss::finite_part_rule(n), 0.0, s1)
@@ -141,22 +141,22 @@ pub(crate) fn smallest_ellipse(images: &[Complex64], foci: [f64; 2]) -> f64 {
     half_axes(axes.fold(FARTHEST_ELLIPSE, f64::min))
 }
 
-/// How strong the singularities at the cuts of an integration interval are.
+/// Strength of the singularities at the cuts of an integration interval.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum SingularityStrength {
     /// The integrand stays finite.
     Bounded,
     /// The inverse square root.
     InverseRoot,
-    /// The power -3/2, taken as Hadamard's finite part.
+    /// The power -3/2, as Hadamard's finite part.
     FinitePart,
 }
 
 impl SingularityStrength {
-    /// Of a profile and an order in time.
+    /// Strength for a profile and an order in time.
     ///
-    /// The step response of stress to a point force has fronts of power -3/2, to a punch of power -1/2, and each
-    /// derivative takes one off.
+    /// The step response of stress has fronts of power -3/2 for a point force and -1/2 for a punch; each time
+    /// derivative lowers the power by one.
     pub(crate) fn of<const N: i32>(profile: Profile) -> Self {
         match (profile, Order::of(N)) {
             (Profile::Point, Order::Impulse | Order::Step) => Self::FinitePart,
@@ -180,20 +180,21 @@ impl SingularityStrength {
         distance: T,
         s: T,
     ) -> [T; 2] {
-        /// All nodes beside a front share the error of its place: their errors add up, where squares are added.
+        /// Factor for the shared error: all nodes near a front have the error of its place, so that errors add up
+        /// rather than squares.
         const SHARED: f64 = 5.0;
         let front = s.constant(SHARED * place_error) / distance;
         match self {
             Self::Bounded => [displacement, stress],
-            // displacements have a root there
+            // displacements have a square root at the front
             Self::InverseRoot => [displacement + front * s, stress + front],
             Self::FinitePart => [displacement + front, stress + front * 3.0],
         }
     }
 
-    /// Error of a Gauss rule over the sum of rho^(-2n) of all singularities near it.
+    /// Ratio of the error of a Gauss rule to the sum of rho^(-2n) over all singularities near it.
     ///
-    /// Calibrated on the random points of `tests/estimate.rs`, judged at others by `tests/estimate_by_region.rs`.
+    /// Calibrated on the random points of `tests/estimate.rs`; `tests/estimate_by_region.rs` checks it at others.
     pub(crate) fn caution(self) -> f64 {
         const BOUNDED: f64 = 56.0;
         match self {

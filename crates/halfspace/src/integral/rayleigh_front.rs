@@ -13,21 +13,22 @@ use crate::profile::Profile;
 use num_complex::Complex64;
 use std::f64::consts::PI;
 
-/// Radius down to which the closed forms at the fronts hold.
+/// Smallest radius for the closed forms at the fronts.
 const LEAST_RADIUS: f64 = 0.002;
 
 /// The Rayleigh wave near its arrival from an edge, c t = |r -+ 1|.
 ///
-/// It passes in a time of the order of the depth, so the rounding errors of c, of c t and of r -+ 1 would all be seen.
+/// It passes in a time of the order of the depth, so the rounding errors of c, of c t and of r -+ 1 would all be
+/// visible.
 pub(crate) struct Front {
     r: f64,
     factors: [[f64; 2]; 2],
 }
 
 impl Front {
-    /// None away from the arrivals, where rounding does no harm.
+    /// The front; none away from the arrivals, where rounding is harmless.
     pub(crate) fn near<const N: i32>(medium: &Medium, profile: Profile, at: Point) -> Option<Self> {
-        /// Depth, and distance from the arrival, within which rounding is seen.
+        /// Largest depth, and distance from the arrival, at which rounding matters.
         const NEAR_ARRIVAL: f64 = 1e-2;
         let Point { r, z, t } = at;
         let xi = Complex64::new(0.0, medium.rayleigh_speed() * t);
@@ -79,7 +80,7 @@ fn ends_at_front(xi: Complex64, factors: [[f64; 2]; 2]) -> ([Complex64; 2], [Com
     (zeta, rho)
 }
 
-/// The potentials there, for xi near the disc and r not small.
+/// The potentials at the front, for xi near the disc and r not small.
 fn at_front(xi: Complex64, r: f64, factors: [[f64; 2]; 2]) -> Potentials<Complex64> {
     let (zeta, rho) = ends_at_front(xi, factors);
     let phi = [0, 1].map(|i| (zeta[i] + rho[i]).logarithm().times_minus_i());
@@ -88,9 +89,10 @@ fn at_front(xi: Complex64, r: f64, factors: [[f64; 2]; 2]) -> Potentials<Complex
     from_primitives::<STEP, Complex64>(psi, eta, r)
 }
 
-/// A_2 and B_2/r there, the difference between xi + step and xi = -i c t for real step > 0, to its own last digits.
+/// Differences of A_2 and B_2/r at the front between xi + step and xi = -i c t for real step > 0, to full relative
+/// accuracy.
 ///
-/// Differences of the primitives of `chord_primitives`, each from those of rho^2 and of zeta + rho.
+/// They follow from differences of the primitives of `chord_primitives`, each from those of rho^2 and of zeta + rho.
 fn step_at_front(
     xi: Complex64,
     step: f64,

@@ -54,7 +54,8 @@ impl Setting {
         }
     }
 
-    /// Relative errors of displacements and stresses of the Rayleigh wave from rounding of its distance to the edges of the disc.
+    /// Relative errors of displacements and stresses of the Rayleigh wave, from the rounding of its distance to the
+    /// edges of the disc.
     fn error_at_front<const N: i32>(&self, at: Point, xi: Complex64, shallow: bool) -> [f64; 2] {
         let strength = SingularityStrength::of::<N>(self.profile);
         let radius = self.profile.radius();
@@ -66,9 +67,9 @@ impl Setting {
         let size = height + at.r + radius;
         let front = TERM_ROUNDING * size / gap.max(f64::EPSILON * size);
         match strength {
-            // where the two waves cancel
+            // the two waves cancel
             SingularityStrength::Bounded if shallow => [TERM_ROUNDING + front; 2],
-            // stresses have a root there
+            // stresses have a square root at the front
             SingularityStrength::Bounded => [
                 TERM_ROUNDING * (1.0 + size),
                 TERM_ROUNDING * (1.0 + size / gap.max(f64::EPSILON * size).sqrt()),

@@ -1,4 +1,4 @@
-//! What one integral over slowness depends on besides the point: half-space, profile, tolerance.
+//! Parameters of the integral over slowness, apart from the point: half-space, profile and tolerance.
 
 use crate::field::Point;
 use crate::integral::branch_points::FixedSingularities;
@@ -6,7 +6,7 @@ use crate::integral::spectrum::{Pole, Wave, pole};
 use crate::medium::Medium;
 use crate::profile::Profile;
 
-/// Half-space, load profile and accuracy, with what follows from them for every point.
+/// Half-space, load profile and accuracy, with derived quantities that are the same for every point.
 #[derive(Debug, Clone)]
 pub(crate) struct Setting {
     pub(crate) medium: Medium,
@@ -21,9 +21,10 @@ pub(crate) struct Setting {
     /// sqrt(1/kappa^2 - 1).
     pub(crate) span: f64,
     pub(crate) fixed: FixedSingularities,
-    /// For P and S.
+    /// Rayleigh poles for P and S.
     pub(crate) poles: [Pole; 2],
-    /// int of the amplitude of w over the fast interval, times x/2, for P and S: a wave that has passed.
+    /// int of the amplitude of w times x/2 over the fast interval for P and S: the time integral of a wave that has
+    /// passed.
     pub(crate) passed: [f64; 2],
 }
 
@@ -48,7 +49,7 @@ impl Setting {
 
     /// Relative accuracy of each quadrature rule, as minus its natural logarithm.
     ///
-    /// The rules are a little better than the tolerance because the waves cancel in the sum.
+    /// It is a little better than the tolerance, because the waves cancel in the sum.
     /// Just below the surface (`shallow`) the terms are of order z/t and the peak of the field is of order sqrt(z).
     pub(crate) fn digits(&self, at: Point, shallow: bool) -> f64 {
         if shallow {
@@ -58,7 +59,7 @@ impl Setting {
         }
     }
 
-    /// Rounding of the distance to the nearest edge, in units of that of the distance itself.
+    /// Rounding error of the distance to the nearest edge, in units of the rounding error of a number of that size.
     pub(crate) fn front_rounding(&self, at: Point) -> f64 {
         let radius = self.profile.radius();
         match self.profile {
@@ -78,7 +79,7 @@ impl Setting {
 
 fn digits(tolerance: f64) -> f64 {
     const DIGITS_MARGIN: f64 = 0.1;
-    // beyond the last digit of a double, and what 24 nodes reach beside a finite part
+    // beyond the last digit of a double, and the accuracy of 24 nodes next to a finite part
     const MOST_DIGITS: f64 = 40.0;
     (-(DIGITS_MARGIN * tolerance).ln()).min(MOST_DIGITS)
 }

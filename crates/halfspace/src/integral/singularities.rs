@@ -1,7 +1,7 @@
-//! Quadrature of a function whose singularities are all known.
+//! Quadrature of a function all of whose singularities are known.
 //!
-//! The interval [0, 1] is cut at the singularities that lie on it; toward a cut the variable is squared,
-//! which turns square roots into smooth functions. The pieces are integrated by Gauss rules on panels.
+//! The interval [0, 1] is cut at the singularities on it. Toward a cut the variable is squared, which turns square
+//! roots into smooth functions. The pieces are integrated by Gauss rules on panels.
 //!
 //! Theory: `docs/theory.md` (T18).
 
@@ -16,36 +16,36 @@ use num_complex::Complex64;
 /// Power of the variable toward a cut of a single singularity.
 const SQUARE: i32 = 2;
 
-/// Power toward a cut where singularities meet.
+/// Power of the variable toward a cut where singularities meet.
 const HIGH: i32 = 6;
 
-/// Cuts at a relative distance below this are one.
+/// Relative distance below which two cuts count as one.
 const SAME_CUT: f64 = 1e-13;
 
-/// Smaller places are as good as zero once multiplied by [`SAME_CUT`].
+/// Smallest place in the comparison of cuts; the product with [`SAME_CUT`] is then negligible.
 const LEAST_PLACE: f64 = 1e-14;
 
-/// Whether two places in [0, 1] are one: just after a plane front cuts of 1e-16 are distinct from zero.
+/// Whether two places in [0, 1] count as one; just after a plane front, cuts of 1e-16 differ from zero.
 fn same(a: f64, b: f64) -> bool {
     (a - b).abs() <= SAME_CUT * a.max(b).max(LEAST_PLACE)
 }
 
-/// Most cuts that an integrand of this crate has.
+/// Largest number of cuts of an integrand.
 const CAPACITY: usize = 64;
 
-/// The interval [0, 1] of a smooth variable with everything that is not smooth near it.
+/// The interval [0, 1] of a smooth variable, with all singularities on and near it.
 #[derive(Debug, Clone)]
 pub(crate) struct Singularities {
     cuts: ArrayVec<f64, CAPACITY>,
-    /// All, the cuts among them.
+    /// All singularities, including the cuts.
     points: Points,
-    /// Where the integrand grows as a pole of high order.
+    /// Place at which the integrand grows as a pole of high order.
     pub(crate) pole: Complex64,
     strength: SingularityStrength,
-    /// Ends of the interval at which the variable stands for the square root of the distance in slowness.
+    /// Ends of the interval at which the variable is the square root of the distance in slowness.
     root_ends: &'static [f64],
     rounding: f64,
-    /// The points as the last piece of the interval saw them.
+    /// The points, mapped to the last piece of the interval.
     images: Points,
 }
 
@@ -70,8 +70,8 @@ impl Singularities {
         singularities
     }
 
-    /// Copies cuts, points and pole of another interval. The integrand has singularities of this strength at its cuts, and a
-    /// rounding error of `times` the usual one where it is not bounded.
+    /// Copies cuts, points and pole of another interval. The integrand has singularities of the given strength at its
+    /// cuts, and `times` the usual rounding error where it is unbounded.
     #[inline]
     pub(crate) fn take(&mut self, fixed: &Self, strength: SingularityStrength, times: f64) {
         self.cuts.clone_from(&fixed.cuts);
@@ -80,13 +80,14 @@ impl Singularities {
         (self.strength, self.rounding) = (strength, times * TERM_ROUNDING);
     }
 
-    /// Adds a singularity: a cut if it lies on the interval, a point to keep away from otherwise.
+    /// Adds a singularity: a cut if it lies on the interval, otherwise a point to avoid.
     ///
-    /// Of a conjugate pair one is enough.
+    /// Of a conjugate pair one point is enough.
     pub(crate) fn add(&mut self, point: Complex64) {
-        /// A singularity this close to the interval is worth a cut: the squared variable resolves it sooner.
+        /// Distance of a singularity from the interval below which a cut is made: the squared variable resolves it with
+        /// fewer nodes.
         const CUT_DISTANCE: f64 = 0.02;
-        /// Beyond this distance a singularity costs no node.
+        /// Distance beyond which a singularity needs no additional node.
         const COSTLESS_DISTANCE: f64 = 1.5;
         let clear = (point.re - 0.5).abs() - 0.5;
         if !(clear < COSTLESS_DISTANCE && point.im.abs() < COSTLESS_DISTANCE) {
@@ -119,7 +120,7 @@ impl Singularities {
         intervals
     }
 
-    /// Passes on the nodes of a rule on one interval a panel at a time, accurate to exp(-`digits`) of the size of the
+    /// Passes on the nodes of a rule on one interval, a panel at a time; the error is exp(-`digits`) of the size of the
     /// integrand.
     #[inline(always)]
     pub(crate) fn visit(
@@ -164,7 +165,7 @@ impl Singularities {
         let image = LocalCoordinate {
             start,
             scale,
-            // the singularity of the cut itself is what the power is for
+            // the power accounts for the singularity of the cut itself
             least: if is_cut { SAME_CUT } else { 0.0 },
             square: power == SQUARE,
         };
@@ -183,7 +184,7 @@ impl Singularities {
         } else {
             0.0
         };
-        // A power of a logarithm is left at s = 0: Gauss's rule gains 2 power digits a doubling there.
+        // a power times a logarithm remains at s = 0: a Gauss rule gains 2 power digits per doubling there
         let least = if power == HIGH {
             (0.7 * digits) as usize
         } else {
@@ -199,16 +200,16 @@ impl Singularities {
         panels((&self.images, pole), (digits, least), piece, f);
     }
 
-    /// How far a cut may be from the front it stands for, by rounding, where the integrand is unbounded.
+    /// Largest distance of a cut from its front due to rounding, if the integrand is unbounded.
     ///
-    /// A front and its neighbour are roots of one quadratic: the closer two roots, the worse conditioned each is. The same
-    /// holds for a slowness and its mirror image at an end where the variable stands for a root.
+    /// A front and its neighbour are roots of one quadratic equation: the closer two roots, the worse their condition.
+    /// The same holds for a slowness and its mirror image at an end where the variable is a root.
     fn place_error(&self, cut: f64) -> f64 {
-        /// Fronts that were taken for one leave out what lies between them.
+        /// Factor for merged fronts, since the interval between them is ignored.
         const MERGED: f64 = 1e7;
-        /// A neighbour within this fraction of the place may be the other root of the quadratic.
+        /// Relative distance within which a neighbour may be the other root of the quadratic equation.
         const OTHER_ROOT: f64 = 0.1;
-        // beyond its root rounding does not move a root
+        // rounding moves a root by at most its square root
         let by = |distance: f64| self.rounding / distance.max(self.rounding.sqrt());
         let own = || self.cuts.iter().filter(|&&other| same(other, cut));
         if own().count() > 1 || own().any(|&other| other != cut) {
@@ -224,7 +225,7 @@ impl Singularities {
             0.0
         };
         let mirror: f64 = self.root_ends.iter().map(|end| by((end - cut).abs())).sum();
-        // under a disc the plane front is exact however small its place; a point force has none
+        // under a disc the plane front is exact even for a small place; a point force has no plane front
         let place = match self.strength {
             SingularityStrength::FinitePart => 1.0,
             SingularityStrength::Bounded | SingularityStrength::InverseRoot => cut,
@@ -234,7 +235,7 @@ impl Singularities {
     }
 }
 
-/// (v - `start`)/`scale` or its principal square root, but for what is nearer than `least` to zero.
+/// (v - `start`)/`scale` or its principal square root, except for points nearer than `least` to zero.
 struct LocalCoordinate {
     start: f64,
     scale: f64,
@@ -307,7 +308,7 @@ mod tests {
             let pole = Complex64::new(0.4, gap);
             let (sum, count) = integral(pole, |v| gap / ((v - 0.4).powi(2) + gap * gap));
             let exact = (0.6 / gap).atan() + (0.4 / gap).atan();
-            // the distance to the pole carries the rounding error of its place
+            // the distance to the pole has the rounding error of its place
             let noise = 1e-13 + 1e-16 / gap;
             assert!((sum - exact).abs() < noise, "{gap}: {sum} {exact}");
             assert!(count < 1500, "{count} nodes");

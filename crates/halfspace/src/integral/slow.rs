@@ -1,4 +1,4 @@
-//! Slownesses between one and 1/kappa: longitudinal waves bound to the surface, shear waves that travel.
+//! Slownesses between one and 1/kappa: longitudinal waves bound to the surface, and travelling shear waves.
 //!
 //! Theory: `docs/theory.md` (T16).
 
@@ -71,7 +71,7 @@ impl Setting {
         (jacobian, amplitudes.fields(&psi, at.r))
     }
 
-    /// Replaces the tractions by those of differences to the surface.
+    /// Replaces the tractions by their differences from the surface.
     pub(crate) fn set_slow_traction(&self, at: Point, wave: Wave, s: f64, term: &mut Six) {
         let [x, p_abs, y, _] = self.slow_place(s);
         let (re, im) = spectrum::inverse_rayleigh(self.k, x, p_abs, y);
@@ -116,7 +116,8 @@ fn longitudinal<const N: i32, T: Real>(
     }
 }
 
-/// The same for the shear wave, whose arguments are imaginary; u and the normal stresses take 1/R.
+/// As [`longitudinal`] for the shear wave, whose arguments are imaginary; u and the normal stresses have the factor
+/// 1/R.
 #[inline(always)]
 fn shear<const N: i32, T: Real>(
     (profile, place): (Profile, (f64, f64)),

@@ -1,4 +1,4 @@
-//! What the surface load puts into each wave: the amplitudes of the single integral.
+//! Amplitudes of the single integral: the excitation of each wave by the surface load.
 //!
 //! With slowness x = 1/w, p = sqrt(1 - x^2), y = sqrt(K - x^2), K = 1/kappa^2 and the Rayleigh function
 //! R = (2 x^2 - K)^2 + 4 x^2 p y, the integrand N dw/(i w D) of a wave is amplitude times potential, dx.
@@ -27,7 +27,7 @@ pub(crate) enum Wave {
 /// w = w A3     u = u B3     szz = zz A2     srz = rz B2     srr = rr A2 - 2 u B3/r     stt = tt A2 + 2 u B3/r
 /// ```
 ///
-/// For real slowness below one, `w` and `rz` are real and the others are -i times the number held.
+/// For real slowness below one, `w` and `rz` are real, and the other amplitudes are -i times the stored number.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Amplitudes<T> {
     pub(crate) w: T,
@@ -55,7 +55,8 @@ impl<T: Real> Amplitudes<T> {
 }
 
 impl Amplitudes<f64> {
-    /// Replaces sigma_zz and sigma_rz by those of A_2 and B_2/r less their values at the surface, `a` and `g`.
+    /// Replaces sigma_zz and sigma_rz by those of the differences `a` and `g` of A_2 and B_2/r from their values at the
+    /// surface.
     pub(crate) fn set_traction(&self, term: &mut Six, a: f64, g: f64, r: f64) {
         term[Field::StressZz.index()] = self.zz * a;
         term[Field::StressRz.index()] = self.rz * g * r;
@@ -71,7 +72,7 @@ pub(crate) fn half_angle<T: Real>(u: T) -> (T, T, T) {
     (u * inverse * 2.0, p, p * inverse * 2.0)
 }
 
-/// Floor of the Rayleigh function, which vanishes with the numerators at slowness one when nu = 0.
+/// Smallest value of the Rayleigh function, which vanishes together with the numerators at slowness one for nu = 0.
 const LEAST_RAYLEIGH: f64 = 1e-280;
 
 /// Amplitudes at slowness x = sin(theta) < 1, p = cos(theta).
@@ -98,13 +99,14 @@ pub(crate) fn inverse_rayleigh<T: Real>(k: f64, x: T, p_abs: T, y: T) -> (T, T) 
 
 /// Amplitudes at slowness 1 < x < 1/kappa over 1/R or -i/R: every one is real up to that factor.
 ///
-/// For P the factor is -i/R throughout; for S it is -i/R of `w` and `rz` and 1/R of the others.
+/// For P the factor is always -i/R; for S it is -i/R for `w` and `rz`, and 1/R for the others.
 #[inline(always)]
 pub(crate) fn slow<T: Real>(wave: Wave, k: f64, x: T, p_abs: T, y: T) -> Amplitudes<T> {
     amplitudes(wave, k, (x, p_abs, y), x.constant(1.0), -4.0)
 }
 
-/// Amplitudes from x, p or its modulus, y and 1/R; those of S but for `w` and `rz` have `cross` of both roots.
+/// Amplitudes from x, p or its modulus, y and 1/R; those of S except `w` and `rz` contain the product `cross` of both
+/// roots.
 #[inline(always)]
 fn amplitudes<T: Real>(
     wave: Wave,

@@ -1,4 +1,4 @@
-//! A running sum of six fields that carries its own error estimate.
+//! A running sum of six fields with an error estimate.
 
 use crate::field::{Point, Sense, Six};
 use crate::integral::panels::PanelNodes;
@@ -7,9 +7,9 @@ use crate::integral::spectrum::Wave;
 use crate::numeric::lanes::{Lanes, WIDTH, total};
 use pulp::{Simd, WithSimd};
 
-/// Six fields and the squares of their likely errors, in blocks that are added up at the end.
+/// Six fields and the squares of their likely errors, in blocks that are summed at the end.
 ///
-/// The errors of panels and of rounding are as often positive as negative: their squares add up.
+/// The errors of panels and of rounding have random signs, so that their squares add up.
 #[derive(Debug, Default)]
 pub(crate) struct Sum {
     pub(crate) values: [[f64; WIDTH]; 6],
@@ -26,7 +26,7 @@ impl Sum {
         self.squares.map(|block| total(&block).sqrt())
     }
 
-    /// Adds `weight` times `term`, of relative errors of displacements and stresses.
+    /// Adds `weight` times `term`, with the relative errors of displacements and stresses.
     #[inline]
     pub(crate) fn add(&mut self, weight: f64, [d, s]: [f64; 2], term: Six) {
         let relative = [d, d, s, s, s, s];
@@ -38,7 +38,8 @@ impl Sum {
     }
 }
 
-/// The nodes of one panel, to be added to a sum several at a time; a wave below slowness one has one sense, above it both.
+/// The nodes of one panel, which are added to a sum several at a time; a wave has one sense below slowness one, and
+/// both above.
 pub(crate) struct QuadraturePanel<'a, const N: i32> {
     pub(crate) setting: &'a Setting,
     pub(crate) at: Point,
@@ -67,7 +68,7 @@ impl<const N: i32> WithSimd for QuadraturePanel<'_, N> {
                 None => setting.slow_term::<N, _>(at, wave, place),
             };
             let weight = weight * jacobian;
-            // of the block
+            // index in the block
             let i = i % (WIDTH / S::F64_LANES);
             for f in 0..6 {
                 let x = weight * term[f];

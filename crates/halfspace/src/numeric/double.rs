@@ -1,4 +1,4 @@
-//! Sums and products to twice the digits of a double, for the distance of a time from a front.
+//! Sums and products with twice the digits of a double, for the distance of a time from a front.
 
 use std::ops::{Add, Div, Mul, Sub};
 

@@ -1,4 +1,4 @@
-//! Gauss-Legendre rules, Legendre's polynomials and sums of Chebyshev's.
+//! Gauss-Legendre rules and Legendre polynomials.
 //!
 //! ```
 //! // int_0^1 e^x dx = e - 1
@@ -9,14 +9,14 @@
 use crate::numeric::lanes::WIDTH;
 use std::sync::OnceLock;
 
-/// Largest number of nodes of a rule that is kept.
+/// Largest number of nodes of a cached rule.
 pub const MAX_NODES: usize = 80;
 
 /// Nodes and weights of one Gauss-Legendre rule on [-1, 1], nodes ascending.
 #[derive(Debug, Clone)]
 pub struct Rule {
     count: usize,
-    /// In whole blocks, the last filled with a node of no weight.
+    /// Nodes in whole blocks; the last block is filled with nodes of zero weight.
     nodes: Vec<f64>,
     weights: Vec<f64>,
 }
@@ -73,12 +73,12 @@ impl Rule {
         &self.nodes[..self.count]
     }
 
-    /// Their weights.
+    /// Weights of the nodes.
     pub(crate) fn weights(&self) -> &[f64] {
         &self.weights[..self.count]
     }
 
-    /// Node and weight pairs carried over to the interval [a, b].
+    /// Pairs of node and weight, mapped to the interval [a, b].
     pub fn on(&self, a: f64, b: f64) -> impl Iterator<Item = (f64, f64)> + '_ {
         let (mid, half) = (0.5 * (a + b), 0.5 * (b - a));
         self.nodes()
@@ -88,10 +88,10 @@ impl Rule {
     }
 }
 
-/// The rule with `n` nodes, exact for polynomials of degree 2n - 1; computed once.
+/// The rule with `n` nodes, exact for polynomials of degree 2n - 1; it is computed once and cached.
 ///
 /// # Panics
-/// Where n is not from 1 to [`MAX_NODES`].
+/// If n is not in 1 to [`MAX_NODES`].
 pub fn rule(n: usize) -> &'static Rule {
     static RULES: [OnceLock<Rule>; MAX_NODES] = [const { OnceLock::new() }; MAX_NODES];
     RULES[n - 1].get_or_init(|| Rule::new(n))

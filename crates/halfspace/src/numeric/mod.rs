@@ -1,6 +1,6 @@
-//! Numbers and rules of quadrature: sums in twice the precision (`double`), Gauss-Legendre rules (`gauss`), polynomials
-//! (`polynomial`), random numbers that follow from a seed (`random`), and numbers side by side (`lanes`), for which and for one number formulas are written once, with complex
-//! roots and logarithms without cancellation (`scalar`).
+//! Numerical tools: arithmetic in twice the precision (`double`), Gauss-Legendre rules (`gauss`), polynomials
+//! (`polynomial`), seeded random numbers (`random`), vector registers (`lanes`), and a common interface to numbers and
+//! registers with complex roots and logarithms without cancellation (`scalar`).
 
 pub(crate) mod double;
 pub mod gauss;
@@ -9,7 +9,8 @@ pub(crate) mod polynomial;
 pub mod random;
 pub(crate) mod scalar;
 
-/// The last place on the way from one to another that a condition allows, which it does before and not after: by 60 halvings.
+/// The last place between `from` and `to` at which a condition holds, by 60 bisections; it holds before that place and
+/// not after it.
 pub fn bisected(mut from: f64, mut to: f64, allows: impl Fn(f64) -> bool) -> f64 {
     for _ in 0..60 {
         let middle = 0.5 * (from + to);

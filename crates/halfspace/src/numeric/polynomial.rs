@@ -1,4 +1,4 @@
-//! Polynomials through places and in Chebyshev's form, from as many values as they need.
+//! Interpolation polynomials, and Chebyshev series from adaptive numbers of values.
 
 use crate::field::Six;
 use crate::numeric::lanes::{Lanes, dispatch};
@@ -17,7 +17,8 @@ pub fn chebyshev(series: &[f64], x: f64) -> f64 {
     x * b1 - b2 + series[0]
 }
 
-/// Several series, with their coefficients term by term, at several x in vector registers; the same bits on every machine.
+/// Several Chebyshev series, with coefficients by term, at several x in vector registers; bit-identical on every
+/// machine.
 pub fn chebyshev_each<const F: usize, const N: usize>(
     series: &[[f64; F]],
     x: [f64; N],
@@ -53,7 +54,7 @@ impl<const F: usize, const N: usize> WithSimd for SeriesAt<'_, F, N> {
     }
 }
 
-/// The polynomial that is one at the k-th of `count` places and zero at the others, at x.
+/// Value at x of the polynomial that is one at the k-th of `count` places and zero at the others.
 #[inline]
 pub fn lagrange(place: impl Fn(usize) -> f64, count: usize, k: usize, x: f64) -> f64 {
     let (own, others) = (place(k), (0..count).filter(|&j| j != k));
@@ -64,13 +65,13 @@ pub fn lagrange(place: impl Fn(usize) -> f64, count: usize, k: usize, x: f64) ->
 /// Nodes of [`leja_nodes`].
 pub(crate) const LEJA_NODES: usize = 39;
 
-/// A Leja sequence in [-1, 1], after its middle in pairs, so that a function is read at as many as its series needs and no
-/// value is lost: the first of an odd number are a set. None is an end.
+/// A Leja sequence in [-1, 1]: the middle, then pairs. The first nodes of any odd number form a set, so that a series
+/// can be refined without losing a value. No node is an end of the interval.
 pub fn leja_nodes() -> &'static [f64; LEJA_NODES] {
     &RULE.nodes
 }
 
-/// Coefficients of Chebyshev's polynomials from values at the first nodes of [`leja_nodes`], an odd number of them.
+/// Coefficients of a Chebyshev series from values at the first nodes of [`leja_nodes`], an odd number of them.
 pub fn leja_series(values: &[Six]) -> Vec<Six> {
     let of = |weights: &Vec<f64>| {
         let mut sum = Six::default();
@@ -84,11 +85,11 @@ pub fn leja_series(values: &[Six]) -> Vec<Six> {
     RULE.inverses[values.len()].iter().map(of).collect()
 }
 
-/// What such a series leaves out, from its last two terms and what they are of the two before: as much as all that follow
-/// where terms fall as a geometric series or a power, with some caution.
+/// Truncation error of such a series, estimated from the last two terms and their ratio to the two before: the sum of
+/// all following terms if they decrease as a geometric series or a power, times a safety factor.
 pub(crate) fn leja_rest(series: &[Six]) -> Six {
     const CAUTION: f64 = 3.0;
-    /// The least is more than chance brings; of the fewest terms it is not known.
+    /// Bounds of the ratio; the lower one exceeds chance values. With the fewest terms the ratio is unknown.
     const RATIOS: [f64; 2] = [0.4, 0.9];
     const UNKNOWN: f64 = 0.5;
     let count = series.len();
@@ -104,14 +105,15 @@ pub(crate) fn leja_rest(series: &[Six]) -> Six {
     })
 }
 
-/// The nodes, and what makes coefficients of values at the first of them, for each number.
+/// The nodes, and the matrix from values at the first nodes to coefficients, for each number of nodes.
 struct LejaRule {
     nodes: [f64; LEJA_NODES],
     inverses: Vec<Vec<Vec<f64>>>,
 }
 
 static RULE: LazyLock<LejaRule> = LazyLock::new(|| {
-    // after the middle and two near the ends, each pair where the product of distances to those before is largest
+    // after the middle and two nodes near the ends, each pair is placed where the product of distances to previous
+    // nodes is largest
     let mut nodes = vec![0.0, -0.97, 0.97];
     while nodes.len() < LEJA_NODES {
         let product = |x: f64| -> f64 {
@@ -135,7 +137,7 @@ static RULE: LazyLock<LejaRule> = LazyLock::new(|| {
                 .collect()
         };
         let mut rows: Vec<Vec<f64>> = (0..terms).map(row).collect();
-        // Gauss and Jordan
+        // Gauss-Jordan elimination
         for column in 0..terms {
             let size = |i: &usize| rows[*i][column].abs();
             let pivot = (column..terms).max_by(|a, b| size(a).total_cmp(&size(b)));

@@ -1,6 +1,7 @@
-//! Random numbers that follow from a seed, the same on every machine: SplitMix64 (Steele, Lea and Flood, 2014).
+//! Seeded random numbers, the same on every machine: SplitMix64 (Steele, Lea and Flood, 2014).
 //!
-//! All random numbers of the workspace come from here: draws of sweeps, samples that check a table, scenes of tests.
+//! All random numbers of the workspace come from this module: draws of sweeps, samples that check a table, scenes of
+//! tests.
 //!
 //! ```
 //! use halfspace::random::{Stream, mix, number};
@@ -13,7 +14,7 @@
 /// Increment of the state.
 const STEP: u64 = 0x9e37_79b9_7f4a_7c15;
 
-/// The number of a state: 64 random bits.
+/// 64 random bits from a state.
 pub fn mix(state: u64) -> u64 {
     let mut z = state.wrapping_add(STEP);
     z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -31,12 +32,12 @@ pub fn unit(bits: u64) -> f64 {
     (bits >> 11) as f64 / (1_u64 << 53) as f64
 }
 
-/// The numbers of a sequence one after the other.
+/// A sequence of numbers.
 #[derive(Debug, Clone)]
 pub struct Stream(u64);
 
 impl Stream {
-    /// From a state.
+    /// The sequence that starts from a seed.
     pub fn new(seed: u64) -> Self {
         Self(seed)
     }
@@ -49,12 +50,12 @@ impl Stream {
         unit(bits)
     }
 
-    /// Even between two numbers.
+    /// The next number, uniform between two numbers.
     pub fn within(&mut self, from: f64, to: f64) -> f64 {
         from + (to - from) * self.next()
     }
 
-    /// Even between the logarithms of two positive numbers.
+    /// The next number, log-uniform between two positive numbers.
     pub fn log(&mut self, low: f64, high: f64) -> f64 {
         low * (high / low).powf(self.next())
     }

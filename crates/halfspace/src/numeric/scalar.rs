@@ -1,5 +1,5 @@
-//! Real and complex numbers, one or several side by side, with the functions, branches and limits that the closed forms need:
-//! they hold for all of them.
+//! Real and complex numbers, single or several in a register, with the functions, branches and limits of the closed
+//! forms.
 
 use num_complex::Complex64;
 use std::ops::{Add, Div, Mul, Neg, Sub};
@@ -20,7 +20,7 @@ pub(crate) trait Scalar:
 
 /// A real number.
 pub(crate) trait Real: Scalar + Div<Output = Self> + Neg<Output = Self> {
-    /// Complex numbers of such parts.
+    /// Complex numbers with such parts.
     type Complex: Complex<Part = Self>;
 
     fn sqrt(self) -> Self;
@@ -30,22 +30,22 @@ pub(crate) trait Real: Scalar + Div<Output = Self> + Neg<Output = Self> {
     fn copysign(self, sign: Self) -> Self;
     fn at_least(self, least: f64) -> Self;
 
-    /// The root of what is positive, zero of what is not.
+    /// The square root of a positive number, zero for others.
     #[inline(always)]
     fn held_root(self) -> Self {
         self.at_least(0.0).sqrt()
     }
 
-    /// The angle of the vector (`x`, self), in [-pi, pi]; of nothing it is zero.
+    /// The angle of the vector (`x`, self), in [-pi, pi]; zero for the zero vector.
     fn angle_over(self, x: Self) -> Self;
 
-    /// `yes` where this is below `limit`, else `no`.
+    /// `yes` where this number is below `limit`, otherwise `no`.
     fn where_below(self, limit: Self, yes: Self, no: Self) -> Self;
 
-    /// The largest of those side by side.
+    /// The largest number in a register.
     fn largest(self) -> f64;
 
-    /// The smallest of those side by side.
+    /// The smallest number in a register.
     fn smallest(self) -> f64;
 }
 
@@ -166,7 +166,7 @@ pub(crate) trait Complex: Scalar {
         )
     }
 
-    /// Principal logarithm; of zero it is finite.
+    /// Principal logarithm; finite for zero.
     #[inline(always)]
     fn logarithm(self) -> Self {
         let square = self.norm_sqr().at_least(f64::MIN_POSITIVE);
@@ -188,7 +188,7 @@ pub(crate) trait Complex: Scalar {
         self.root_inside((-s + r) * (s + r))
     }
 
-    /// `yes` where `value` is below `limit`, else `no`.
+    /// `yes` where `value` is below `limit`, otherwise `no`.
     #[inline(always)]
     fn where_below(value: Self::Part, limit: Self::Part, yes: Self, no: Self) -> Self {
         Self::new(

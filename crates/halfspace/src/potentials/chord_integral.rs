@@ -1,8 +1,8 @@
 //! The potentials of a Hertz disc as integrals over its chord, in closed form.
 //!
 //! With eta = -i xi, s = eta - sigma and q = sqrt(r^2 - s^2), phi = asin(s/r), the kernels E_n and F_n of the chord
-//! integral are 1/q, phi and their antiderivatives, and the chord function is a parabola: what is left are integrals of
-//! powers of s times 1/q, phi and q between the ends s = eta -+ 1 of the chord.
+//! integral are 1/q, phi and their antiderivatives, and the chord function is a parabola. The result consists of
+//! integrals of powers of s times 1/q, phi and q between the ends s = eta -+ 1 of the chord.
 
 use crate::numeric::scalar::{Complex, Real, Scalar};
 use crate::potentials::{Order, Potentials, STEP};
@@ -10,9 +10,9 @@ use std::f64::consts::PI;
 
 /// The chord integrals of a Hertz disc between s = eta - 1 and eta + 1, from phi and q at both ends.
 ///
-/// Any pair of functions with phi' = 1/q, q' = -s/q, q^2 = r^2 - s^2 may stand for phi and q: the result is
-/// linear in them. With real eta and the held values it is the compact part, with complex eta,
-/// phi = -i log(zeta + rho) and q = rho it is the whole potential up to a polynomial.
+/// Any pair of functions with phi' = 1/q, q' = -s/q, q^2 = r^2 - s^2 can be used as phi and q, since the result is
+/// linear in them. With real eta and values held beyond the circle it is the compact part; with complex eta, phi = -i
+/// log(zeta + rho) and q = rho it is the whole potential up to a polynomial.
 #[inline(always)]
 pub(crate) fn chord_primitives<const N: i32, T: Scalar>(
     eta: T,

@@ -8,9 +8,10 @@
 //! E_n(zeta) = int k^{-n} J0(kr) e^{-k zeta} dk is elementary (n > 0: the antiderivative chain
 //! E_n' = -E_{n-1}). The chord integral is done in closed form by parts when xi is near the chord,
 //! and by a series when it is far, where the closed form is a difference of large numbers.
-//! B_n is carried as B_n/r, which is smooth at r = 0.
+//! B_n is stored as B_n/r, which is smooth at r = 0.
 //!
-//! All hold for one number and for several side by side, each by the forms that hold for it.
+//! All functions work for single numbers and for registers; each number of a register is computed with the form that is
+//! valid for it.
 //!
 //! Theory: `docs/theory.md` (T12 to T14).
 
@@ -27,7 +28,8 @@ use std::f64::consts::PI;
 /// Below this radius the primitives, which are divided by r^2, lose digits.
 pub(crate) const SMALL_RADIUS: f64 = 0.15;
 
-/// The potentials at xi (Re xi >= 0) and radius r, to exp(-`digits`); on the imaginary axis real and imaginary part are apart.
+/// The potentials at xi (Re xi >= 0) and radius r, with errors of exp(-`digits`); on the imaginary axis real and
+/// imaginary part are computed separately.
 #[inline(always)]
 pub(crate) fn potentials<const N: i32, C: Complex>(
     profile: Profile,
@@ -64,7 +66,7 @@ pub(crate) fn potentials<const N: i32, C: Complex>(
     reach.pick(near, far)
 }
 
-/// The same at one xi, to the last digit.
+/// The potentials at one xi, to the last digit.
 pub(crate) fn of_one<const N: i32>(
     profile: Profile,
     xi: Complex64,
@@ -96,7 +98,7 @@ impl<C: Complex> Ends<C> {
         Self { zeta, rho, sum }
     }
 
-    /// The logarithms of the sums; of the step response only their difference counts, and the first may be zero.
+    /// The logarithms of the sums; for the step response only their difference matters, and the first may be zero.
     #[inline(always)]
     fn logarithms(&self, difference: bool) -> [C; 2] {
         let [first, second] = self.sum;
@@ -121,10 +123,10 @@ fn by_primitives<const N: i32, C: Complex>(xi: C, r: f64) -> Potentials<C> {
     from_primitives::<N, C>(psi, eta, r)
 }
 
-/// The same on the imaginary axis, where real and imaginary part separate into real functions.
+/// As [`by_primitives`] on the imaginary axis, where real and imaginary part separate into real functions.
 ///
-/// For the step response the real part vanishes outside the circle around the whole chord, the imaginary part inside the
-/// one that it lies in.
+/// For the step response the real part vanishes outside the circle around the whole chord, and the imaginary part
+/// inside the circle that contains the chord.
 #[inline(always)]
 fn primitives_on_imaginary_axis<const N: i32, T: Real>(eta: T, r: f64) -> Potentials<T::Complex> {
     let zero = eta.constant(0.0);
@@ -204,7 +206,7 @@ fn by_parts<const N: i32, C: Complex>(profile: Profile, xi: C, r: f64) -> Potent
     }
 }
 
-/// The root at a node, which if it rounds to the very front is as near as rounding lets it be.
+/// The root at a node; a node that rounds to the front itself is moved by a rounding error.
 #[inline(always)]
 fn off_front<C: Complex>(rho: C, r: f64) -> C {
     let least = rho.re().constant(f64::MIN_POSITIVE);
@@ -216,13 +218,13 @@ fn off_front<C: Complex>(rho: C, r: f64) -> C {
     )
 }
 
-/// The chord function of a punch times a potential of a point force, of the antiderivatives at both ends.
+/// The chord integral for the constant chord function of a punch, from the antiderivatives at both ends.
 #[inline(always)]
 fn constant<C: Complex>(upper: C, lower: C) -> C {
     (upper - lower).times_minus_i() * (0.25 / PI)
 }
 
-/// The same of the Hertz load.
+/// The chord integral for the parabolic chord function of the Hertz load, from the antiderivatives at both ends.
 #[inline(always)]
 fn parabola<C: Complex>(outer: [C; 2], inner: [C; 2]) -> C {
     ((outer[0] - outer[1]).times_minus_i() - (inner[0] + inner[1])) * (0.75 / PI)
@@ -234,7 +236,7 @@ mod tests {
     use crate::potentials::STEP_INTEGRAL;
 
     impl<T> Potentials<T> {
-        /// The four in the order in which they are declared.
+        /// The four potentials in the order of their declaration.
         fn into_array(self) -> [T; 4] {
             [self.a_upper, self.a_lower, self.g_upper, self.g_lower]
         }
@@ -309,7 +311,7 @@ mod tests {
         }
     }
 
-    /// Where both are good, the closed form and the multipole series agree.
+    /// The closed form and the multipole series agree where both are accurate.
     #[test]
     fn closed_form_agrees_with_the_multipole_series() {
         for profile in [Profile::Hertz, Profile::Punch] {
@@ -347,7 +349,7 @@ mod tests {
         }
     }
 
-    /// Where both are good, the series at a distant front agrees with integration by parts.
+    /// The series at a distant front agrees with integration by parts where both are accurate.
     #[test]
     fn the_far_front_agrees_with_integration_by_parts() {
         for r in [26.0, 40.0, 90.0] {

@@ -1,8 +1,8 @@
 //! The potentials on the imaginary axis, xi = i eta: the parts that obey causality.
 //!
 //! For slownesses below one the kernels use only the real part of A_3(i eta) and B_2(i eta) and the
-//! imaginary part of A_2(i eta) and B_3(i eta). These vanish for |eta| > radius + r: nothing is felt
-//! before the front from the nearest edge of the disc nor after the one from the farthest.
+//! imaginary part of A_2(i eta) and B_3(i eta). These vanish for |eta| > radius + r: there is no effect before the
+//! front from the nearest edge of the disc, nor after the front from the farthest edge.
 //!
 //! ```text
 //! a3 = Re A_3   b3 = Im B_3   a2 = Im A_2 = a3'   b2 = Re B_2 = -b3'   a4' = a3   b4' = b3   (' = d/d eta)
@@ -15,7 +15,7 @@
 //! a3 = [ (1 - eta^2) phi - 2 eta q - (r^2 phi - s q)/2 ] 3/(8 pi)   between s = eta - 1 and eta + 1
 //! ```
 //!
-//! and so on. The antiderivatives a4, a5 and b5 are measured so that they vanish before the arrival.
+//! and so on. The constants of the antiderivatives a4, a5 and b5 are chosen so that they vanish before the arrival.
 //!
 //! Theory: `docs/theory.md` (T17).
 
@@ -27,13 +27,13 @@ use crate::potentials::{IMPULSE, Order, Potentials, STEP, STEP_INTEGRAL};
 use crate::profile::Profile;
 use std::f64::consts::PI;
 
-/// Radius below which a point is on the axis as far as rounding goes.
+/// Radius below which a point counts as on the axis.
 const AXIS: f64 = 1e-13;
 
 /// The compact parts at eta: (a3, a2, b3/r, b2/r) of the step response, (a4, a3, b4/r, b3/r) of its integral.
 ///
-/// The derivatives of those of the step response for the impulse response: of other profiles than Hertz the upper ones alone,
-/// of displacements.
+/// For the impulse response they are the derivatives of those of the step response; for profiles other than Hertz only
+/// the upper ones, for displacements.
 #[inline(always)]
 pub(crate) fn compact<const N: i32, T: Real>(
     profile: Profile,
@@ -67,10 +67,10 @@ pub(crate) const PASSED: Potentials<f64> = Potentials {
     g_lower: 0.0,
 };
 
-/// What is added to a potential of the integral so that it is measured from its value before the arrival.
+/// Constant that makes a potential of the integral vanish before the arrival.
 const BEFORE: f64 = -0.25;
 
-/// 1/q, and nothing where the circle is not reached.
+/// 1/q, and zero where the circle is not reached.
 #[inline(always)]
 fn inverse<T: Real>(q: T) -> T {
     let zero = q.constant(0.0);
@@ -100,11 +100,11 @@ fn hertz_on_axis<const N: i32, T: Real>(eta: T) -> Potentials<T> {
                 g_lower: within * -0.375,
             }
         }
-        Order::Impulse => unreachable!("impulses on the axis are continued from beside it"),
+        Order::Impulse => unreachable!("impulses on the axis are extrapolated from points near it"),
     }
 }
 
-/// The step response of a distant point.
+/// The step response at a distant point.
 #[inline(always)]
 fn hertz_far<T: Real>(eta: T, (r, digits): (f64, f64)) -> Potentials<T> {
     let zero = eta.constant(0.0);
@@ -226,7 +226,7 @@ fn point<const N: i32, T: Real>(eta: T, r: f64) -> Potentials<T> {
     }
 }
 
-/// Why an order is not met here.
+/// Reason why an order does not occur here.
 const BY_STEP: &str = "impulses of other profiles than Hertz follow from their steps";
 
 #[cfg(test)]
@@ -242,7 +242,7 @@ mod tests {
         for profile in [Profile::Hertz, Profile::Punch] {
             for r in [1e-6, 0.2, 0.9, 1.001, 1.7, 4.0, 30.0] {
                 for i in -60..=60 {
-                    // about the front, too
+                    // also around the front
                     let eta = 0.097 * f64::from(i) + if r > 5.0 { r } else { 0.0 };
                     let xi = Complex64::new(0.0, eta);
                     let (full0, full1) = (

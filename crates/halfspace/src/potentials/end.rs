@@ -62,7 +62,7 @@ impl<C: Complex> End<C> {
         let inverse = rho.reciprocal();
         let cube = inverse * inverse * inverse;
         let least = sum.re().constant(f64::MIN_POSITIVE);
-        // at the very singularity on the axis any finite value will do
+        // at the singularity itself any finite value may be used
         let held = C::where_below(sum.norm_sqr(), least, sum.constant(1e-100), sum);
         let over = held.reciprocal();
         match n {

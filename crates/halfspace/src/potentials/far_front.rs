@@ -1,7 +1,7 @@
 //! The potentials of a Hertz disc where a front passes a distant point.
 //!
-//! There the closed forms are differences of terms of the order of r^2. With s = eta - sigma the place on the chord seen
-//! from the point and delta = r - s the distance behind the front,
+//! There the closed forms are differences of terms of the order of r^2. With the place on the chord s = eta - sigma, as
+//! seen from the point, and the distance delta = r - s behind the front,
 //!
 //! ```text
 //! 1/rho = delta^{-1/2} (2 r - delta)^{-1/2} = (2 r)^{-1/2} sum_k (1/2)_k/k! (2 r)^{-k} delta^{k - 1/2}
@@ -14,18 +14,18 @@
 //! I_j = int (1 - sigma^2) delta^j/rho dsigma     K_j = int sigma delta^j/rho dsigma     C = 3/(8 pi)
 //! ```
 //!
-//! Nothing is left of the distance but its root, so all digits of the front are kept.
+//! The distance enters only through its root, so no digits are lost at the front.
 
 use crate::numeric::scalar::{Complex, Real, Scalar};
 use crate::potentials::Potentials;
 use std::f64::consts::PI;
 
-/// Radius from which on the closed forms are replaced.
+/// Radius from which the series replaces the closed forms.
 pub(crate) const FAR_RADIUS: f64 = 25.0;
 
 const C: f64 = 0.375 / PI;
 
-/// Most terms of the series, enough at [`FAR_RADIUS`] for |delta| <= 11.
+/// Largest number of terms of the series, enough at [`FAR_RADIUS`] for |delta| <= 11.
 const MOST_TERMS: usize = 26;
 
 /// The four chord integrals.
@@ -34,13 +34,13 @@ struct ChordIntegrals<T> {
     k: [T; 2],
 }
 
-/// Digits that reach rounding.
+/// Number of digits (natural logarithm) that reaches the rounding error.
 pub(crate) const ROUNDING_DIGITS: f64 = 37.0;
 
-/// Terms of the series that leave exp(-`digits`).
+/// Number of terms of the series for an error of exp(-`digits`).
 #[inline(always)]
 fn terms(r: f64, digits: f64) -> usize {
-    /// Largest distance behind a front for which the multipole series is not taken, whatever is beside it in a register.
+    /// Largest distance behind a front at which the multipole series is never used.
     const MULTIPOLE_LIMIT: f64 = 12.0;
     let ratio = MULTIPOLE_LIMIT / (2.0 * r);
     ((-digits.min(ROUNDING_DIGITS) / ratio.ln()) as usize + 1).clamp(4, MOST_TERMS)
@@ -48,8 +48,8 @@ fn terms(r: f64, digits: f64) -> usize {
 
 /// The integrals from delta and its square root at both ends, sigma = -1 and 1.
 ///
-/// Any branch of the root may be taken, and a root of zero stands for an end that the front has not reached. They are
-/// linear in the roots.
+/// Any branch of the root can be used, and a root of zero represents an end that the front has not reached. The
+/// integrals are linear in the roots.
 #[inline(always)]
 fn chord<T: Scalar>(delta: [T; 2], root: [T; 2], (r, digits): (f64, f64)) -> ChordIntegrals<T> {
     let zero = root[0].constant(0.0);
@@ -75,7 +75,7 @@ fn chord<T: Scalar>(delta: [T; 2], root: [T; 2], (r, digits): (f64, f64)) -> Cho
         let before = (m - 3) as f64;
         coefficient *= (before + 0.5) / (before + 1.0);
     }
-    // delta^j lifts the order by j, a factor (2 r)^j of what is held
+    // delta^j raises the order by j, a factor (2 r)^j of the stored numbers
     let inside = (e.constant(1.0) - e) * (e + 1.0);
     let (mut i, mut k) = ([zero; 2], [zero; 2]);
     for (j, lift) in [1.0, up].into_iter().enumerate() {
@@ -146,7 +146,7 @@ pub(crate) fn potentials<T: Complex>(delta: [T; 2], (r, digits): (f64, f64)) -> 
     of_chord(chord(delta, root, (r, digits)), r)
 }
 
-/// The same from the chord integrals.
+/// The potentials from the chord integrals.
 #[inline(always)]
 fn of_chord<T: Complex>(ChordIntegrals { i, k }: ChordIntegrals<T>, r: f64) -> Potentials<T> {
     let ring = C / (r * r);

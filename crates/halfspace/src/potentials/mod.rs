@@ -1,10 +1,11 @@
-//! The four potentials that carry the six fields.
+//! The four potentials from which the six fields follow.
 //!
 //! Theory: `docs/theory.md` (T12 to T14).
 //!
-//! In reading order: which time integral is meant ([`Order`]), the closed forms of a chord and of its ends (`closed_form`,
-//! `chord_integral`, `end`), the real parts that begin and end with a wave (`compact`), and what takes their place far from
-//! the disc (`multipole`), at a distant front (`far_front`) and just below the surface (`shallow`).
+//! In reading order: the order of time integration ([`Order`]), the closed forms of a chord and of its ends
+//! (`closed_form`, `chord_integral`, `end`), the real parts that begin and end with a wave (`compact`), and their
+//! replacements far from the disc (`multipole`), at a distant front (`far_front`) and just below the surface
+//! (`shallow`).
 
 pub(crate) mod chord_integral;
 pub(crate) mod closed_form;
@@ -16,22 +17,21 @@ pub(crate) mod shallow;
 
 /// Potentials A_n and B_n/r of two neighbouring orders n.
 ///
-/// With m the number of integrations in time, -1 of the impulse response to 1, see [`Order`],
-/// the upper order is 3 + m and the lower 2 + m.
+/// The upper order is 3 + m and the lower 2 + m, where m is the number of integrations in time, see [`Order`].
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Potentials<T> {
-    /// A_{3 + m}, carries w.
+    /// A_{3 + m}, for w.
     pub(crate) a_upper: T,
-    /// A_{2 + m}, carries the normal stresses.
+    /// A_{2 + m}, for the normal stresses.
     pub(crate) a_lower: T,
-    /// B_{3 + m}/r, carries u and the hoop terms.
+    /// B_{3 + m}/r, for u and the hoop terms.
     pub(crate) g_upper: T,
-    /// B_{2 + m}/r, carries the shear stress.
+    /// B_{2 + m}/r, for the shear stress.
     pub(crate) g_lower: T,
 }
 
 impl<T: Copy> Potentials<T> {
-    /// Four times the same.
+    /// Four equal values.
     #[inline(always)]
     pub(crate) fn all(value: T) -> Self {
         Self {
@@ -44,7 +44,7 @@ impl<T: Copy> Potentials<T> {
 }
 
 impl<T> Potentials<T> {
-    /// The same with every potential replaced.
+    /// The potentials with every value replaced.
     #[inline(always)]
     pub(crate) fn map<U>(self, f: impl Fn(T) -> U) -> Potentials<U> {
         Potentials {
@@ -55,7 +55,7 @@ impl<T> Potentials<T> {
         }
     }
 
-    /// Each potential joined with its counterpart.
+    /// Each potential combined with its counterpart.
     #[inline(always)]
     pub(crate) fn zip<U, V>(self, other: Potentials<U>, f: impl Fn(T, U) -> V) -> Potentials<V> {
         Potentials {
@@ -69,9 +69,9 @@ impl<T> Potentials<T> {
 
 /// Derivative or integral in time of the step response, by its number of integrations.
 ///
-/// The integral over slowness is the same for all of them: one more integration in time raises the order of every
-/// potential by one. The number is a parameter of types so that each instance is compiled for itself, and this so that a
-/// `match` names all three.
+/// The integral over slowness has the same form for all of them: an integration in time raises the order of every
+/// potential by one. The number is a const parameter, so that each instance is compiled separately; this enum lets a
+/// `match` name all three.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Order {
     /// d/dt, the response to a unit impulse.
@@ -92,7 +92,7 @@ pub(crate) const STEP: i32 = 0;
 pub(crate) const STEP_INTEGRAL: i32 = 1;
 
 impl Order {
-    /// The one of a number of integrations in time.
+    /// The order with a number of integrations in time.
     pub(crate) const fn of(integrations: i32) -> Self {
         match integrations {
             IMPULSE => Self::Impulse,

@@ -7,8 +7,8 @@
 //! B_3/r = M_0/(rho (rho + zeta)) + sum_{j>0} (-1)^j M_2j V_2j/(2j)      V_k = P_k'(zeta/rho)/rho^{k+2}
 //! ```
 //!
-//! with zeta = xi, M_2j the even moments of the chord function and P_k Legendre polynomials. It takes over
-//! where the closed form becomes a difference of large numbers.
+//! with zeta = xi, the even moments M_2j of the chord function and the Legendre polynomials P_k. The series replaces
+//! the closed form where that is a difference of large numbers.
 //!
 //! Theory: `docs/theory.md` (T20).
 
@@ -17,10 +17,11 @@ use crate::potentials::{IMPULSE, Order, Potentials, STEP};
 use crate::profile::Profile;
 use std::f64::consts::PI;
 
-/// Most terms of the series.
+/// Largest number of terms of the series.
 const MOST_TERMS: usize = 8;
 
-/// Distance from which on the series is taken: farther out the closed forms lose digits, those of the time integral sooner.
+/// Distance from which the series is used; farther out the closed forms lose digits, those of the time integral at
+/// smaller distances.
 #[inline(always)]
 fn nearest<const N: i32>(r: f64) -> f64 {
     match Order::of(N) {
@@ -29,7 +30,7 @@ fn nearest<const N: i32>(r: f64) -> f64 {
     }
 }
 
-/// Where the closed forms hold and where the multipole series takes over.
+/// Regions of the closed forms and of the multipole series.
 pub(crate) struct Reach<C: Complex> {
     distance: C::Part,
     nearest: C::Part,
@@ -69,10 +70,10 @@ impl<C: Complex> Reach<C> {
     }
 }
 
-/// Terms that leave exp(-`digits`) at the nearest distance at which the series is taken.
+/// Number of terms for an error of exp(-`digits`) at the smallest distance at which the series is used.
 #[inline(always)]
 fn terms(digits: f64) -> usize {
-    /// 1 over twice the logarithm of the nearest distance.
+    /// 1 over twice the logarithm of the smallest distance.
     const A_DIGIT: f64 = 0.257;
     ((A_DIGIT * digits).ceil() as usize).clamp(2, MOST_TERMS)
 }
@@ -89,9 +90,9 @@ const fn moment(profile: Profile, j: usize) -> f64 {
     }
 }
 
-/// What one term of the series of a profile is multiplied by.
+/// Factors of one term of the series of a profile.
 struct Term {
-    /// M_2j, and the same over k = 2j.
+    /// M_2j, and M_2j over k = 2j.
     moment: f64,
     moment_over_k: f64,
     /// 1/(k + 1) and 1/(k + 2).
@@ -118,7 +119,7 @@ const fn terms_of(profile: Profile) -> [Term; MOST_TERMS] {
     terms
 }
 
-/// Of each profile, in the order in which they are declared.
+/// Terms of each profile, in the order of their declaration.
 static TERMS: [[Term; MOST_TERMS]; 3] = [
     terms_of(Profile::Hertz),
     terms_of(Profile::Punch),
@@ -209,7 +210,7 @@ pub(crate) fn potentials<const N: i32, C: Complex>(
     psi
 }
 
-/// Those of the step response at zeta = i s, where Q_k is i^k/rho and V_k is i^{k-1}/rho times a real number.
+/// The potentials of the step response at zeta = i s, where Q_k is i^k/rho and V_k is i^{k-1}/rho times a real number.
 #[inline(always)]
 pub(crate) fn on_imaginary_axis<T: Real>(
     profile: Profile,

@@ -1,12 +1,12 @@
 //! Just below the surface, where the traction is a small difference of the two waves.
 //!
-//! At z = 0 the arguments of P and S are the same, xi0 = -+ i t/x, and the waves cancel: for the normal stress
-//! their amplitudes add up to -i/x at every slowness, whichever sense, and the two senses cancel; for the
-//! shear stress the amplitudes cancel by themselves; at the Rayleigh pole they add up to -D(c) = 0. So each potential
-//! Psi(xi) may be replaced by Psi(xi) - Psi(xi0), and what is left under the integral is of the order of the depth.
+//! At z = 0 the arguments of P and S are equal, xi0 = -+ i t/x, and the waves cancel. For the normal stress their
+//! amplitudes add up to -i/x at every slowness in both senses, and the two senses cancel; for the shear stress the
+//! amplitudes themselves cancel; at the Rayleigh pole they add up to -D(c) = 0. Therefore each potential Psi(xi) can be
+//! replaced by Psi(xi) - Psi(xi0), and the integrand is then of the order of the depth.
 //!
-//! Taken as it stands the difference would be lost to rounding. Away from the singularities of the potentials it is
-//! the step in xi times the mean of the potentials one order lower, by Gauss's rule of two points.
+//! Computed directly, the difference would be lost to rounding. Away from the singularities of the potentials it is the
+//! step in xi times the mean of the potentials of one order lower, by the Gauss rule with two points.
 //!
 //! Theory: `docs/theory.md` (T19).
 
@@ -18,19 +18,19 @@ use crate::potentials::{IMPULSE, STEP};
 use crate::profile::Profile;
 use num_complex::Complex64;
 
-/// Depth from which on the stresses have digits to spare.
+/// Depth from which the stresses have enough digits without differences.
 const DEEPEST: f64 = 1e-4;
 
-/// Radius down to which the compact parts of every order hold: nearer the axis sigma_rz vanishes as r.
+/// Smallest radius for the compact parts of every order; nearer the axis sigma_rz vanishes as r.
 const LEAST_RADIUS: f64 = 1e-6;
 
-/// Longest step over the distance to a singularity: the rule errs by its fourth power over 4320.
+/// Largest ratio of the step to the distance from a singularity; the error of the rule is its fourth power over 4320.
 const LONGEST_STEP: f64 = 1e-3;
 
 /// Places of the two points of Gauss's rule on [0, 1].
 const GAUSS_PLACES: [f64; 2] = [0.211_324_865_405_187_1, 0.788_675_134_594_812_9];
 
-/// Whether sigma_zz and sigma_rz are taken from differences.
+/// Whether sigma_zz and sigma_rz are computed from differences.
 pub(crate) fn applies<const N: i32>(profile: Profile, at: Point) -> bool {
     N == STEP && profile == Profile::Hertz && at.z > 0.0 && at.z < DEEPEST && at.r > LEAST_RADIUS
 }
@@ -48,7 +48,7 @@ pub(crate) fn is_short(xi: Complex64, step: f64, r: f64) -> bool {
     step < LONGEST_STEP * gap(xi, r)
 }
 
-/// A_2 and B_2/r at xi + step less those at xi.
+/// A_2 and B_2/r at xi + step minus those at xi.
 pub(crate) fn difference(xi: Complex64, step: Complex64, r: f64) -> (Complex64, Complex64) {
     if is_short(xi, step.norm(), r) {
         let [first, second] =
@@ -64,9 +64,9 @@ pub(crate) fn difference(xi: Complex64, step: Complex64, r: f64) -> (Complex64, 
     }
 }
 
-/// The same of the compact parts, between eta = surface + step and the surface.
+/// Differences of the compact parts between eta = surface + step and the surface.
 ///
-/// Just after the plane front both are large and eta is not, so it is not taken from their sum.
+/// Just after the plane front both are large and eta is not, so eta is passed separately instead of their sum.
 pub(crate) fn compact_difference(surface: f64, step: f64, eta: f64, r: f64) -> (f64, f64) {
     if is_short(Complex64::new(0.0, surface), step.abs(), r) {
         let [first, second] = GAUSS_PLACES.map(|place| {

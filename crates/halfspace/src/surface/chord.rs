@@ -1,10 +1,10 @@
-//! The chord functions of the two deflections and their overlap with a measure given by its moments.
+//! Chord functions of the two deflections, and their overlap with a measure given by its moments.
 //!
 //! Theory: `docs/theory.md` (T27).
 
 use super::Deflection;
 
-/// Powers of 1/x whose integrals over slowness carry every chord function.
+/// Powers of 1/x whose integrals over slowness are needed for the chord functions.
 pub(super) const POWERS: [i32; 5] = [-1, 0, 2, 3, 5];
 
 /// int x^{-k} dmu for the k of [`POWERS`].

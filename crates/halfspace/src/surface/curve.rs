@@ -7,10 +7,10 @@ use std::sync::OnceLock;
 
 pub(super) const CURVE_TERMS: usize = 24;
 
-/// Functions of the angle of a zone: Chebyshev series of each panel, fitted where the panel is first met.
+/// Functions of the angle of a zone: Chebyshev series for each panel, fitted at the first use of the panel.
 #[derive(Debug, Clone)]
 pub(super) struct Curve {
-    /// Of the panels, as fractions of pi/2.
+    /// Ends of the panels, as fractions of pi/2.
     ends: Vec<f64>,
     series: Vec<OnceLock<[Vec<f64>; 3]>>,
 }
@@ -24,7 +24,7 @@ impl Curve {
         }
     }
 
-    /// One of the functions f(panel, angles), the angles descending.
+    /// Value of one of the functions f(panel, angles); the angles descend.
     pub(super) fn value(
         &self,
         which: usize,

@@ -1,4 +1,4 @@
-//! The measure over slowness, with its moments, and the intervals, angles and panels on which everything is fitted.
+//! The measure over slowness with its moments, and the intervals, angles and panels of the fits.
 //!
 //! Theory: `docs/theory.md` (T25, T26).
 
@@ -7,17 +7,17 @@ use crate::medium::Medium;
 use crate::numeric::gauss;
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// Nodes of Gauss on a panel, and between two of the angles at which a panel is fitted.
+/// Number of Gauss nodes on a panel, and between two of the angles at which a panel is fitted.
 const WHOLE: usize = 16;
 const FITTED_NODES: usize = 8;
 
-/// The measure mu with its moments summed panel by panel from the slow end.
+/// The measure mu, with moments summed panel by panel from the slow end.
 #[derive(Debug, Clone)]
 pub(super) struct SurfaceMeasure {
     pub(super) medium: Medium,
     pub(super) rayleigh_slowness: f64,
     pub(super) rayleigh_mass: f64,
-    /// Of the panels of both zones, in angles.
+    /// Ends of the panels of both zones, as angles.
     ends: [Vec<f64>; 2],
     /// Moments above the upper end of each panel.
     beyond: [Vec<Moments>; 2],
@@ -25,8 +25,9 @@ pub(super) struct SurfaceMeasure {
 
 /// Slownesses in 1/c1 and masses of the measure mu, of total mass one, Rayleigh's wave last.
 ///
-/// By Gauss's rule of so many nodes on panels of its two intervals, 0 < x < 1, x = sin(angle), and 1 < x < 1/kappa,
-/// x^2 = 1 + (K - 1) sin^2(angle); the panels are halved so often toward both ends, 0 and pi/2, of the angle of each.
+/// They are those of Gauss rules with `nodes` nodes on panels of the two intervals, 0 < x < 1, x = sin(angle), and 1 <
+/// x < 1/kappa, x^2 = 1 + (K - 1) sin^2(angle). `halvings` are the numbers of halvings of the panels toward angle 0 and
+/// toward pi/2, for each interval.
 pub fn surface_measure(medium: &Medium, halvings: [[i32; 2]; 2], nodes: usize) -> Vec<(f64, f64)> {
     let mut found = vec![];
     for (zone, halvings) in ZONES.into_iter().zip(halvings) {
@@ -57,7 +58,7 @@ fn points(
     let k = medium.shear_slowness_squared();
     let scale = 2.0 / PI * k / (1.0 - medium.poisson_ratio());
     gauss::rule(nodes).on(from, to).map(move |(angle, weight)| {
-        // the cosine from the distance to pi/2, which the panels near slowness one resolve
+        // the cosine, from the distance to pi/2, which the panels near slowness one resolve
         let (s, c) = (angle.sin(), (FRAC_PI_2 - angle).sin());
         let density = match zone {
             Zone::Fast => {
@@ -96,7 +97,7 @@ impl SurfaceMeasure {
             let mut beyond = vec![];
             for pair in ends.windows(2).rev() {
                 beyond.push(sum);
-                // The first panel reaches slowness zero, where only the moments up to the mass exist.
+                // the first panel begins at slowness zero, where only the moments up to the mass exist
                 measure.add(zone, pair[0], pair[1], &mut sum, WHOLE);
             }
             beyond.reverse();
@@ -112,7 +113,7 @@ impl SurfaceMeasure {
         sum
     }
 
-    /// Moments above each of some angles within a panel, which descend.
+    /// Moments above each of some angles within a panel; the angles descend.
     pub(super) fn above<const N: usize>(
         &self,
         zone: Zone,
@@ -132,7 +133,7 @@ impl SurfaceMeasure {
         })
     }
 
-    /// Adds the moments between two angles of a zone, by so many nodes.
+    /// Adds the moments between two angles of a zone, with `nodes` nodes.
     fn add(&self, zone: Zone, from: f64, to: f64, sum: &mut Moments, nodes: usize) {
         for (slowness, mass) in points(&self.medium, zone, [from, to], nodes) {
             let inverse = 1.0 / slowness;
@@ -179,10 +180,10 @@ impl Zone {
     }
 }
 
-/// How often the panels halve toward slowness zero and, of the fast zone, toward slowness one.
+/// Number of halvings of the panels toward slowness zero and, in the fast zone, toward slowness one.
 const PANEL_HALVINGS: i32 = 16;
 
-/// Parts of one that are halved so often toward zero and toward one: their ends, ascending.
+/// Ends of the parts of [0, 1] after repeated halving toward zero and toward one, ascending.
 pub(super) fn halved([lower, upper]: [i32; 2]) -> Vec<f64> {
     let shrink = |j: i32| 0.5_f64.powi(j);
     let mut ends = vec![0.0];
@@ -194,10 +195,9 @@ pub(super) fn halved([lower, upper]: [i32; 2]) -> Vec<f64> {
 
 /// Ends of the panels of a zone as fractions of pi/2, ascending.
 ///
-/// They shrink by halves toward slowness zero (the chord function scales as t/x), toward slowness one
-/// (a zero of the Rayleigh function on the neighbouring sheet reaches it at nu = 0, and for nu near
-/// 1/2 the whole fast zone is a speck beside the shear slowness), and a little toward the shear
-/// slowness, beyond which the Rayleigh pole stands.
+/// The panels are halved toward slowness zero (the chord function scales as t/x), toward slowness one (a zero of the
+/// Rayleigh function on the neighbouring sheet reaches it at nu = 0, and for nu near 1/2 the whole fast zone is tiny
+/// compared with the shear slowness), and a few times toward the shear slowness, beyond which the Rayleigh pole lies.
 pub(super) fn panel_ends(zone: Zone) -> Vec<f64> {
     let upper_halvings = match zone {
         Zone::Fast => PANEL_HALVINGS,
@@ -209,7 +209,7 @@ pub(super) fn panel_ends(zone: Zone) -> Vec<f64> {
     halves.chain([1.0]).collect()
 }
 
-/// Index of the panel between `ends` that holds a fraction in [0, 1].
+/// Index of the panel between `ends` that contains a fraction in [0, 1].
 pub(super) fn panel_of(ends: &[f64], fraction: f64) -> usize {
     let above = ends.partition_point(|&end| end <= fraction);
     above.clamp(1, ends.len() - 1) - 1

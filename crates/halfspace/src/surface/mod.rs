@@ -1,7 +1,7 @@
-//! Deflection of the loaded surface under its own load: closed spectral form, finite memory.
+//! Deflection of the surface under its own load: closed spectral form, finite memory.
 //!
-//! The impact equation needs one number of the half-space, the deflection under the striker.
-//! At z = 0 the single integral of the kernels collapses to a positive measure over slowness,
+//! The impact equation needs only the deflection of the half-space under the striker.
+//! At z = 0 the single integral of the kernels reduces to a positive measure over slowness,
 //!
 //! ```text
 //! 1 - W(t) = int phi(t/x) dmu(x),   dmu = 2 K/(pi (1 - nu)) Re[p/R] dx  on 0 < x < 1/kappa,
@@ -26,7 +26,7 @@ use curve::Curve;
 pub use measure::surface_measure;
 use measure::{SurfaceMeasure, ZONES, Zone};
 
-/// Which deflection of the loaded disc is meant.
+/// Kind of deflection of the loaded disc.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Deflection {
     /// w(0, 0, t), the centre of the disc: the paper's choice.
@@ -35,10 +35,10 @@ pub enum Deflection {
     Mean,
 }
 
-/// What there is of a disc's deflection under any force: its static value, and how long it takes to be reached.
+/// Properties of a disc's deflection for any force: its static value, and the times until it is reached.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LoadedDisc {
-    /// Which deflection this is.
+    /// Kind of deflection.
     pub deflection: Deflection,
     /// Static deflection under unit force, in 1/(mu r0): 3 (1 - nu)/8 at the centre, 4/5 of it in the mean.
     pub static_compliance: f64,
@@ -50,7 +50,7 @@ pub struct LoadedDisc {
     pub memory: f64,
 }
 
-/// Which of the fitted functions is meant.
+/// Index of a fitted function.
 const STEP: usize = 0;
 const INTEGRAL: usize = 1;
 const SLOPE: usize = 2;
@@ -73,18 +73,18 @@ const SLOPE: usize = 2;
 /// ```
 #[derive(Debug, Clone)]
 pub struct SurfaceResponse {
-    /// What is the same for any force.
+    /// Static value and times of the deflection.
     pub disc: LoadedDisc,
     chord: Chord,
     shear_slowness: f64,
     measure: SurfaceMeasure,
     total: Moments,
-    /// For each zone.
+    /// Fitted functions of each zone.
     curves: [Curve; 2],
 }
 
 impl SurfaceResponse {
-    /// Prepares the response of `medium`; make it once for many values.
+    /// Prepares the response of `medium`; reuse it for many values.
     pub fn new(medium: &Medium, deflection: Deflection) -> Self {
         let measure = SurfaceMeasure::new(medium);
         let chord = Chord::new(deflection);
@@ -126,10 +126,11 @@ impl SurfaceResponse {
     /// W'(t) = -int phi'(t/x) dmu(x)/x = -sum_k k a_k t^(k-1) M_k(t),   M_k(t) = int_{x > t/support} x^(-k) dmu
     /// ```
     ///
-    /// The limit from above at t = 0, where [`LoadedDisc::static_compliance`] times it is kappa^2 Z(0) for
-    /// the centre, (32); 0 for t < 0 and for t >= [`LoadedDisc::memory`], where the centre jumps.
-    /// The sampled kernel of the paper's scheme (41).
-    /// Accuracy 1e-11 of the value at t = 0.
+    /// At t = 0 the value is the limit from above; for the centre, [`LoadedDisc::static_compliance`] times it is
+    /// kappa^2 Z(0), (32). It is 0 for t < 0 and for t >= [`LoadedDisc::memory`], where the response of the centre
+    /// jumps.
+    /// It is the sampled kernel of the paper's scheme (41).
+    /// Accuracy: 1e-11 of the value at t = 0.
     pub fn impulse(&self, t: f64) -> f64 {
         self.value(t, SLOPE, |chord, eta| {
             if eta >= chord.support {
@@ -141,7 +142,8 @@ impl SurfaceResponse {
         })
     }
 
-    /// One of the fitted functions; `late` has it where only the Rayleigh wave is left, of whose chord eta is the place.
+    /// Value of a fitted function; `late` returns it at times when only the Rayleigh wave remains, from the place eta
+    /// on its chord.
     fn value(&self, t: f64, which: usize, late: impl Fn(&Chord, f64) -> f64) -> f64 {
         if t.is_nan() {
             return t;

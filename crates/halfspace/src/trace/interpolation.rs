@@ -1,18 +1,19 @@
-//! Segments of a trace, as many as its fronts and the tolerance need.
+//! Division of a trace into segments, by its fronts and the tolerance.
 //!
-//! Fronts are ends of segments. Where the series of one has not converged with the most nodes, what is left of logarithms
-//! is confined to ever smaller segments by halving. A segment that is short beside the time in which the force rises counts
-//! for little, and has few nodes.
+//! Fronts are ends of segments. A segment whose series has not converged with the largest number of nodes is halved,
+//! which confines logarithmic singularities to ever smaller segments. A segment that is short compared with the rise
+//! time of the force has little weight and few nodes.
 
 use crate::domain::DomainError;
 use crate::field::{Estimate, Six};
 use crate::trace::segment::{Course, MappedInterval, Segment};
 
-/// Segments are halved no more once there are so many, which no place needs; what is left out is in the estimate.
+/// Largest number of segments; no place needs as many. The estimate includes the error of segments that are not halved
+/// further.
 const MOST_SEGMENTS: usize = 200;
 
-/// Segments from the `first` arrival to `end` that follow `remainder`, so that responses to a force that changes by no more
-/// than `rise` of its peak within a time hold `tolerance` of their peaks.
+/// Segments of `remainder` from the `first` arrival to `end`, such that the responses to a force that changes by at
+/// most `rise` of its peak within a time have errors below `tolerance` of their peaks.
 ///
 /// `static_field` is minus the remainder before the first arrival.
 pub(crate) fn segments(
@@ -29,12 +30,13 @@ pub(crate) fn segments(
         let segment = Segment::fit(piece, &remainder)?;
         let part = counts(&segment);
         for (f, peak) in peak.iter_mut().enumerate() {
-            // of a force that begins so, less than the segment's part of it
+            // for a force that begins like this, less than the segment's part of it
             *peak = peak.max(part[f].powf(1.5) * (segment.middle()[f] + static_field[f]).abs());
         }
         stack.push(segment);
     }
-    /// Fields that are smaller beside their kind are not resolved on their own: just below the surface tractions vanish.
+    /// Ratio to the fields of the same kind below which a field is not resolved separately: tractions vanish just below
+    /// the surface.
     const SMALLEST_FIELD: f64 = 1e-6;
     let largest = |kind: &[f64]| kind.iter().copied().fold(0.0, f64::max);
     let kinds = [largest(&peak[..2]), largest(&peak[2..])];
@@ -62,7 +64,7 @@ pub(crate) fn segments(
     Ok(done)
 }
 
-/// Whether a series is within what is allowed or as good as its values, or its segment as short as rounding lets it be.
+/// Whether the error of a series is allowed or limited by its values, or the segment cannot be shortened further.
 fn is_converged(segment: &Segment, allowed: &Six) -> bool {
     /// Shortest segment in units of the rounding error of its time.
     const SHORTEST: f64 = 64.0;
@@ -71,20 +73,21 @@ fn is_converged(segment: &Segment, allowed: &Six) -> bool {
         || (0..6).all(|f| segment.truncation[f] <= allowed[f].max(segment.error[f]))
 }
 
-/// The intervals between fronts and after the last, in the order of time; then a wave without a front may be `passing`, at
-/// a time and for some while.
+/// The intervals between fronts and after the last front, in the order of time; a wave without a front may be `passing`
+/// at a time and for a duration.
 ///
-/// Beside fronts that are very far apart few nodes do not see how R varies as the disc is passed: such an interval is two.
+/// Between fronts that are very far apart few nodes would miss the variation of R within a disc's width of a front, so
+/// that such an interval is divided in two.
 fn pieces(
     arrivals: &[f64],
     passing: Option<[f64; 2]>,
     [first, end]: [f64; 2],
 ) -> Vec<MappedInterval> {
-    /// Radii from one front to the next that are not very far.
+    /// Largest distance in radii between fronts that are not very far apart.
     const MOST_RADII_APART: f64 = 500.0;
-    /// Factors e of time that one polynomial serves.
+    /// Largest logarithm of the ratio of times that one polynomial covers.
     const LONG: f64 = 3.5;
-    /// Fronts this close to each other are one.
+    /// Relative distance below which two fronts count as one.
     const SAME_FRONT: f64 = 1e-13;
     let mut fronts = vec![first];
     for &arrival in arrivals {

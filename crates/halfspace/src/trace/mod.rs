@@ -1,11 +1,11 @@
 //! The remainder at one place as a function of time: polynomials on segments between the fronts.
 //!
-//! A cell average taken as a difference of int R dt carries the rounding of int R dt over the width of the cell; far from
-//! the load, where R is small and cells are short beside the time of travel, nothing is left of it. Here R itself is
-//! interpolated on segments between the fronts, halved where one polynomial is not enough. Their number depends on the
-//! fronts and on the accuracy, not on the cells.
+//! A cell average computed as a difference of int R dt has the rounding error of int R dt over the width of the cell.
+//! Far from the load, where R is small and cells are short compared with the time of travel, no digit remains. Here R
+//! itself is interpolated on segments between the fronts, which are halved if one polynomial is not enough. Their
+//! number depends on the fronts and on the accuracy, not on the cells.
 //!
-//! The segments are found by `interpolation`; one of them is a `segment`.
+//! `interpolation` divides a trace into segments, and `segment` is one of them.
 
 mod interpolation;
 mod segment;
@@ -19,16 +19,17 @@ use crate::kernel::Kernel;
 use crate::trace::interpolation::segments;
 use crate::trace::segment::Segment;
 
-/// What is left of a polynomial is of either sign, and so is the rate of the force times it.
+/// Factor for the truncation error of a polynomial: the error has both signs, and so has its product with the rate of
+/// the force.
 const OSCILLATES: f64 = 0.45;
 
-/// Time in r0/c1 that a Rayleigh wave lasts where the edges of the disc are not told from each other.
+/// Duration of a Rayleigh wave in r0/c1 above which the waves from the edges of the disc cannot be distinguished.
 const DEEP: f64 = 1.0;
 
-/// R(t) at one place up to an end: at instants, and its moments over any intervals.
+/// R(t) at one place up to an end time: values, and moments over any intervals.
 ///
-/// Made by [`Kernel::trace`]. Its cost depends on the place and the tolerance, not on what is read: an instant takes some
-/// tens of nanoseconds, an interval some hundreds.
+/// [`Kernel::trace`] returns it. Its cost depends on the place and the tolerance, not on its use: a value takes tens of
+/// nanoseconds, an interval some hundred.
 ///
 /// ```
 /// use halfspace::{Field, Kernel, Medium, Profile};
@@ -49,7 +50,7 @@ pub struct Trace {
     static_field: Six,
     segments: Vec<Segment>,
     breaks: Vec<f64>,
-    /// Estimated error of a response to the force that the trace is for, over the peak of the force.
+    /// Estimated error of the response to the force for which the trace was made, over the peak of the force.
     pub error: Six,
 }
 
@@ -67,11 +68,12 @@ impl Kernel {
         self.trace_under(r, z, end, ([self.tolerance(); 6], &rise))
     }
 
-    /// R(t) as far as a force needs it that changes by no more than `rise` of its peak within a time. Tolerance and rise are
-    /// given for each field: to the rate of a force, say, only the displacements may be wanted.
+    /// R(t) with the accuracy needed for a force that changes by at most `rise` of its peak within a time. Tolerance
+    /// and rise are given for each field, since some uses, such as the response to the rate of a force, need the
+    /// displacements only.
     ///
-    /// Accuracy: responses to that force are within `tolerance` of their peaks, and typically a hundredth of it: beside
-    /// fronts, in times in which the force hardly changes, R itself is known to fewer digits.
+    /// Accuracy: errors of responses to that force are below `tolerance` of their peaks, and typically a hundredth of
+    /// it. R itself is less accurate near fronts, during times in which the force hardly changes.
     ///
     /// # Errors
     /// As [`Self::trace`].
@@ -85,10 +87,10 @@ impl Kernel {
         check_place_under(self.profile(), r, z)?;
         check_time(end)?;
         check_hertz(self.profile(), "a trace")?;
-        // the depth of a rounding error is none
+        // a depth of the size of a rounding error is zero
         let z = if z < NEAREST { 0.0 } else { z };
         let mut arrivals = Arrivals::new(self.medium(), self.profile(), r, z)?;
-        // below the surface Rayleigh's wave has no front, and lasts as long as the point is deep
+        // below the surface the Rayleigh wave has no front, and its duration is of the order of the depth
         let medium = self.medium();
         let slownesses = [medium.rayleigh_speed(), medium.kappa()].map(|c| 1.0 / (c * c));
         let duration = z * (slownesses[0] - slownesses[1]).sqrt();
@@ -106,7 +108,7 @@ impl Kernel {
             (tolerance, rise),
             |t| self.remainder(r, z, t),
         )?;
-        // each counts as far as the force changes during the segment
+        // each segment is weighted with the change of the force during it
         let mut error = static_field.map(|s| f64::EPSILON * s.abs());
         let mut truncation = Six::default();
         for segment in &segments {
@@ -131,18 +133,18 @@ impl Kernel {
 }
 
 impl Trace {
-    /// Times between which R is a polynomial of few terms in the root of the time from a front, ascending, fronts among
-    /// them.
+    /// Ascending times, including fronts, between which R is a polynomial of few terms in the root of the time from a
+    /// front.
     pub fn breaks(&self) -> impl Iterator<Item = f64> {
         self.breaks.iter().copied()
     }
 
-    /// R at a time; after the end of the trace, its value there.
+    /// R at a time; after the end of the trace, the value at the end.
     pub fn at(&self, t: f64) -> Six {
         self.at_each([t]).map(|[value]| value)
     }
 
-    /// R at times between the same two breaks.
+    /// R at several times that lie between the same two breaks.
     #[must_use]
     pub fn at_each<const N: usize>(&self, times: [f64; N]) -> [[f64; N]; 6] {
         let t = times[N / 2];
@@ -160,7 +162,7 @@ impl Trace {
     /// ```
     ///
     /// # Errors
-    /// [`DomainError`] for a cell that is empty or reaches beyond the trace.
+    /// [`DomainError`] for a cell that is empty or ends after the trace.
     pub fn cell(&self, from: f64, to: f64) -> Result<[Six; 3], DomainError> {
         check(from >= 0.0, "from", from, "[0, to)")?;
         check(to > from, "to", to, "(from, end of the trace]")?;
@@ -171,7 +173,7 @@ impl Trace {
         Ok(self.cell_from(next, from, to))
     }
 
-    /// Estimated error of the average over a cell; half of it is that of the first moment.
+    /// Estimated error of the average over a cell; the error of the first moment is half as large.
     pub fn cell_error(&self, from: f64, to: f64) -> Six {
         let before = self.first_arrival.clamp(from, to) - from;
         let mut error = self.static_field.map(|s| f64::EPSILON * s.abs() * before);
@@ -188,9 +190,9 @@ impl Trace {
         error.map(|e| e / (to - from))
     }
 
-    /// The same from a segment known to be the first that the cell meets.
+    /// Average, first and second moment of a cell; `first` is the index of the first segment in it.
     fn cell_from(&self, first: usize, from: f64, to: f64) -> [Six; 3] {
-        /// A cell this short in units of the rounding error of its time is an instant.
+        /// Width of a cell, in units of the rounding error of its time, below which it counts as an instant.
         const INSTANT: f64 = 1e4;
         let (width, centre) = (to - from, 0.5 * (from + to));
         if width < INSTANT * f64::EPSILON * to {
@@ -229,7 +231,7 @@ impl Trace {
     /// zero.
     ///
     /// # Errors
-    /// [`DomainError`] for a width outside [1e-20, 1e20] and for cells that reach beyond the trace.
+    /// [`DomainError`] for a width outside [1e-20, 1e20], or for cells that end after the trace.
     pub fn for_each_cell(
         &self,
         width: f64,

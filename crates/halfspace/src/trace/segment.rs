@@ -1,4 +1,4 @@
-//! A segment of a trace: R as a polynomial in s, of which time is a function.
+//! A segment of a trace: R as a polynomial in s, where time is a function of s.
 //!
 //! ```text
 //! t = a + (b - a) sin^2(pi s/2)             between fronts a and b
@@ -6,9 +6,10 @@
 //! t = c + b sinh(x + (y - x) s)             around a time c at which a wave of duration b passes
 //! ```
 //!
-//! The first two turn the roots at the fronts into smooth functions, the last two also 1/t, in which R is smooth in the end.
-//! The second is t - a + 1 = cosh(Y s): what is as far beyond the front as the disc is wide, where its other edge's waves have
-//! a root too, is as far from the s in question however long the interval. The third does so for roots at c + i b and c - i b.
+//! The first two make the roots at the fronts smooth functions of s; the last two do this also for 1/t, in which R is
+//! finally smooth. The second is t - a + 1 = cosh(Y s): the front of the other edge, about one disc width away, where R
+//! has another root, keeps its distance in s, however long the interval. The third does the same for roots at c + i b
+//! and c - i b.
 //!
 //! The nodes are those of [`leja_nodes`], none of which lies on a front.
 
@@ -18,38 +19,38 @@ use crate::numeric::gauss;
 use crate::numeric::polynomial::{LEJA_NODES, chebyshev_each, leja_nodes, leja_rest, leja_series};
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// Nodes of a segment at first.
+/// Initial number of nodes of a segment.
 const FIRST_NODES: usize = 3;
 
-/// Error of an integral over a cell over the mean estimate of the values at the nodes: errors of values are well below
-/// their estimates and of any sign.
+/// Ratio of the error of an integral over a cell to the mean error estimate of the values at the nodes; the errors of
+/// values are well below their estimates and have both signs.
 const CELL_NOISE: f64 = 0.12;
 
-/// How time follows from s, ascending from 0 to 1 at most.
+/// Time as a function of s, which ascends within [0, 1].
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Course {
     /// Between two fronts.
     Between([f64; 2]),
-    /// Beside a front, on the side of the sign: its time, Y and the sign.
+    /// On one side of a front: its time, Y and the sign of the side.
     Beside([f64; 3]),
     /// Around a wave without a front: its time, its duration, and x and y.
     Around([f64; 2], [f64; 2]),
 }
 
 impl Course {
-    /// From a front to a time on either side.
+    /// Course from a front to a time before or after it.
     pub(crate) fn beside(front: f64, other: f64) -> Self {
         let distance = other - front;
         Self::Beside([front, turn(distance.abs()), distance.signum()])
     }
 
-    /// Around a wave from one time to another.
+    /// Course around a wave, from one time to another.
     pub(crate) fn around([centre, duration]: [f64; 2], times: [f64; 2]) -> Self {
         let ends = times.map(|t| ((t - centre) / duration).asinh());
         Self::Around([centre, duration], ends)
     }
 
-    /// Factors e by which times grow along it; between two fronts they do not.
+    /// Logarithm of the ratio of times along the course; zero between two fronts.
     pub(crate) fn length(&self) -> f64 {
         match self {
             Self::Between(_) => 0.0,
@@ -59,17 +60,17 @@ impl Course {
     }
 }
 
-/// s at a distance over Y, or that of an s: on either side of a front it ascends with time.
+/// s at a distance over Y, or the reverse; s ascends with time before and after a front.
 fn directed(sign: f64, s: f64) -> f64 {
     if sign > 0.0 { s } else { 1.0 - s }
 }
 
-/// y at which cosh y - 1 is a distance.
+/// The y for which cosh y - 1 equals a distance.
 fn turn(distance: f64) -> f64 {
     (distance + (distance * (distance + 2.0)).sqrt()).ln_1p()
 }
 
-/// An interval of time as one of s.
+/// An interval of time, mapped to an interval of s.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct MappedInterval {
     course: Course,
@@ -114,7 +115,7 @@ impl MappedInterval {
         }
     }
 
-    /// s of a time, held on the piece.
+    /// s of a time, limited to the interval.
     fn place(&self, t: f64) -> f64 {
         let s = match self.course {
             Course::Between([from, to]) => {
@@ -137,7 +138,7 @@ impl MappedInterval {
         (0.5 * (low + high), 0.5 * (high - low))
     }
 
-    /// Parts equal in s.
+    /// Division into parts of equal length in s.
     pub(crate) fn parts(self, count: u32) -> impl DoubleEndedIterator<Item = Self> {
         let at = move |i: u32| {
             let part = f64::from(i) / f64::from(count);
@@ -155,7 +156,7 @@ impl MappedInterval {
     }
 }
 
-/// A piece with its polynomial.
+/// A segment with its polynomial.
 #[derive(Debug, Clone)]
 pub(crate) struct Segment {
     /// Start and end in time.
@@ -163,17 +164,17 @@ pub(crate) struct Segment {
     pub(crate) piece: MappedInterval,
     /// Coefficients of Chebyshev's polynomials.
     series: Vec<Six>,
-    /// Likely error of the mean of R over a part of the segment, but for the truncation of the series.
+    /// Likely error of the mean of R over a part of the segment, without the truncation error of the series.
     pub(crate) error: Six,
-    /// Truncation error of the polynomial, from its last terms.
+    /// Truncation error of the polynomial, estimated from its last terms.
     pub(crate) truncation: Six,
-    /// At the nodes: values, and the sum of their errors.
+    /// Values at the nodes, and the sum of their errors.
     values: Vec<Six>,
     noise: Six,
 }
 
 impl Segment {
-    /// Of the fewest nodes.
+    /// A segment with the smallest number of nodes.
     pub(crate) fn fit(
         piece: MappedInterval,
         remainder: impl FnMut(f64) -> Result<Estimate, DomainError>,
@@ -191,7 +192,7 @@ impl Segment {
         Ok(segment)
     }
 
-    /// Takes the next larger set of nodes; whether there is one.
+    /// Uses the next larger set of nodes; returns false if there is none.
     pub(crate) fn refine(
         &mut self,
         mut remainder: impl FnMut(f64) -> Result<Estimate, DomainError>,
@@ -212,7 +213,7 @@ impl Segment {
         }
         self.series = leja_series(&self.values);
         self.truncation = leja_rest(&self.series);
-        // a time is known to its rounding error
+        // a time has its rounding error
         let rounding = 4.0 * f64::EPSILON * self.times[1] / (self.times[1] - self.times[0]);
         for f in 0..6 {
             let size = |part: &[Six]| part.iter().map(|c| c[f].abs()).sum::<f64>();
@@ -221,7 +222,7 @@ impl Segment {
         Ok(true)
     }
 
-    /// Its start, and times in it between which few terms would do.
+    /// The start of the segment, and times in it between which few terms would be enough.
     pub(crate) fn breaks(&self) -> impl Iterator<Item = f64> {
         const FEW_TERMS: usize = 12;
         let parts = self.series.len().div_ceil(FEW_TERMS) as u32;
@@ -246,13 +247,14 @@ impl Segment {
 
     /// Adds int R dt, int (t - centre) R dt and int (t - centre)^2 R dt over a part of the segment.
     pub(crate) fn add(&self, from: f64, to: f64, centre: f64, sums: &mut [Six; 3]) {
-        /// A part this short, as a fraction of the segment over the terms of the series, is nearly a cubic.
+        /// Length of a part, as a fraction of the segment over the number of terms, below which the polynomial is
+        /// nearly a cubic.
         const SHORT_PART: f64 = 0.75;
-        /// Nodes for dt/ds times t^2: exact where time is a square, else as parts of a wave, whose rule has some at least.
+        /// Nodes for dt/ds times t^2: exact if time is a square; otherwise the minimum for a wave.
         const SQUARE: usize = 3;
         const WAVE: f64 = 11.0;
         const LEAST_NODES: f64 = 5.0;
-        /// Nodes side by side.
+        /// Number of nodes computed in parallel.
         const GROUP_NODES: usize = 4;
         let [low, high] = [from, to].map(|t| self.piece.place(t));
         let (_, half) = self.piece.middle();
@@ -261,7 +263,7 @@ impl Segment {
         let nodes = match self.piece.course {
             _ if part * (terms as f64) < SHORT_PART => GROUP_NODES,
             Course::Between(_) => {
-                // toward an end of the segment the terms vary over its root
+                // toward an end of the segment the terms vary on the scale of its root
                 let whole = 0.5 * terms as f64 + WAVE;
                 (LEAST_NODES + part.sqrt() * (whole - LEAST_NODES)).ceil() as usize
             }
@@ -271,7 +273,7 @@ impl Segment {
         };
         let mut rule = gauss::rule(nodes).on(low, high);
         for _ in 0..nodes.div_ceil(GROUP_NODES) {
-            // a group that is not full is filled with nodes that weigh nothing
+            // an incomplete group is filled with nodes of zero weight
             let group: [_; GROUP_NODES] =
                 std::array::from_fn(|_| rule.next().unwrap_or((high, 0.0)));
             let values = self.values(group.map(|(s, _)| s));

@@ -1,6 +1,6 @@
-//! Chunks packed side by side: the HDF5 library compresses one after the other, under its lock.
+//! Parallel compression of chunks; the HDF5 library itself compresses them one after the other, under its lock.
 //!
-//! The filters are those of the dataset, in its order: bytes shuffled, Deflate, Fletcher's checksum.
+//! The filters are those of the dataset, in its order: shuffle, Deflate, Fletcher's checksum.
 
 use hdf5::Dataset;
 use hdf5_sys::h5d::H5Dwrite_chunk;
@@ -10,13 +10,13 @@ use ndarray::{Array4, ArrayView4, s};
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// Chunks in memory at a time.
+/// Largest number of chunks in memory at a time.
 const CHUNKS_AT_A_TIME: usize = 64;
 
-/// Writes all values of a dataset whose chunks hold all of a patch of rows and columns.
+/// Writes all values of a dataset whose chunks contain whole patches of rows and columns.
 ///
 /// # Errors
-/// What the library says.
+/// The error of the HDF5 library.
 pub(super) fn write_chunks(
     dataset: &Dataset,
     values: &ArrayView4<'_, f32>,
@@ -48,7 +48,7 @@ pub(super) fn write_chunks(
     Ok(())
 }
 
-/// Rows and columns of each chunk of so many, each so high and wide but for the last.
+/// Row and column ranges of all chunks of a size; the last chunks of a row or column may be smaller.
 pub(super) fn patches(
     [rows, columns]: [usize; 2],
     [high, wide]: [usize; 2],
@@ -72,7 +72,8 @@ fn packed(numbers: &Array4<f32>, level: u8) -> Vec<u8> {
     packed
 }
 
-/// Fletcher's checksum as HDF5 has it: of words of two bytes, the first the higher; 65,535 stands for its multiples.
+/// Fletcher's checksum as in HDF5: over words of two bytes, the first byte the higher; multiples of 65,535 become
+/// 65,535.
 fn fletcher32(bytes: &[u8]) -> u32 {
     let reduced = |x: u64| if x == 0 { 0 } else { (x - 1) % 65_535 + 1 };
     let (mut sum, mut of_sums) = (0, 0);

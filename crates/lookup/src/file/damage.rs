@@ -1,4 +1,4 @@
-//! Which nodes of a damaged file cannot be read.
+//! Location of damage: the nodes of a file that cannot be read.
 
 use super::chunks::patches;
 use super::error::TableError;
@@ -7,10 +7,10 @@ use crate::content::FIELDS;
 use crate::schema;
 use std::path::Path;
 
-/// Where nodes of the table at `path` share a damaged chunk of a dataset, in words; nothing if all can be read.
+/// Descriptions of the nodes of the table at `path` that share a damaged chunk of a dataset; empty if all can be read.
 ///
 /// # Errors
-/// [`TableError`] when the file cannot be opened, or axes or groups cannot be read.
+/// [`TableError`] if the file cannot be opened, or its axes or groups cannot be read.
 pub fn damaged_patches(path: &Path) -> Result<Vec<String>, TableError> {
     let source = open(path)?;
     let root = &source.file.root;
@@ -24,7 +24,7 @@ pub fn damaged_patches(path: &Path) -> Result<Vec<String>, TableError> {
             schema::CURVATURE,
             schema::TAIL,
         ] {
-            // One that is not there has no patches; reading the table says that it is not.
+            // a missing dataset has no patches; reading the table reports it
             let Ok((data, shape)) = source.dataset(&slice.place, dataset) else {
                 continue;
             };
@@ -34,7 +34,7 @@ pub fn damaged_patches(path: &Path) -> Result<Vec<String>, TableError> {
             else {
                 continue;
             };
-            // nor has one of another shape than that of the axes
+            // a dataset whose shape does not fit the axes has no patches either
             if [rows, columns] != [r.len(), z.len()] {
                 continue;
             }

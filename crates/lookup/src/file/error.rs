@@ -1,4 +1,4 @@
-//! What can be wrong with the file of a table.
+//! Errors of the file of a table.
 
 use crate::schema::{FILE_TYPE_VALUE, MAJOR_READ};
 use fault::{Class, Culprit, Fault};
@@ -6,55 +6,55 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
-/// The file of a kernel table could not be read, accepted or written.
+/// Error of reading, validating or writing the file of a kernel table.
 #[derive(Debug)]
 pub struct TableError {
-    /// File asked for.
+    /// Path of the file.
     pub path: PathBuf,
-    /// What is wrong with it.
+    /// Kind of error.
     pub what: BadTable,
 }
 
-/// What is wrong with the file of a table.
+/// Kind of error of the file of a table.
 #[derive(Debug, Error)]
 pub enum BadTable {
-    /// The file is not there or may not be read.
+    /// The file does not exist, or may not be read.
     #[error("{0}")]
     Unreadable(std::io::Error),
-    /// The file is not HDF5, or is cut short: what is missing, or the first line of what the HDF5 library said.
+    /// The file is not HDF5, or is truncated; with the reason.
     #[error("is not a complete HDF5 file: {0}")]
     NotHdf5(String),
-    /// Bytes of the file are not those that were written.
+    /// Bytes of the file differ from those that were written.
     #[error("is damaged: {0}")]
     Damaged(String),
-    /// An HDF5 file of another kind: its `file_type`, empty when there is none.
+    /// An HDF5 file of another kind; with its `file_type`, empty if it has none.
     #[error("is not a kernel table: file_type = {0:?}, needed \"{FILE_TYPE_VALUE}\"")]
     Foreign(String),
-    /// A format that this program does not know.
+    /// A format version that this program does not read.
     #[error("has kernel-table format version {0:?}; this program reads version {MAJOR_READ}.x")]
     Version(String),
-    /// A dataset or an attribute is absent, unreadable or not as the format demands.
+    /// A dataset or attribute that is missing, unreadable or does not conform to the format.
     #[error("cannot read {item}: {detail}")]
     Item {
         /// Path of the dataset or attribute inside the file.
         item: String,
-        /// What is wrong, or the first line of what the HDF5 library said.
+        /// Reason.
         detail: String,
     },
-    /// The numbers are no table: other dimensions than the axes demand, more than the size of the file explains, values that
-    /// may not be there, or another checksum than the file states.
+    /// Numbers that are not a table: the dimensions do not fit the axes, there are more numbers than the size of the file
+    /// allows, values are invalid, or the checksum differs from the stated one.
     #[error("{0}")]
     Wrong(String),
-    /// The file could not be written: what the system or the HDF5 library said.
+    /// The file could not be written; with the message of the system or of the HDF5 library.
     #[error("{0}")]
     Unwritable(String),
-    /// Another table than when it was opened.
-    #[error("is another table than when it was opened: open it again")]
+    /// The file was replaced by another table after it was opened.
+    #[error("was replaced by another table after it was opened: open it again")]
     Changed,
 }
 
 impl BadTable {
-    /// The error of a file.
+    /// The error with the path of its file.
     pub fn of(self, path: &Path) -> TableError {
         TableError {
             path: path.to_owned(),

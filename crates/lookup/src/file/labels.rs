@@ -1,6 +1,6 @@
-//! What writing HDF5 needs in every file of the workspace: attributes, dimension scales.
+//! Attributes and dimension scales for every HDF5 file of the workspace.
 //!
-//! Dimension scales are the one piece of the HDF5 interface that no Rust crate offers.
+//! Dimension scales are the only part of the HDF5 interface that no Rust crate offers.
 
 use hdf5::types::VarLenUnicode;
 use hdf5::{Dataset, H5Type, Location};
@@ -8,36 +8,36 @@ use hdf5_sys::h5i::hid_t;
 use std::borrow::Borrow;
 use std::ffi::{CString, c_char, c_int, c_uint};
 
-/// A text as files hold it; a NUL, which they cannot hold, becomes a blank.
+/// A text for an HDF5 file; a NUL, which HDF5 cannot store, becomes a blank.
 ///
 /// # Errors
 /// None that is known.
 pub fn unicode(text: &str) -> Result<VarLenUnicode, hdf5::Error> {
     let text = text.replace('\0', " ").parse();
-    text.map_err(|_| "a text holds a NUL".into())
+    text.map_err(|_| "a text contains a NUL".into())
 }
 
-/// Gives an object a text attribute.
+/// Writes a text attribute of an object.
 ///
 /// # Errors
-/// What the library says.
+/// The error of the HDF5 library.
 pub fn text(place: &Location, name: &str, value: &str) -> Result<(), hdf5::Error> {
     let attribute = place.new_attr::<VarLenUnicode>().create(name)?;
     attribute.write_scalar(&unicode(value)?)
 }
 
-/// Gives an object one value as an attribute.
+/// Writes an attribute with one value.
 ///
 /// # Errors
-/// What the library says.
+/// The error of the HDF5 library.
 pub fn scalar<T: H5Type + Copy>(place: &Location, name: &str, value: T) -> Result<(), hdf5::Error> {
     place.new_attr::<T>().create(name)?.write_scalar(&value)
 }
 
-/// Gives an object numbers of a shape as an attribute.
+/// Writes an attribute with an array of numbers.
 ///
 /// # Errors
-/// What the library says.
+/// The error of the HDF5 library.
 pub fn array<T: H5Type>(
     place: &Location,
     name: &str,
@@ -51,9 +51,10 @@ pub fn array<T: H5Type>(
 /// Makes `scale` a dimension scale called `name`.
 ///
 /// # Errors
-/// What the library says, or a name that holds a NUL.
+/// The error of the HDF5 library, or a name that contains a NUL.
 pub fn set_scale(scale: &Dataset, name: &str) -> Result<(), hdf5::Error> {
-    let name = CString::new(name).map_err(|_| hdf5::Error::from("a scale's name holds a NUL"))?;
+    let name =
+        CString::new(name).map_err(|_| hdf5::Error::from("the name of a scale contains a NUL"))?;
     // SAFETY: both arguments outlive the call, the dataset is open, and the lock of the library is held.
     #[allow(unsafe_code)]
     hdf5::sync::sync(|| hdf5::h5check(unsafe { H5DSset_scale(scale.id(), name.as_ptr()) }))?;
@@ -63,7 +64,7 @@ pub fn set_scale(scale: &Dataset, name: &str) -> Result<(), hdf5::Error> {
 /// Attaches scales to the first dimensions of `data`, in their order.
 ///
 /// # Errors
-/// What the library says.
+/// The error of the HDF5 library.
 pub fn attach_scales(data: &Dataset, scales: &[impl Borrow<Dataset>]) -> Result<(), hdf5::Error> {
     for (index, scale) in (0..).zip(scales) {
         let scale = scale.borrow().id();

@@ -1,4 +1,4 @@
-//! The HDF5 file of a table: everything that knows the HDF5 library.
+//! HDF5 file of a table: all code that uses the HDF5 library.
 
 mod chunks;
 mod damage;

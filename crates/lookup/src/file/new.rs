@@ -1,9 +1,9 @@
-//! A new HDF5 file: made, filled, closed and sealed, with every failure of the library noticed.
+//! Creation of HDF5 files: a file is filled, closed and sealed, and every failure of the library is detected.
 //!
-//! The library keeps small datasets in memory until they are closed, which the binding does where a handle is dropped: it cannot
-//! return an error then, and later calls succeed although the bytes are lost. So the library itself reports each call that fails
-//! (`H5Eset_auto2`), whoever makes it; a file of which one failed is not sealed.
-//! `scripts/attacks/writes.py` fails each write of each command in turn.
+//! The library keeps small datasets in memory until they are closed, and the binding closes them when a handle is
+//! dropped. It cannot return an error then, and later calls succeed although the bytes are lost. Therefore the library
+//! itself reports each call that fails (`H5Eset_auto2`), and a file with a failed call is not sealed.
+//! `scripts/attacks/writes.py` makes each write of each command fail in turn.
 
 use hdf5_sys::h5e::{H5E_DEFAULT, H5E_WALK_DOWNWARD, H5E_error2_t, H5Eset_auto2, H5Ewalk2};
 use hdf5_sys::h5i::hid_t;
@@ -13,23 +13,23 @@ use std::fs::File;
 use std::path::Path;
 use std::ptr::null_mut;
 
-/// Makes a file where nothing has its name, has it filled and seals it; returns its handle.
+/// Creates a file under an unused name, calls `fill` and seals the file; returns its handle.
 ///
-/// `fill` gets the file of the library, and the handle for what it writes itself. Everything of the library that it opens is
-/// closed when it returns.
-/// The file is one that every version of the library reads, whatever the linked one prefers: version 2 of the library would
-/// write groups and superblocks of a later format, which its versions before 1.8 do not know.
+/// `fill` receives the file of the library, and a handle for direct writes. It must close every object of the library
+/// that it opens. Every version of the library can read the file. By default version 2 of the library would write
+/// groups and superblocks of a later format, which versions before 1.8 cannot read.
 ///
 /// # Errors
-/// What `fill` says, or the reason why a call of the library or a write failed: that of the system, if there is one.
+/// The error of `fill`, or the reason why a call of the library or a write failed: that of the system, if there is one.
 pub fn new_file<E: From<String>>(
     path: &Path,
     fill: impl FnOnce(&hdf5::File, &File) -> Result<(), E>,
 ) -> Result<File, E> {
-    // other threads wait: each turns the reports off at its first call, for all of them where the library knows no threads
+    // other threads must wait: each turns the reports off at its first call, for all threads if the library is not
+    // thread-safe
     let (written, failure) = hdf5::sync::sync(|| {
         let outer = FAILURE.take();
-        // SAFETY: the function lives as long as the program, the lock is held.
+        // SAFETY: the function lives as long as the program, and the lock is held.
         #[allow(unsafe_code)]
         unsafe {
             H5Eset_auto2(H5E_DEFAULT, Some(note), null_mut());
@@ -55,9 +55,9 @@ fn write<E: From<String>>(
     let told = |error: hdf5::Error| E::from(reason(&error));
     let mut builder = hdf5::File::with_options();
     builder.with_fapl(|access| {
-        // HDF5_DRIVER may name another one, which has no handle
+        // the environment variable HDF5_DRIVER could select a driver without a handle
         access.sec2().libver_earliest();
-        // a name that nobody else has needs no lock, which some file systems do not keep
+        // an unused name needs no lock, and some file systems do not support locks
         #[cfg(hdf5_locks)]
         access.file_locking(false);
         access
@@ -70,13 +70,13 @@ fn write<E: From<String>>(
     Ok(file)
 }
 
-/// A handle of its own of a file that the library has open.
+/// A separate handle of a file that the library has open.
 #[cfg(unix)]
 fn handle(library: &hdf5::File, _: &Path) -> Result<File, String> {
     use hdf5_sys::{h5f::H5Fget_vfd_handle, h5p::H5P_DEFAULT};
     use std::os::fd::BorrowedFd;
     let mut place = null_mut();
-    // SAFETY: the file is open, and its driver is the one that has a descriptor, which is copied before it can be closed.
+    // SAFETY: the file is open, its driver has a descriptor, and the descriptor is copied before it can be closed.
     #[allow(unsafe_code)]
     let copied = hdf5::sync::sync(|| unsafe {
         hdf5::h5check(H5Fget_vfd_handle(library.id(), H5P_DEFAULT, &raw mut place))?;
@@ -93,7 +93,7 @@ fn handle(_: &hdf5::File, path: &Path) -> Result<File, String> {
     opened.map_err(|error| error.to_string())
 }
 
-/// What the system said, if it did, else the first line of what the library says.
+/// The message of the system, or the first line of the library's if there is none.
 pub fn reason(error: &hdf5::Error) -> String {
     let (stack, said) = (error.stack(), error.to_string());
     let mut frames = stack.iter().flat_map(|stack| stack.iter());
@@ -102,22 +102,22 @@ pub fn reason(error: &hdf5::Error) -> String {
     system.unwrap_or_else(first).to_owned()
 }
 
-/// What the system said, in the words of the library.
+/// The message of the system in a description of the library.
 fn of_system(description: &str) -> Option<&str> {
     let (_, message) = description.split_once("error message = '")?;
     Some(message.split_once('\'')?.0)
 }
 
 thread_local! {
-    /// Why the first call failed on this thread since a file was begun.
+    /// Reason for the first failed call on this thread since the current file was begun.
     static FAILURE: Cell<Option<String>> = const { Cell::new(None) };
 }
 
-/// Keeps the reason of the first failure; the library calls it at the end of each call that fails.
+/// Stores the reason of the first failure; the library calls this function at the end of each call that fails.
 #[allow(unsafe_code)]
 unsafe extern "C" fn note(stack: hid_t, _: *mut c_void) -> c_int {
     let mut found: Option<String> = None;
-    // SAFETY: the stack is that of the call, and `found` outlives the walk.
+    // SAFETY: the stack is that of the failed call, and `found` outlives the walk.
     unsafe {
         H5Ewalk2(
             stack,
@@ -131,13 +131,13 @@ unsafe extern "C" fn note(stack: hid_t, _: *mut c_void) -> c_int {
     0
 }
 
-/// Keeps what the system said or, where it said nothing, what the frame nearest to the caller says.
+/// Stores the message of the system or, if there is none, of the frame nearest to the caller.
 #[allow(unsafe_code)]
 unsafe extern "C" fn frame(_: c_uint, frame: *const H5E_error2_t, found: *mut c_void) -> c_int {
-    // SAFETY: the library passes a frame of its own, and what `note` gave it.
+    // SAFETY: the library passes one of its frames, and the pointer from `note`.
     let (frame, found) = unsafe { (&*frame, &mut *found.cast::<Option<String>>()) };
     if !frame.desc.is_null() {
-        // SAFETY: a text of the library that ends with a NUL.
+        // SAFETY: the library terminates its texts with a NUL.
         let text = unsafe { CStr::from_ptr(frame.desc) }.to_string_lossy();
         let system = of_system(&text).map(str::to_owned);
         *found = system.or(found.take()).or_else(|| Some(text.into_owned()));
@@ -152,7 +152,7 @@ mod tests {
     use super::*;
     use std::os::fd::{AsRawFd, FromRawFd, OwnedFd};
 
-    /// Makes a file with two small datasets; where it fails, the library cannot write while it closes the first.
+    /// Creates a file with two small datasets; with `fails`, the library cannot write when it closes the first.
     fn made(path: &Path, fails: bool) -> Result<File, String> {
         new_file(path, |library, file| {
             let told = |error: hdf5::Error| reason(&error);
@@ -166,7 +166,7 @@ mod tests {
             let (first, second) = (dataset("first")?, dataset("second")?);
             let mut descriptor = descriptor(path, file);
             if fails {
-                // a descriptor that is open for reading alone: the library calls it, and the system refuses
+                // a descriptor that is open for reading only, so that writes of the library fail
                 rustix::io::dup2(File::open("/dev/null").unwrap(), &mut descriptor).unwrap();
             }
             drop(first);
@@ -177,14 +177,14 @@ mod tests {
         })
     }
 
-    /// The descriptor of the library, which has the same file open as `own`.
+    /// The descriptor that the library has of the file of `own`.
     fn descriptor(path: &Path, own: &File) -> OwnedFd {
         let of = |number: i32| std::fs::read_link(format!("/proc/self/fd/{number}"));
         let path = path.canonicalize().unwrap();
         let mut others =
             (3..own.as_raw_fd()).filter(|&number| of(number).is_ok_and(|to| to == path));
         let number = others.next_back().unwrap();
-        // SAFETY: it is open, and forgotten before it is closed.
+        // SAFETY: the descriptor is open, and is forgotten instead of closed.
         #[allow(unsafe_code)]
         unsafe {
             OwnedFd::from_raw_fd(number)
@@ -204,7 +204,7 @@ mod tests {
         let failure = made(&bad, true).unwrap_err();
         assert!(failure.contains("Bad file descriptor"), "{failure}");
         assert!(!ledger::HdfFile::open(&bad).is_ok_and(|file| file.is_sealed()));
-        // nothing of it is left for the next file
+        // the failure has no effect on the next file
         drop(made(&folder.path().join("next.h5"), false).unwrap());
     }
 

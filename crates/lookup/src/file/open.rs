@@ -1,4 +1,4 @@
-//! Opening: what is compared before anything else is read.
+//! Opening of a table: the checks before anything else is read.
 
 use super::error::{BadTable, TableError};
 use super::source::TableSource;
@@ -8,8 +8,8 @@ use std::path::Path;
 
 /// Opens the table at `path` for reading.
 ///
-/// In this order: it is a regular file; its seal is right; it is HDF5; its kind and version are known. What is read
-/// later is compared with the seal then.
+/// Checks in this order: the file is a regular file, its seal is intact, it is HDF5, and its kind and version are
+/// known. Data that is read later is compared with the seal then.
 ///
 /// # Errors
 /// [`TableError`].
@@ -36,14 +36,15 @@ pub(super) fn open(path: &Path) -> Result<TableSource, TableError> {
             Ok(source)
         }
         Some((schema::MAJOR_READ, _)) => {
-            let detail = "its seal is gone: it was cut short, or something has written to it since it was made";
+            let detail =
+                "its seal is missing: the file was truncated, or another program has written to it";
             Err(BadTable::Damaged(detail.to_owned()).of(path))
         }
         Some(_) | None => Err(BadTable::Version(found).of(path)),
     }
 }
 
-/// Major and minor number of a version.
+/// Major and minor number in a version text.
 fn version(text: &str) -> Option<(u32, u32)> {
     let (major, minor) = text.split_once('.')?;
     Some((major.parse().ok()?, minor.parse().ok()?))

@@ -1,4 +1,4 @@
-//! File to content.
+//! Reading: from file to content.
 
 use super::error::TableError;
 use super::open::open;
@@ -14,28 +14,29 @@ use std::path::Path;
 impl Table {
     /// Reads the table at `path` into memory and validates it; [`TableFile`](crate::TableFile) reads parts.
     ///
-    /// Every byte that is read is compared with the seal of the file or, in a format before 2.4, all of the content with
-    /// the hash that the file states.
+    /// Every byte that is read is compared with the seal of the file. In formats before 2.4, which have no seal, the
+    /// whole content is compared with the hash stated in the file.
     ///
     /// # Errors
-    /// [`TableError`]: the file is absent, not a kernel table, of an unknown version, damaged, or
-    /// holds values that cannot be right.
+    /// [`TableError`]: the file does not exist, is not a kernel table, has an unknown version, is damaged, or contains
+    /// invalid values.
     pub fn open(path: &Path) -> Result<Self, TableError> {
         let source = open(path)?;
         Self::new(source.proven()?).map_err(|error| source.wrong(error))
     }
 }
 
-/// Reads the content of the table at `path`, with axes that ascend and lists as long as they demand;
-/// [`Table::new`] then judges the numbers.
+/// Reads the content of the table at `path` and checks that axes ascend and lists have the right lengths;
+/// [`Table::new`]
+/// checks the numbers.
 ///
 /// # Errors
-/// [`TableError`] when the file is absent, of another kind or version, incomplete or damaged.
+/// [`TableError`] if the file does not exist, is of another kind or version, or is incomplete or damaged.
 pub fn read(path: &Path) -> Result<Content, TableError> {
     open(path)?.everything()
 }
 
-/// Whether the table at `path` holds just this content; no more than a slice of a second one is in memory.
+/// Whether the table at `path` has exactly this content; reads one slice at a time into memory.
 ///
 /// # Errors
 /// As [`read`].
@@ -58,8 +59,8 @@ pub fn holds(path: &Path, content: &Content) -> Result<bool, TableError> {
     Ok(same)
 }
 
-/// Compares every byte of the table at `path` with its seal or, where it has none, its content with the hash that it states;
-/// gives how it was made.
+/// Compares every byte of the table at `path` with its seal, or the content with the stated hash if there is no seal;
+/// returns the origin of the table.
 ///
 /// # Errors
 /// As [`read`], and [`BadTable::Wrong`](crate::BadTable::Wrong).
@@ -72,21 +73,21 @@ pub fn check_whole(path: &Path) -> Result<Origin, TableError> {
     Ok(source.proven()?.origin)
 }
 
-/// The hash of `content`, read from the table at `path`, which is the one that the file states.
+/// The hash of `content`, which was read from the table at `path`, after comparison with the stated one.
 ///
 /// # Errors
-/// As [`read`], and [`BadTable::Wrong`](crate::BadTable::Wrong) where it is another.
+/// As [`read`], and [`BadTable::Wrong`](crate::BadTable::Wrong) if the hashes differ.
 pub fn same_hash(path: &Path, content: &Content) -> Result<String, TableError> {
     open(path)?.same_hash(content)
 }
 
-/// The SHA-256 that the file at `path` states.
+/// The SHA-256 stated in the file at `path`.
 pub fn stated_hash(path: &Path) -> Result<String, TableError> {
     let source = open(path)?;
     source.text(&source.file.root, schema::CONTENT_SHA256)
 }
 
-/// The nodes that are read and the meshes of which probes tell the error, along r and z.
+/// Ranges in r and z of the nodes to read, and of the meshes whose probes are read.
 #[derive(Debug, Clone)]
 pub(super) struct Window {
     pub(super) nodes: [Range<usize>; 2],
@@ -94,7 +95,7 @@ pub(super) struct Window {
 }
 
 impl Window {
-    /// All of a table.
+    /// The window of a whole table.
     pub(super) fn all(content: &Content) -> Self {
         Self {
             nodes: [content.r.len(), content.z.len()].map(|count| 0..count),
@@ -103,7 +104,7 @@ impl Window {
     }
 }
 
-/// A slice's Poisson ratio, role and place in the file.
+/// Poisson's ratio, role and group of a slice in the file.
 pub(super) struct Listed {
     pub(super) ratio: f64,
     pub(super) role: Role,
@@ -111,7 +112,7 @@ pub(super) struct Listed {
 }
 
 impl TableSource {
-    /// All of the table, and every byte of the file compared with its seal.
+    /// The whole content; every byte of the file is compared with its seal.
     pub(super) fn everything(&self) -> Result<Content, TableError> {
         self.check_seal()?;
         let (mut content, listed) = self.head()?;
@@ -121,7 +122,7 @@ impl TableSource {
         Ok(content)
     }
 
-    /// The same, and where there is no seal the content compared with the hash that the file states.
+    /// The whole content, compared with the seal or, if there is none, with the stated hash.
     pub(super) fn proven(&self) -> Result<Content, TableError> {
         let content = self.everything()?;
         if !self.file.is_sealed() {
@@ -130,7 +131,7 @@ impl TableSource {
         Ok(content)
     }
 
-    /// The hash of the content, which is the one that the file states.
+    /// The hash of the content, after comparison with the stated one.
     pub(super) fn same_hash(&self, content: &Content) -> Result<String, TableError> {
         let stated = self.text(&self.file.root, schema::CONTENT_SHA256)?;
         let found = content_hash(content);
@@ -141,7 +142,7 @@ impl TableSource {
         Err(self.wrong(wrong))
     }
 
-    /// Everything but the slices, valid, and their list by ascending ratio.
+    /// The validated content without slices, and the list of slices by ascending ratio.
     pub(super) fn head(&self) -> Result<(Content, Vec<Listed>), TableError> {
         let root = &self.file.root;
         let mut content = Content {
@@ -163,7 +164,10 @@ impl TableSource {
         let reached = &content.origin.accuracy_reached;
         if reached.len() != content.pulse_lengths.len() || reached.iter().any(|x| !x.is_finite()) {
             let item = root.item(schema::ACCURACY_REACHED);
-            return Err(self.item(&item, "it is no list of numbers, one for each pulse length"));
+            return Err(self.item(
+                &item,
+                "it is not a list of numbers, one for each pulse length",
+            ));
         }
         let listed = self.listed()?;
         let ratios: Vec<f64> = listed.iter().map(|slice| slice.ratio).collect();
@@ -185,7 +189,7 @@ impl TableSource {
         })
     }
 
-    /// What was measured between slices, by ascending ratio.
+    /// The errors measured between slices, by ascending ratio.
     fn between(&self, content: &Content) -> Result<Vec<Between>, TableError> {
         let places = [content.between_r.len(), content.between_z.len()];
         let all = places.map(|count| 0..count);
@@ -200,7 +204,7 @@ impl TableSource {
         Ok(between)
     }
 
-    /// The slices by ascending ratio.
+    /// The list of slices by ascending ratio.
     pub(super) fn listed(&self) -> Result<Vec<Listed>, TableError> {
         let all = self.group(&self.file.root, schema::SLICES)?;
         let mut listed = Vec::new();
@@ -209,7 +213,7 @@ impl TableSource {
             listed.push(Listed {
                 ratio: self.number(&place, schema::POISSON_RATIO)?,
                 role: Role::from_name(&role).ok_or_else(|| {
-                    let detail = format!("{role:?} is neither grid nor exact");
+                    let detail = format!("{role:?} is neither \"grid\" nor \"exact\"");
                     self.item(&place.item(schema::ROLE), detail)
                 })?,
                 place,
@@ -219,7 +223,7 @@ impl TableSource {
         Ok(listed)
     }
 
-    /// A slice at the nodes wanted, with lists as long as the axes demand.
+    /// A slice at the wanted nodes, with lists of the right lengths.
     pub(super) fn slice(
         &self,
         content: &Content,
@@ -232,7 +236,7 @@ impl TableSource {
         })
     }
 
-    /// The sum of slices with their weights at the nodes wanted, without what was measured off them.
+    /// The weighted sum of slices at the wanted nodes, without measured errors.
     pub(super) fn sum(
         &self,
         content: &Content,
@@ -278,7 +282,7 @@ impl TableSource {
         })
     }
 
-    /// What was measured of a slice at the meshes wanted.
+    /// The measured errors of a slice at the wanted meshes.
     pub(super) fn errors(
         &self,
         content: &Content,
@@ -293,7 +297,7 @@ impl TableSource {
         Ok(found)
     }
 
-    /// What was measured at some of a grid of places.
+    /// The measured errors at some of a grid of places.
     fn verification(
         &self,
         place: &Group,

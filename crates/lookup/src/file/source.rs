@@ -1,4 +1,4 @@
-//! Reading single items of an open file: each is looked at before memory is asked for it.
+//! Reading of single items of an open file; each is checked before memory is allocated for it.
 
 use super::error::{BadTable, TableError};
 use crate::validate::product;
@@ -7,17 +7,17 @@ use std::cell::Cell;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-/// Bytes of numbers that a byte of a file may become: tables have 2 to 4, the compression itself ends at a thousand.
+/// Largest ratio of decoded bytes to the size of the file; tables have 2 to 4, and Deflate allows about 1000.
 const GROWTH: u64 = 32;
 
-/// A file that is being read.
+/// An open file.
 #[derive(Debug)]
 pub(super) struct TableSource {
     pub(super) path: PathBuf,
     pub(super) file: HdfFile,
-    /// Bytes of numbers loaded so far.
+    /// Bytes of the numbers loaded so far.
     loaded: Cell<u64>,
-    /// Bytes of the chunks that hold the nodes read so far.
+    /// Decoded bytes of the chunks that contain the nodes read so far.
     pub(super) decoded: Cell<u64>,
 }
 
@@ -31,13 +31,13 @@ impl TableSource {
         }
     }
 
-    /// Compares all bytes, where the file has a seal.
+    /// Compares all bytes with the seal, if the file has one.
     pub(super) fn check_seal(&self) -> Result<(), TableError> {
         let checked = self.file.check();
         checked.map_err(|error| BadTable::Damaged(error.to_string()).of(&self.path))
     }
 
-    /// The groups that a group holds.
+    /// The groups in a group.
     pub(super) fn groups(&self, parent: &Group) -> Result<Vec<Group>, TableError> {
         let names = parent.members();
         let names = names.map_err(|error| self.item(&parent.path, error))?;
@@ -68,7 +68,7 @@ impl TableSource {
         Ok((data, shape))
     }
 
-    /// A list of numbers.
+    /// The numbers of a dataset with one dimension.
     pub(super) fn list<T: H5Type>(&self, place: &Group, name: &str) -> Result<Vec<T>, TableError> {
         let (data, [count]) = self.dataset(place, name)?;
         self.admit(&place.item(name), count, size_of::<T>())?;
@@ -76,7 +76,7 @@ impl TableSource {
             .map_err(|error| self.item(&place.item(name), error))
     }
 
-    /// The entries `wanted` along the first two dimensions of a dataset, which has the dimensions `needed`.
+    /// The entries `wanted` along the first two dimensions of a dataset, whose dimensions must be `needed`.
     pub(super) fn block(
         &self,
         place: &Group,
@@ -105,32 +105,32 @@ impl TableSource {
             .map_err(|error| self.item(&item, error))
     }
 
-    /// A text that is an attribute.
+    /// The text of an attribute.
     pub(super) fn text(&self, place: &Group, name: &str) -> Result<String, TableError> {
         let text = place.text(name);
         text.map_err(|error| self.item(&place.item(name), error))
     }
 
-    /// A number that is an attribute.
+    /// The number of an attribute.
     pub(super) fn number<T: H5Type>(&self, place: &Group, name: &str) -> Result<T, TableError> {
         let number = place.number(name);
         number.map_err(|error| self.item(&place.item(name), error))
     }
 
-    /// A list of numbers that is an attribute.
+    /// The list of numbers of an attribute.
     pub(super) fn numbers(&self, place: &Group, name: &str) -> Result<Vec<f64>, TableError> {
         let numbers = place.numbers(name);
         numbers.map_err(|error| self.item(&place.item(name), error))
     }
 
-    /// Counts numbers that are about to be loaded.
+    /// Counts numbers before they are loaded; an error if the file becomes too large in memory.
     fn admit(&self, item: &str, numbers: usize, width: usize) -> Result<(), TableError> {
         let more = (numbers as u64).saturating_mul(width as u64);
         let needed = self.loaded.get().saturating_add(more);
         let limit = self.file.length().saturating_mul(GROWTH);
         if needed > limit {
             let wrong = format!(
-                "{item} makes {needed} bytes of numbers to load, more than the {limit} that its size explains"
+                "{item} brings the numbers to load to {needed} bytes, more than the {limit} that the size of the file allows"
             );
             return Err(self.wrong(wrong));
         }
@@ -138,14 +138,14 @@ impl TableSource {
         Ok(())
     }
 
-    /// An item that cannot be read, or is not as it should be.
+    /// Error of an item that cannot be read, or is invalid.
     #[allow(clippy::needless_pass_by_value, reason = "errors are handed on")]
     pub(super) fn item(&self, item: &str, detail: impl ToString) -> TableError {
         let (item, detail) = (item.to_owned(), detail.to_string());
         BadTable::Item { item, detail }.of(&self.path)
     }
 
-    /// Numbers of the file that are no table.
+    /// Error of numbers that are not a table.
     #[allow(clippy::needless_pass_by_value, reason = "errors are handed on")]
     pub(super) fn wrong(&self, what: impl ToString) -> TableError {
         BadTable::Wrong(what.to_string()).of(&self.path)

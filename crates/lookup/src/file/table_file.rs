@@ -1,4 +1,4 @@
-//! A table on disk, of which the part that a question needs is loaded.
+//! Table on disk, of which only the needed part is loaded.
 
 use super::error::{BadTable, TableError};
 use super::open::open;
@@ -17,8 +17,8 @@ use std::path::{Path, PathBuf};
 
 /// A kernel table on disk.
 ///
-/// A part of it is a [`Table`] of its own: one slice at a Poisson ratio, at the nodes that some places need.
-/// It answers there as the whole does, between slices but for the rounding of stored values.
+/// [`Self::part`] returns a [`Table`] with one slice for a Poisson ratio, at the nodes that some places need. Its
+/// values there equal those of the whole table; between slices they differ by the rounding of stored values.
 #[derive(Debug, Clone)]
 pub struct TableFile {
     path: PathBuf,
@@ -27,13 +27,14 @@ pub struct TableFile {
 }
 
 impl TableFile {
-    /// The table at `path`; reads what is not a slice.
+    /// Opens the table at `path` and reads everything except the slices.
     ///
-    /// A file of a format before 2.4 is read whole and its content compared with the hash that it states, which takes
-    /// seconds: nothing else covers all of its bytes.
+    /// A file of a format before 2.4 has no seal. It is read completely and its content is compared with the stated
+    /// hash, which takes seconds.
     ///
     /// # Errors
-    /// [`TableError`]: the file is absent, not a kernel table, of an unknown version, incomplete or damaged.
+    /// [`TableError`]: the file does not exist, is not a kernel table, has an unknown version, or is incomplete or
+    /// damaged.
     pub fn open(path: &Path) -> Result<Self, TableError> {
         let source = open(path)?;
         let (content, _) = source.head()?;
@@ -47,25 +48,25 @@ impl TableFile {
         })
     }
 
-    /// Identity of the settings that it was made with, when it was opened.
+    /// Hash of the settings of the table, as of its opening.
     pub fn id(&self) -> &str {
         &self.id
     }
 
-    /// Largest r and z in r0, when it was opened.
+    /// Largest r and z of the table in r0, as of its opening.
     pub fn reach(&self) -> [f64; 2] {
         self.reach
     }
 
-    /// Where the file is.
+    /// Path of the file.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Refuses a Poisson ratio that the table does not serve and places (r, z) in r0 beyond it, without loading numbers.
+    /// Checks that the table covers a Poisson ratio and places (r, z) in r0, without loading numbers.
     ///
     /// # Errors
-    /// [`TableError`]; or [`LookupError::Outside`] with the axis and the range.
+    /// [`TableError`], or [`LookupError::Outside`] with the axis and the range.
     pub fn serves(
         &self,
         poisson_ratio: f64,
@@ -82,11 +83,11 @@ impl TableFile {
         Ok(ratio::weights(&served(&source, &listed)?, poisson_ratio).map(drop))
     }
 
-    /// The part for a Poisson ratio and for places (r, z) in r0 from the first to the last of `span`.
+    /// Loads the part for a Poisson ratio and for places (r, z) in r0 from the first to the last corner of `span`.
     ///
-    /// Between slices their numbers are interpolated once, here.
-    /// Where the table does not serve the ratio, its slices are loaded whole, so that the answers can say what range is;
-    /// where it does not reach so far, as far as it reaches.
+    /// Between slices the numbers are interpolated once, here. If the table does not cover the ratio, all slices are
+    /// loaded, so that errors of lookups contain the range. If it does not cover the span, the part ends where the
+    /// table ends.
     ///
     /// # Errors
     /// As [`Table::open`], and [`BadTable::Changed`].
@@ -130,7 +131,7 @@ impl TableFile {
     }
 }
 
-/// The slices of a file as far as Poisson's ratio goes.
+/// Poisson's ratios and roles of the slices of a file.
 fn served(source: &TableSource, listed: &[Listed]) -> Result<Vec<Served>, TableError> {
     let slices = listed.iter();
     let slices = slices.map(|slice| Served::new(slice.ratio, slice.role));
@@ -138,7 +139,7 @@ fn served(source: &TableSource, listed: &[Listed]) -> Result<Vec<Served>, TableE
     served.map_err(|error| source.wrong(error))
 }
 
-/// The nodes that places of a span need, with the meshes beside them, and the first of the meshes read that hold any.
+/// The window of nodes and meshes that the places of a span need, and the first mesh that contains any of the places.
 fn window(content: &Content, span: [[f64; 2]; 2]) -> (Window, [usize; 2]) {
     let mut wanted = Window::all(content);
     let mut first = [0; 2];
@@ -149,7 +150,7 @@ fn window(content: &Content, span: [[f64; 2]; 2]) -> (Window, [usize; 2]) {
         let (Some(nearest), Some(farthest)) = (nearest, farthest) else {
             continue;
         };
-        // the neighbours of a mesh tell its error too, and a table has at least the nodes of one stencil
+        // the error of a mesh depends on its neighbours too, and a table has at least the nodes of one stencil
         let beyond = content.stencil_points / 2;
         let last = nodes.len() - content.stencil_points;
         let from = nearest.saturating_sub(beyond.max(1)).min(last);
@@ -163,7 +164,7 @@ fn window(content: &Content, span: [[f64; 2]; 2]) -> (Window, [usize; 2]) {
     (wanted, first)
 }
 
-/// Cuts the axes to the nodes read.
+/// Reduces the axes to the nodes that are read.
 fn cut(content: &mut Content, wanted: &Window) {
     let Content { r, z, .. } = content;
     for (axis, nodes) in [r, z].into_iter().enumerate() {
@@ -175,8 +176,8 @@ fn cut(content: &mut Content, wanted: &Window) {
     (content.r_max, content.z_max) = (content.r[across], content.z[down]);
 }
 
-/// Errors of numbers interpolated between two slices: the larger of theirs and, in proportion to the node polynomial, what
-/// was measured between them.
+/// Errors of numbers interpolated between two slices: the larger of the slices' errors and of the error measured
+/// between them, the latter in proportion to the node polynomial.
 fn blended(
     content: &Content,
     meshes: &[Range<usize>; 2],

@@ -1,4 +1,4 @@
-//! Content to file.
+//! Writing: from content to file.
 
 use super::chunks::write_chunks;
 use super::error::{BadTable, TableError};
@@ -13,17 +13,17 @@ use hdf5::types::FixedAscii;
 use hdf5::{Dataset, File, Group, H5Type};
 use std::path::Path;
 
-/// Compression level: higher ones gain a few per cent and cost several times the time.
+/// Compression level; higher levels save a few per cent of the size and take several times as long.
 const DEFLATE: u8 = 2;
-/// Nodes in r and in z that share a chunk, all their times and fields with them.
+/// Number of nodes in r and in z that share a chunk, with all their times and fields.
 const PATCH: usize = 8;
 
-/// Writes `content` to `path`, where nothing is yet, and seals it; returns the handle of the file.
+/// Writes `content` to a new file at `path` and seals it; returns its handle.
 ///
-/// The bytes depend on the content and the creation time alone.
+/// The bytes depend only on the content and the creation time.
 ///
 /// # Errors
-/// [`BadTable::Unwritable`] with what the system or the HDF5 library says.
+/// [`BadTable::Unwritable`] with the message of the system or of the HDF5 library.
 pub fn write(path: &Path, content: &Content) -> Result<std::fs::File, TableError> {
     let fill = |file: &File, _: &_| fill(file, content).map_err(|error| reason(&error));
     new_file(path, fill).map_err(|detail| BadTable::Unwritable(detail).of(path))
@@ -65,14 +65,14 @@ fn fill(file: &File, content: &Content) -> Result<(), hdf5::Error> {
     Ok(())
 }
 
-/// Writes a slice over scales that all share: r, z, field and term, and r, z, pulse and field of the probes.
+/// Writes a slice with scales that all slices share: r, z, field and term, and r, z, pulse and field of the probes.
 fn write_slice(
     group: &Group,
     content: &Content,
     slice: &Slice,
     [at_nodes, at_probes]: [[&Dataset; 4]; 2],
 ) -> Result<(), hdf5::Error> {
-    // The ratio of a slice was accepted by the physics.
+    // the ratio of a slice was validated before
     let scale = cell_scale(slice.poisson_ratio).map_err(|error| error.to_string())?;
     let width = content.cell_width * scale;
     scalar(group, schema::POISSON_RATIO, slice.poisson_ratio)?;
@@ -186,7 +186,7 @@ fn make_data(
 }
 
 fn describe(dataset: &Dataset, name: &str) -> Result<(), hdf5::Error> {
-    /// Of everything that holds displacements beside stresses.
+    /// Unit of datasets that contain both displacements and stresses.
     const FIELD_UNITS: &str = "displacement_r, displacement_z: P/(mu r0); stresses: P/r0^2";
     let (units, long_name) = match name {
         schema::R => ("r0", "distance from the axis"),
@@ -227,7 +227,7 @@ fn describe(dataset: &Dataset, name: &str) -> Result<(), hdf5::Error> {
             FIELD_UNITS,
             "largest difference in time between the looked-up and the exact response",
         ),
-        _ => return Err(hdf5::Error::from("a dataset without a meaning")),
+        _ => return Err(hdf5::Error::from("a dataset without a description")),
     };
     text(dataset, schema::UNITS, units)?;
     text(dataset, schema::LONG_NAME, long_name)

@@ -1,23 +1,23 @@
-//! The sum over the nodes of a stencil: where the time of a lookup goes.
+//! Sum over the nodes of a stencil, the most expensive part of a lookup.
 
 use crate::content::FIELDS;
 use crate::series::stencil::Stencil;
 use halfspace::{Field, Six};
 use pulp::{Arch, Simd, WithSimd};
 
-/// Rows of numbers that are added at a time.
+/// Number of rows that are added at a time.
 const ROWS_AT_A_TIME: usize = 8;
 
 /// The nodes of a patch.
 pub(crate) struct PatchNodes {
-    /// Whole groups of them, each node with its weights for fields even and odd across r = 0.
+    /// Complete groups of nodes, each node with its weights for fields that are even and odd across r = 0.
     groups: Vec<([usize; ROWS_AT_A_TIME], [[f64; ROWS_AT_A_TIME]; 2])>,
-    /// Factor with which a constant stays what it is.
+    /// Factor that makes the interpolation of a constant exact.
     scale: f64,
 }
 
 impl PatchNodes {
-    /// Those of a patch `across` by `down` of a grid with `depths` depths; nodes that weigh nothing are left out.
+    /// The nodes of a patch `across` by `down` of a grid with `depths` depths; nodes of zero weight are skipped.
     pub(crate) fn new(across: &Stencil, down: &Stencil, depths: usize) -> Self {
         let most = across.nodes().len() * down.nodes().len();
         let mut groups: Vec<([usize; ROWS_AT_A_TIME], [[f64; ROWS_AT_A_TIME]; 2])> =
@@ -30,7 +30,7 @@ impl PatchNodes {
                     continue;
                 }
                 if slot == ROWS_AT_A_TIME {
-                    // places that stay empty are the first node at no weight
+                    // unused places contain the first node with zero weight
                     groups.push(([node; ROWS_AT_A_TIME], [[0.0; ROWS_AT_A_TIME]; 2]));
                     slot = 0;
                 }
@@ -48,14 +48,14 @@ impl PatchNodes {
         }
     }
 
-    /// The sums of the first `used` of `length` numbers of each field, of slices with their weights; in vector registers, with
-    /// the same bits on every machine.
+    /// Weighted sums over slices of the first `used` of `length` numbers of each field, in vector registers; the result
+    /// is bit-identical on every machine.
     pub(crate) fn sums(&self, slices: &[(&[f32], f64)], length: usize, used: usize) -> Vec<Six> {
         if used == 0 {
             return Vec::new();
         }
         let work = GatherSum(self, slices, [length, used]);
-        // longer registers convert no faster
+        // longer registers are not faster at conversion
         #[cfg(target_arch = "x86_64")]
         if let Some(simd) = pulp::x86::V3::try_new() {
             return Simd::vectorize(simd, work);
@@ -64,7 +64,7 @@ impl PatchNodes {
     }
 }
 
-/// A weight of so few digits, 29 of 53, that its product with a number in single precision is exact.
+/// The weight rounded to 29 of 53 bits, so that its product with a number in single precision is exact.
 fn exact_weight(weight: f64) -> f64 {
     const HALF: u64 = 1 << (f64::MANTISSA_DIGITS - 29 - 1);
     f64::from_bits((weight.to_bits() + HALF) & !(2 * HALF - 1))
@@ -77,7 +77,7 @@ impl WithSimd for GatherSum<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) -> Vec<Six> {
-        // the product is exact, see `exact_weight`: fused or not, the sum has the same bits
+        // the product is exact, see `exact_weight`, so that a fused operation changes no bit of the sum
         let add = |weight: f64, value: f32, sum: f64| {
             if S::IS_SCALAR || cfg!(target_family = "wasm") {
                 weight * f64::from(value) + sum
@@ -89,13 +89,13 @@ impl WithSimd for GatherSum<'_> {
         let is_even = (nodes.groups.iter()).all(|(_, [even, odd])| even == odd);
         let mut found = vec![Six::default(); used];
         for &(values, weight) in slices {
-            // a register that lies across two lines of the cache takes twice as long
+            // a register that spans two cache lines takes twice as long
             let mut room = vec![0.0; FIELDS * used + ROWS_AT_A_TIME];
             let start = room.as_ptr().align_offset(64).min(ROWS_AT_A_TIME);
             let sums = &mut room[start..][..FIELDS * used];
             let mut field = 0;
             while field < FIELDS {
-                // fields of the same weights whose numbers follow each other are added in one run
+                // adjacent fields with the same weights are added in one run
                 let same = |&end: &usize| is_even || ODD[end] == ODD[field];
                 let others = (field + 1..FIELDS).take_while(same).count();
                 let fields = if used == length { 1 + others } else { 1 };
@@ -126,7 +126,7 @@ impl WithSimd for GatherSum<'_> {
     }
 }
 
-/// Whether the field is odd across r = 0, in the order of [`halfspace::FIELDS`].
+/// Whether each field is odd across r = 0, in the order of [`halfspace::FIELDS`].
 const ODD: [bool; FIELDS] = {
     let mut odd = [false; FIELDS];
     let mut field = 0;
@@ -157,7 +157,7 @@ mod tests {
     fn sums_are_those_of_the_weights_with_the_same_bits_fused_or_not() {
         let (axis, lists) = (axis(), [values(0.37), values(0.11)]);
         let slices = [(&lists[0][..], 1.3), (&lists[1][..], -0.3)];
-        // beside the axis weights of odd fields are others, and groups are not full
+        // near the axis odd fields have other weights, and groups are not full
         for (mesh, x) in [(0, 0.03), (4, 2.1)] {
             let across = Stencil::mirrored(&axis, mesh, x, 8);
             let down = Stencil::one_sided(&axis, 3, 1.7, 8);

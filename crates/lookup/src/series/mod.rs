@@ -1,6 +1,7 @@
-//! The remainder at one point in time: table cells with their moments, wider cells, the tail.
+//! Remainder at one point over time: table cells with their moments, wider cells, and the tail.
 //!
-//! Between nodes (`stencil`, `gather`), between samples (`smooth`), after the last cell (`tail`).
+//! Modules: interpolation between nodes (`stencil`, `gather`), forces between samples (`smooth`), and the time after
+//! the last cell (`tail`).
 
 pub(crate) mod gather;
 pub(crate) mod smooth;
@@ -13,24 +14,24 @@ use halfspace::Six;
 use pulp::{Arch, Simd, WithSimd};
 use std::ops::Range;
 
-/// What is assumed of the force between samples one cell apart.
+/// Assumption about the force between samples one cell apart.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Smoothness {
-    /// Linear between samples: the cells are plain averages and the sum is exact.
+    /// Linear between samples; the cells are plain averages and the sum is exact.
     Linear,
-    /// A smooth function of time: first and second moments of the cells account for its slope and curvature
-    /// within a cell.
+    /// A smooth function of time; the first and second moments of the cells account for its slope and curvature within
+    /// a cell.
     ///
-    /// Used in the same sum, the cells leave an error of fourth order in the cell width where linear
-    /// samples leave second order, also where a front crosses a cell.
+    /// In the same sum the error is then of fourth order in the cell width instead of second, also if a front crosses a
+    /// cell.
     Smooth,
 }
 
-/// The remainder at one point in all its fields: averages, moments and curvatures of the table's cells, and the tail.
+/// All fields of the remainder at one point: averages, moments and curvatures of the table's cells, and the tail.
 #[derive(Debug, Clone)]
 pub struct Series {
     width: f64,
-    /// Averages, moments and curvatures, cell by cell; the last two may be empty.
+    /// Averages, moments and curvatures by cell; the last two may be empty.
     cells: [Vec<Six>; 3],
     tail: Tail,
 }
@@ -42,12 +43,12 @@ pub struct Moments {
     pub averages: Vec<Six>,
     /// First moments, in cell widths.
     pub first: Vec<Six>,
-    /// Second moments about a twelfth, in squares of cell widths.
+    /// Second moments minus a twelfth of the averages, in squares of cell widths.
     pub second: Vec<Six>,
 }
 
 impl Moments {
-    /// None yet, with room for so many cells.
+    /// No cells, with room for `count` of them.
     pub fn with_capacity(count: usize) -> Self {
         let [averages, first, second] = [(); 3].map(|()| Vec::with_capacity(count));
         Self {
@@ -57,14 +58,14 @@ impl Moments {
         }
     }
 
-    /// Adds the next cell.
+    /// Appends a cell.
     pub fn push(&mut self, [average, first, second]: [Six; 3]) {
         self.averages.push(average);
         self.first.push(first);
         self.second.push(second);
     }
 
-    /// The cells but for the last [`smooth::BEYOND`], with what their moments are worth under a smooth force.
+    /// The averages corrected with the moments for a smooth force, without the last [`smooth::BEYOND`] cells.
     pub fn absorbed(&self) -> Vec<Six> {
         let count = self.averages.len().saturating_sub(smooth::BEYOND);
         let mut cells = self.averages[..count].to_vec();
@@ -73,13 +74,13 @@ impl Moments {
     }
 }
 
-/// The numbers of a [`Series`], in the order of [`Slice::lists`](crate::Slice::lists): averages, first and second moments,
-/// cell by cell, and coefficients of the tail, term by term.
+/// Numbers of a [`Series`] in the order of [`Slice::lists`](crate::Slice::lists): averages, first and second moments by
+/// cell, and the coefficients of the tail by term.
 ///
-/// Moments may be left empty where only [`Smoothness::Linear`] is asked for.
+/// The moments may be empty if only [`Smoothness::Linear`] is used.
 pub type Numbers = [Vec<Six>; 4];
 
-/// Rounds numbers to what a table holds.
+/// Rounds numbers to the precision of a table.
 pub fn round(numbers: &mut Numbers) {
     for field in 0..FIELDS {
         let quantum = resolution(&numbers[0], field);
@@ -92,11 +93,11 @@ pub fn round(numbers: &mut Numbers) {
     }
 }
 
-/// Step to which averages are stored: that of single precision at the largest of the field in time.
+/// Resolution of stored averages of a field: that of single precision at its largest average in time.
 ///
-/// All averages share the absolute resolution of the largest and so compress better.
+/// All averages have this absolute resolution, and therefore compress better.
 fn resolution(averages: &[Six], field: usize) -> f64 {
-    /// Bits after the leading one.
+    /// Number of bits after the leading one.
     const BITS: i32 = 24;
     let most = averages
         .iter()
@@ -105,7 +106,7 @@ fn resolution(averages: &[Six], field: usize) -> f64 {
 }
 
 impl Series {
-    /// A series from its numbers; `width` is that of a cell, and the tail follows after `cells` of them.
+    /// A series from its numbers; `width` is the width of a cell in r0/c1, and the tail begins after `cells` cells.
     pub fn new(width: f64, cells: usize, [averages, first, second, tail]: Numbers) -> Self {
         Self {
             width,
@@ -119,7 +120,7 @@ impl Series {
         self.width
     }
 
-    /// Fills `cells` with averages over 2^`coarsening` table cells, corrected as `smoothness` says.
+    /// Fills `cells` with averages over 2^`coarsening` table cells, corrected for the `smoothness` of the force.
     pub fn fill(&self, smoothness: Smoothness, coarsening: u32, cells: &mut [Six]) {
         let (part, count) = (f64::from(coarsening).exp2(), cells.len());
         match smoothness {
@@ -133,17 +134,17 @@ impl Series {
         }
     }
 
-    /// Averages, first and second moments over `count` cells of any width, in r0/c1.
+    /// Averages, first and second moments over `count` cells of any `width` in r0/c1.
     ///
     /// ```text
     /// int R ds,   int R s ds,   int R (s^2 - 1/12) ds,   s from -1/2 to 1/2 over a cell
     /// ```
     ///
-    /// Where an edge cuts a table cell, R is the parabola of its three numbers there.
+    /// If an edge cuts a table cell, R is the parabola that has the three numbers of that cell.
     pub fn moments(&self, width: f64, count: usize) -> Moments {
         let part = self.part(width);
         let mut found = Moments::with_capacity(count);
-        // moments may have been left out
+        // the moments may be empty
         let whole = self.whole(part, count).min(self.cells[1].len());
         found.averages.extend_from_slice(&self.cells[0][..whole]);
         found.first.extend_from_slice(&self.cells[1][..whole]);
@@ -152,7 +153,7 @@ impl Series {
         found
     }
 
-    /// Averages over `count` cells of any width, in r0/c1.
+    /// Averages over `count` cells of any `width` in r0/c1.
     pub fn averages(&self, width: f64, count: usize) -> Vec<Six> {
         let mut found = vec![Six::default(); count];
         self.fill_averages(self.part(width), &mut found);
@@ -168,7 +169,7 @@ impl Series {
         self.dispatch(part, whole..count, keep);
     }
 
-    /// A width over that of a table cell; one that is a whole number of cells to rounding is exactly that.
+    /// A width over that of a table cell; made exact if it is a whole number up to rounding.
     fn part(&self, width: f64) -> f64 {
         let part = width / self.width;
         let whole = part.round();
@@ -179,13 +180,13 @@ impl Series {
         }
     }
 
-    /// How many of `count` cells that are `part` table cells wide are those of the table.
+    /// Number of the first of `count` cells, `part` table cells wide, that equal cells of the table.
     fn whole(&self, part: f64, count: usize) -> usize {
         let stored = if part == 1.0 { self.cells[0].len() } else { 0 };
         stored.min(count)
     }
 
-    /// [`Self::for_each_cell`] in vector registers; the same bits on every machine.
+    /// [`Self::for_each_cell`] in vector registers; the result is bit-identical on every machine.
     fn dispatch<const N: usize>(
         &self,
         part: f64,
@@ -204,7 +205,7 @@ impl Series {
         Arch::new().dispatch(EachCell(self, part, cells, keep));
     }
 
-    /// Tells `keep` the first `N` numbers of each of some cells that are `part` table cells wide.
+    /// Passes `keep` the first `N` numbers of each of some cells that are `part` table cells wide.
     #[inline(always)]
     fn for_each_cell<const N: usize>(
         &self,
@@ -214,7 +215,7 @@ impl Series {
     ) {
         let stored = self.cells[0].len() as f64;
         let ends = |j: usize| [j as f64 * part, (j + 1) as f64 * part];
-        // after the last arrival R is smooth: differences of thirds
+        // after the last arrival R is smooth: moments follow from differences of thirds
         let parts = if N > 1 { 3 } else { 1 };
         let first = cells.clone().find(|&j| ends(j)[1] > stored);
         let first = first.unwrap_or(cells.end);
@@ -240,7 +241,7 @@ impl Series {
                     (0.5 * (start + end) - centre) / width,
                     (end - start) / width,
                 ];
-                // moments may have been left out
+                // the moments may be empty
                 let own =
                     std::array::from_fn(|i| self.cells[i].get(k).copied().unwrap_or_default());
                 if end - start == 1.0 {
@@ -275,7 +276,7 @@ impl Series {
     }
 }
 
-/// Adds to the numbers of a cell those of a part of it that lies `x` cells from its centre and is `part` of a cell wide.
+/// Adds a part of a cell, `x` cells from its centre and `part` of a cell wide, to the numbers of the cell.
 #[inline(always)]
 fn add<const N: usize>([x, part]: [f64; 2], own: &[Six; N], sums: &mut [Six; N]) {
     for f in 0..FIELDS {
@@ -293,7 +294,7 @@ fn add<const N: usize>([x, part]: [f64; 2], own: &[Six; N], sums: &mut [Six; N])
     }
 }
 
-/// The numbers of the part [from, to] of a cell [0, 1] from those of the whole.
+/// The numbers of the part [from, to] of a cell [0, 1], from those of the whole cell.
 #[inline(always)]
 fn of_part<const N: usize>(whole: &[Six; N], [from, to]: [f64; 2]) -> [Six; N] {
     let (x, width) = (0.5 * (from + to) - 0.5, to - from);
@@ -327,7 +328,7 @@ mod tests {
             vec![[0.0; FIELDS]],
         ];
         let series = Series::new(1.0, 16, numbers);
-        // any width, also where edges cut table cells
+        // any width, also widths whose edges cut table cells
         for width in [0.37, 1.0, 1.9, 2.0, 4.0, 8.0] {
             let count = (15.9 / width) as usize;
             let found = series.moments(width, count);

@@ -1,22 +1,21 @@
 //! Cells for a smooth force: averages corrected with the first and second moments of R in each cell.
 //!
-//! Within a cell the rate of a smooth force is a mean, a slope and a curvature, which follow from its means
-//! over five cells to fourth order. Against them R counts with its average, first and second moment,
-//! exactly, also where a front crosses the cell. Collected by the samples of the force, this is the same
-//! sum with other cells.
+//! Within a cell the rate of a smooth force is a mean, a slope and a curvature, which follow to fourth order from its
+//! means over five cells. The convolution with R needs the average, first and second moment of R, and is exact even if
+//! a front crosses the cell. Sorted by the samples of the force, it is the usual sum with corrected cells.
 //!
 //! Theory: `docs/theory.md` (T24).
 
 use halfspace::Six;
 
-/// Cells that a slope and a curvature are taken from.
+/// Number of cells that determine a slope and a curvature.
 const SLOPE_CELLS: usize = 5;
 
-/// Moments beyond the last cell wanted that [`absorb`] needs.
+/// Number of moments after the last wanted cell that [`absorb`] needs.
 pub const BEYOND: usize = 2;
 
-/// Weights of five cell means for the slope and the curvature in cell 0, 1 and 2 of the five: exact for
-/// polynomials of fourth degree, of which they take the Legendre components of first and second degree.
+/// Weights of five cell means for the slope in cell 0, 1 and 2 of the five: the Legendre component of first degree,
+/// exact for polynomials of fourth degree.
 const SLOPE: [[f64; SLOPE_CELLS]; 3] = parts_of(
     [
         [-245, 462, -336, 146, -27],
@@ -25,7 +24,7 @@ const SLOPE: [[f64; SLOPE_CELLS]; 3] = parts_of(
     ],
     120.0,
 );
-/// See [`SLOPE`].
+/// Weights for the curvature, the Legendre component of second degree, see [`SLOPE`].
 const CURVATURE: [[f64; SLOPE_CELLS]; 3] = parts_of(
     [
         [81, -240, 262, -128, 25],
@@ -45,11 +44,11 @@ const fn parts_of(rows: [[i32; SLOPE_CELLS]; 3], whole: f64) -> [[f64; SLOPE_CEL
     parts
 }
 
-/// Adds to `cells` what the moments of [`BEYOND`] cells more than those are worth under a smooth force.
+/// Adds the correction for a smooth force to `cells`, from the moments of these and of the next [`BEYOND`] cells.
 pub fn absorb(cells: &mut [Six], moments: &[Six], curvatures: &[Six]) {
     for (j, (moment, curvature)) in moments.iter().zip(curvatures).enumerate() {
-        // Cell j sees the force through the five cells around it, the first of all one-sided: the force
-        // after the instant of the response is not known.
+        // cell j uses the force in the five cells around it; the first cells use one-sided ones, since the force after
+        // the time of the response is not known
         let first = j.saturating_sub(2);
         let own = j - first;
         for i in 0..SLOPE_CELLS {
@@ -64,11 +63,13 @@ pub fn absorb(cells: &mut [Six], moments: &[Six], curvatures: &[Six]) {
     }
 }
 
-/// The slope and half the curvature that [`absorb`] takes a force to have in the cell of its rise `cell`, which may be one
-/// of the two before the first.
+/// The slope and half the curvature of the force that [`absorb`] assumes in the cell with index `cell`, which may be
+/// one of the two before the first.
 ///
-/// `own` is which of its five cells that cell is: 2, and 1 or 0 for the last two before the instant of the response.
-/// In rises a cell, with s growing into the past: the rate over the cell is rise + slope s + half curvature (s^2 - 1/12).
+/// `own` is the position of the cell among its five cells: 2, or 1 or 0 for the last two before the time of the
+/// response.
+/// Both are in rises per cell, and s grows into the past: the rate over the cell is rise + slope s + half curvature
+/// (s^2 - 1/12).
 pub fn absorbed(rises: &[f64], cell: isize, own: usize) -> [f64; 2] {
     let (mut slope, mut bend) = (0.0, 0.0);
     for i in 0..SLOPE_CELLS {

@@ -5,9 +5,9 @@ use halfspace::lagrange;
 /// Largest number of points of a stencil.
 pub(crate) const MAX_POINTS: usize = 8;
 
-/// Index of the interval [nodes\[i\], nodes\[i+1\]] that holds `x`; the last interval is closed.
+/// Index i of the interval [nodes\[i\], nodes\[i+1\]] that contains `x`; the last interval is closed.
 ///
-/// `nodes` ascend strictly and have at least two entries. Returns `None` outside, and for NaN.
+/// `nodes` ascend strictly and have at least two entries. The result is `None` outside, and for NaN.
 pub fn locate(nodes: &[f64], x: f64) -> Option<usize> {
     let last = *nodes.last()?;
     if !(x >= nodes[0] && x <= last) {
@@ -17,9 +17,9 @@ pub fn locate(nodes: &[f64], x: f64) -> Option<usize> {
     Some(above.clamp(1, nodes.len() - 1) - 1)
 }
 
-/// The nodes that take part in an interpolation and their weights.
+/// Nodes of an interpolation and their weights.
 ///
-/// At a node the weights are exactly one and zeros, so that a table returns its own values there.
+/// At a node the weights are exactly one and zero, so that a table returns its stored values there.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stencil {
     points: usize,
@@ -42,7 +42,7 @@ impl Stencil {
         Self::from_node(isize::MIN, nodes, interval, x, points)
     }
 
-    /// Stencil that begins with the node `least` or one behind it; those before the first are mirrored.
+    /// Stencil that begins with the node `least`, or after it; nodes before the first are mirrored.
     fn from_node(least: isize, nodes: &[f64], interval: usize, x: f64, points: usize) -> Self {
         let points = points.min(nodes.len()).min(MAX_POINTS);
         let first = (interval as isize + 1 - (points / 2) as isize).max(least);

@@ -1,13 +1,13 @@
-//! The decay of the remainder after the last time cell.
+//! Decay of the remainder after the last time cell.
 //!
 //! Theory: `docs/theory.md` (T21).
 
 use halfspace::{Six, chebyshev_each};
 
-/// Times at which a series is summed side by side.
+/// Number of times at which a series is summed in parallel.
 const LANES: usize = 8;
 
-/// Series of the remainder after the end of the cells, R(t) = u^2 g(u) with u = `t_end`/t in (0, 1], of all fields.
+/// Series of all fields of the remainder after the last cell, R(t) = u^2 g(u) with u = `t_end`/t in (0, 1].
 ///
 /// ```text
 /// g(u) = sum_k c_k T_k(2u - 1),    int_{t1}^{t2} R dt = t_end (G(u1) - G(u2)),    G' = g
@@ -18,12 +18,12 @@ const LANES: usize = 8;
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Tail {
     time_end: f64,
-    /// Coefficients of G, term by term.
+    /// Coefficients of G by term.
     terms: Vec<Six>,
 }
 
 impl Tail {
-    /// The tail after `time_end` with the coefficients c_k.
+    /// The tail after `time_end`, in r0/c1, with the coefficients c_k.
     pub(super) fn new(time_end: f64, coefficients: &[Six]) -> Self {
         // int T_k(x) dx with x = 2u - 1, du = dx/2: G = sum_k C_k T_k, the constant is irrelevant.
         let c = |k: usize| *coefficients.get(k).unwrap_or(&Six::default());
@@ -41,7 +41,7 @@ impl Tail {
         }
     }
 
-    /// G at some times, eight of them side by side.
+    /// G at the given times, computed eight at a time.
     pub(super) fn integrals(&self, times: &[f64]) -> Vec<Six> {
         let mut found = vec![Six::default(); times.len()];
         for (found, times) in found.chunks_mut(LANES).zip(times.chunks(LANES)) {
@@ -55,7 +55,7 @@ impl Tail {
         found
     }
 
-    /// The average of R over a time that long for each unit that G differs by between its ends.
+    /// Factor from the difference of G between two times, `duration` apart, to the average of R between them.
     #[inline(always)]
     pub(super) fn scale(&self, duration: f64) -> f64 {
         self.time_end / duration

@@ -1,4 +1,4 @@
-//! What a lookup promises at nodes, at edges, across the axis, in coarser cells and after the last cell.
+//! Accuracy of lookups at nodes, at edges, across the axis, in coarser cells and after the last cell.
 
 use crate::stand_in::{CELLS, WIDTH, average, cells, content, table};
 use halfspace::FIELDS;
@@ -239,7 +239,8 @@ fn a_table_is_shared_between_threads() {
     shared::<Table>();
 }
 
-/// Moments of wide cells beside those of narrow ones gathered: the averages of the table's cells alone make them up.
+/// Moments of wide cells compared with those gathered from narrow ones: the averages of the table's cells alone
+/// determine them.
 #[test]
 fn wide_cells_need_averages_alone() {
     let table = table();

@@ -195,6 +195,6 @@ fn sizes_are_compared_before_memory_is_asked_for() {
             .create("r")
             .unwrap();
     });
-    let words = ": /r makes 1099511627776 bytes of numbers to load, more than the ";
+    let words = ": /r brings the numbers to load to 1099511627776 bytes, more than the ";
     assert!(error.to_string().contains(words), "{error}");
 }

@@ -5,13 +5,13 @@ use crate::case::{RADIUS_M, Runs, VELOCITY_M_S, kmax};
 use figure::{Axis, Figure, Layer, Legend, Panel, Sharing, Style};
 use impact::{Motion, Run};
 
-/// Until when is drawn, in s: the contact is printed to last 27 us.
+/// End of the time axis in s; the printed contact time is 27 us.
 const UNTIL_S: f64 = 31e-6;
 
-/// What the points are.
+/// Explanation of the points.
 const STARS: &str = "stars: values printed in the paper";
 
-/// Points of a curve.
+/// Number of points of a curve.
 const CURVE_POINTS: u32 = 620;
 
 fn over_time(of: impl Fn(f64) -> Option<f64>) -> Vec<(f64, f64)> {
@@ -84,7 +84,7 @@ fn symmetry(runs: &Runs) -> Vec<Claim> {
             says: "P(t) is symmetrical about t's, with ts = 2 t's",
             holds: (coupled - 0.5).abs() < 0.01,
             found: format!(
-                "the peak comes at {coupled:.4} of the contact time, Hertz's at {hertz:.4}: what the waves take away makes the rise a little shorter than the fall"
+                "the peak comes at {coupled:.4} of the contact time, Hertz's at {hertz:.4}: the energy lost to waves makes the rise a little shorter than the fall"
             ),
         },
         Claim {

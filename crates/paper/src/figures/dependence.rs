@@ -13,7 +13,7 @@ use std::ops::RangeInclusive;
 /// Radii in m.
 const RADII_M: [f64; 2] = [2e-3, 12e-3];
 
-/// Points of a curve over them.
+/// Number of points of a curve.
 const DEPENDENCE_POINTS: u32 = 24;
 
 /// Kmax over the radius in mm.
@@ -72,13 +72,13 @@ pub(super) fn on_radius() -> Result<Redrawn, AnyError> {
     })
 }
 
-/// Spacing of the steps in s; the one that gives the printed numbers is among them.
+/// Spacing of the steps in s, chosen so that the step that reproduces the printed numbers is among them.
 const SPACING_S: f64 = STEP_S / 41.0;
 
-/// The steps, in their spacing.
+/// The steps, in units of their spacing.
 const TRIED_STEPS: RangeInclusive<u32> = 10..=125;
 
-/// A step in s, and what the scheme gives with it: Kmax, contact time in s, restitution.
+/// A step in s, and the results of the scheme with it: Kmax, contact time in s, restitution.
 type Found = (f64, [f64; 3]);
 
 /// The printed values, and half a unit of their last digit.
@@ -105,13 +105,13 @@ fn over_step(copper_pa: f64) -> Result<Vec<Found>, AnyError> {
     found.collect()
 }
 
-/// Whether a step gives all printed values to their digits.
+/// Whether a step reproduces all printed values to their digits.
 fn gives_all((_, values): &&Found) -> bool {
     let mut pairs = values.iter().zip(PRINTED);
     pairs.all(|(value, (printed, half))| (value - printed).abs() <= half)
 }
 
-/// Kmax, contact time and restitution against the step.
+/// Kmax, contact time and restitution as functions of the step.
 pub(super) fn on_step() -> Result<Redrawn, AnyError> {
     let (table_1, printed) = (over_step(TABLE_1_PA)?, over_step(PRINTED_PA)?);
     let axes = [

@@ -18,17 +18,17 @@ const ON_AXIS: (&str, [f64; 2]) = ("z", [0.0, 1.0]);
 /// A field over time: time in s and value.
 type Curve = Vec<(f64, f64)>;
 
-/// What a figure shows.
+/// Specification of a figure.
 struct FieldFigure {
     name: &'static str,
     title: &'static str,
     field: Field,
-    /// Where the points lie: how their distance from the centre is called, and r and z over it.
+    /// Line of the points: name of their distance from the centre, and r and z over that distance.
     along: (&'static str, [f64; 2]),
     /// Distances of the points in r0.
     distances: &'static [f64],
     caption: &'static str,
-    /// What is said of it, from its curves.
+    /// The paper's claims about the figure, judged by its curves.
     claims: fn(&[Curve], &WaveSpeeds) -> Vec<Claim>,
 }
 
@@ -81,14 +81,14 @@ const SHOWN: [FieldFigure; 5] = [
 ];
 
 impl FieldFigure {
-    /// Its points, r and z in r0.
+    /// Points of the figure, r and z in r0.
     fn places(&self) -> impl Iterator<Item = [f64; 2]> {
         let (_, direction) = self.along;
         let place = move |&d: &f64| direction.map(|part| d * part);
         self.distances.iter().map(place)
     }
 
-    /// Its curves among the fields at all points.
+    /// Curves of the figure, from the fields at all points.
     fn curves(&self, fields: &[([f64; 2], FieldHistory)]) -> Vec<Curve> {
         let curve = |place| {
             let (_, history) = fields.iter().find(|(other, _)| *other == place)?;
@@ -169,13 +169,13 @@ fn fields(run: &Run) -> Result<Vec<([f64; 2], FieldHistory)>, AnyError> {
     at.collect()
 }
 
-/// Values in words, from the nearest point to the farthest.
+/// Text with the values, from the nearest point to the farthest.
 fn list(curves: &[Curve], of: impl Fn(&Curve) -> f64, digits: usize) -> String {
     let values = curves.iter().map(|c| format!("{:.digits$}", of(c)));
     values.collect::<Vec<_>>().join(", ")
 }
 
-/// Whether values fall or rise from point to point.
+/// Whether values fall from point to point.
 fn falls(curves: &[Curve], of: impl Fn(&Curve) -> f64) -> bool {
     curves.windows(2).all(|pair| of(&pair[1]) < of(&pair[0]))
 }
@@ -199,7 +199,7 @@ fn width(curves: &[Curve]) -> Claim {
     }
 }
 
-/// A deflection against the main one, beyond a fraction of it, at the points after the first ones.
+/// Claim: beyond the first points there is a deflection opposite to the main one and larger than a fraction of it.
 fn negative(curves: &[Curve], fraction: f64, places: &str) -> Claim {
     Claim {
         says: "away from the source a slight negative deflection appears",
@@ -210,7 +210,7 @@ fn negative(curves: &[Curve], fraction: f64, places: &str) -> Claim {
 
 fn of_surface(curves: &[Curve], speeds: &WaveSpeeds) -> Vec<Claim> {
     let rayleigh_s = speeds.arrivals_s(5.0 * RADIUS_M, 0.0, RADIUS_M)[2];
-    // of its peak
+    // relative to its peak
     let after = curves[3].iter().find(|(t, _)| *t >= rayleigh_s);
     let at_rayleigh = after.map_or(0.0, |(_, x)| x / peak(&curves[3]));
     vec![
@@ -271,7 +271,7 @@ fn of_quiet(curves: &[Curve], speeds: &WaveSpeeds) -> Vec<Claim> {
     ]
 }
 
-/// Until when fields are drawn, in contact times.
+/// End of the time axis of fields, in contact times.
 const UNTIL: f64 = 1.6;
 
 /// Relative tolerance of the fields.
@@ -283,14 +283,14 @@ fn peak(curve: &Curve) -> f64 {
     curve.iter().fold(0.0, larger)
 }
 
-/// The value farthest on the other side of zero than the peak, with its sign.
+/// The value of largest magnitude whose sign is opposite to that of the peak.
 fn other(curve: &Curve) -> f64 {
     let sign = peak(curve).signum();
     let farther = |most: f64, &(_, x): &(f64, f64)| if x * sign < most * sign { x } else { most };
     curve.iter().fold(0.0, farther)
 }
 
-/// The time in s for which a curve is above half its peak.
+/// The duration in s for which a curve is above half its peak.
 fn width_s(curve: &Curve) -> f64 {
     let peak = peak(curve);
     let widths = curve.windows(2).map(|pair| {

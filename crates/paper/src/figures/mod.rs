@@ -1,4 +1,4 @@
-//! Figures 4 to 11: `contact` has 4 and 6, `dependence` 5 and what explains them, `fields` 7 to 11.
+//! Figures 4 to 11: `contact` has 4 and 6, `dependence` 5 and the dependence on the step, `fields` 7 to 11.
 
 mod contact;
 mod dependence;
@@ -8,33 +8,33 @@ use crate::case::Runs;
 use fault::AnyError;
 use figure::{Figure, Panel};
 
-/// A figure of the paper, redrawn, or one that explains it.
+/// A redrawn figure of the paper, or a figure that explains one.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Redrawn {
     /// Name of its files.
     pub name: &'static str,
     /// Its number in the paper, and its subject.
     pub title: &'static str,
-    /// What is drawn.
+    /// The figure.
     pub figure: Figure,
     /// Sentences below it.
     pub caption: &'static str,
-    /// What the paper says of it.
+    /// Claims of the paper about the figure.
     pub claims: Vec<Claim>,
 }
 
-/// A sentence of the paper that has no number, and the numbers that it is judged by here.
+/// A qualitative statement of the paper, and the numbers by which it is judged.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Claim {
-    /// What the paper says.
+    /// Statement of the paper.
     pub says: &'static str,
-    /// What is found here.
+    /// Our finding.
     pub found: String,
-    /// Whether that is so.
+    /// Whether the statement holds.
     pub holds: bool,
 }
 
-/// All of them, in order.
+/// All figures, in order.
 pub(crate) fn all(runs: &Runs) -> Result<Vec<Redrawn>, AnyError> {
     let mut all = vec![
         contact::history(runs),

@@ -1,11 +1,11 @@
-//! Methods that take the transform anew for every time, in the framework of Abate and Whitt (2006).
+//! Methods that evaluate the transform anew for every time, in the framework of Abate and Whitt (2006).
 
 use num_complex::Complex64;
 use std::f64::consts::{LN_2, LN_10, PI};
 
-/// f(t), t > 0, of a transform with any number of components, which is taken at all nodes at once.
+/// f(t), t > 0, for a transform with any number of components, which is evaluated at all nodes at once.
 ///
-/// A rule is a list of nodes beta_k, Im >= 0, each with its weight.
+/// A rule is a list of nodes beta_k, Im >= 0, with their weights.
 pub(crate) fn invert<const N: usize>(
     rule: &[[Complex64; 2]],
     t: f64,
@@ -25,7 +25,7 @@ pub(crate) fn invert<const N: usize>(
 /// s t = (2 M/5) theta (cot theta + i).
 ///
 /// Needs the transform continued into Re s < 0.
-/// Nodes whose weight is below 1e-20 are left out: there a transform of waves grows as e^{-s t_last}.
+/// Nodes whose weight is below 1e-20 are skipped, since a transform of waves grows there as e^{-s t_last}.
 pub(crate) fn talbot(terms: usize) -> Vec<[Complex64; 2]> {
     const LEAST_WEIGHT: f64 = 1e-20;
     let scale = 0.4 * terms as f64;
@@ -44,7 +44,7 @@ pub(crate) fn talbot(terms: usize) -> Vec<[Complex64; 2]> {
 }
 
 /// Gaver-Stehfest, Gaver (1966) and Stehfest (1970): `terms` (even) real nodes k ln 2; the weights
-/// alternate and grow as 10^(0.4 terms), so that 14 to 18 terms are the most that a double carries.
+/// alternate and grow as 10^(0.4 terms), so that double precision allows at most 14 to 18 terms.
 pub(crate) fn stehfest(terms: usize) -> Vec<[Complex64; 2]> {
     let half = terms / 2;
     let factorial = |n: usize| (1..=n).map(|i| i as f64).product::<f64>();

@@ -5,8 +5,8 @@
 //! that distance and the oscillation of J(k r) Z_H(k) set the panels, and e^{-k z} sets the end.
 //! For Re s <= 0, which only Talbot's contour needs, they have crossed the axis, and the path is raised above them.
 //!
-//! At z = 0 nothing decays along k. Beyond the singularities the load's e^{ik} and e^{-ik} are separated and
-//! each is followed into the half-plane where it decays, after the static deflection is taken out.
+//! At z = 0 nothing decays along k. After the static deflection is subtracted, the load's e^{ik} and e^{-ik} are
+//! separated beyond the singularities, and each is followed into the half-plane where it decays.
 //!
 //! The Laplace-Hankel transforms (22) to (29) of the paper, with the coefficient of (24) corrected to 4.
 //!
@@ -29,8 +29,8 @@ use num_complex::Complex64;
 use std::cell::Cell;
 use std::f64::consts::{LN_10, PI};
 
-/// Step responses at one point as functions of the Laplace variable: the six fields inside, and at the centre of the
-/// surface w alone, over its static value.
+/// Step responses at one point as functions of the Laplace variable: the six fields inside, and only w over its static
+/// value at the centre of the surface.
 pub(crate) struct Hankel {
     medium: Medium,
     r: f64,
@@ -40,17 +40,18 @@ pub(crate) struct Hankel {
     slowest: f64,
     /// 1/kappa^2.
     shear: f64,
-    /// Of a panel.
+    /// Gauss rule of a panel.
     rule: Rule,
-    /// Integrand evaluations so far.
+    /// Number of integrand evaluations so far.
     pub(crate) evaluations: Cell<u64>,
 }
 
-/// A node on the real axis with what does not depend on s: k and the load's J0, J1, J1/(k r) times the weight.
+/// A node on the real axis with the factors that do not depend on s: k, and the load's J0, J1, J1/(k r) times the
+/// weight.
 type Node = (f64, [f64; 3]);
 
 impl Hankel {
-    /// To `digits` decimal digits.
+    /// Accuracy in decimal digits.
     pub(crate) fn new(medium: &Medium, [r, z]: [f64; 2], digits: f64) -> Self {
         debug_assert!(z > 0.0 || r == 0.0, "on the surface only the centre");
         let [least, slope] = if z > 0.0 { [2.0, 1.2] } else { [3.0, 1.3] };
@@ -66,7 +67,7 @@ impl Hankel {
         }
     }
 
-    /// Step responses at many s with Im s >= 0, continued through the imaginary axis where one of them needs it.
+    /// Step responses at many s with Im s >= 0, continued through the imaginary axis if one of them needs it.
     pub(crate) fn values(&self, s: &[Complex64]) -> Vec<[Complex64; 6]> {
         if self.z == 0.0 {
             let zero = Complex64::default();
@@ -96,7 +97,7 @@ impl Hankel {
         self.digits * LN_10 / self.z
     }
 
-    /// Nodes that serve every s with Re s >= `least` and |Im s| <= `widest`.
+    /// Nodes for all s with Re s >= `least` and |Im s| <= `widest`.
     fn nodes(&self, least: f64, widest: f64) -> Vec<Node> {
         let last = widest * self.slowest;
         let end = last + self.reach() + 4.0 * least;
@@ -104,7 +105,7 @@ impl Hankel {
         let mut nodes = Vec::new();
         let mut from = 0.0;
         while from < end {
-            // beyond the last singularity their distance grows
+            // the distance from the singularities grows beyond the last one
             let clear = least.hypot((from - last).max(0.0));
             let to = from + width.min(2.0 * clear);
             for (k, weight) in self.rule.on(from, to) {
@@ -136,8 +137,9 @@ impl Hankel {
         sum.map(|v| v / s)
     }
 
-    /// Goes along straight parts of a path in the k plane: every k with its weight, on panels no wider than `widest`,
-    /// and than `least` near the beginning of each, where the singularities of k = 0 are as near as s.
+    /// Calls a function with every node k and its weight along straight parts of a path in the k plane, on panels of at
+    /// most the width `widest`, and of at most `least` near the beginning of each part, where the singularities of k =
+    /// 0 are as near as s.
     fn along(
         &self,
         legs: &[[Complex64; 2]],
@@ -196,7 +198,7 @@ impl Hankel {
         let (k2, s2) = (k * k, s * s);
         let slow = s2 * self.shear;
         let gamma = 2.0 * k2 + slow;
-        // gamma^2 - 4 k^4 and alpha beta - k^2 apart: no difference of large numbers for k >> s
+        // gamma^2 - 4 k^4 and alpha beta - k^2 separately, without a difference of large numbers for k >> s
         let product = alpha * beta;
         let excess = (k2 * (s2 + slow) + s2 * slow) / (product + k2);
         let d = slow * (4.0 * k2 + slow) - 4.0 * k2 * excess;
@@ -237,14 +239,14 @@ impl Hankel {
 /// alpha, beta, gamma and 1/D.
 type Roots = [Complex64; 4];
 
-/// sqrt(k^2 + s^2), the right branch for every k on a path that passes above the branch point -i s.
+/// sqrt(k^2 + s^2) on the correct branch for every k on a path that passes above the branch point -i s.
 fn above(k: Complex64, s: Complex64) -> Complex64 {
-    // by factors: the cut from -i s runs to the right below the path, that from i s to the left
+    // by factors: the cut from -i s runs to the right below the path, the cut from i s to the left
     let i = Complex64::i();
     i * (-(k + i * s)).sqrt() * (k - i * s).sqrt()
 }
 
-/// The same for |k| beyond the last singularity, in any direction of a half-plane Re k > 0.
+/// sqrt(k^2 + s^2) for |k| beyond the last singularity, in any direction with Re k > 0.
 fn beyond(k: Complex64, s: Complex64) -> Complex64 {
     k * (1.0 + (s / k) * (s / k)).sqrt()
 }

@@ -1,8 +1,8 @@
-//! Numerical inversion of the Laplace transform: the way of the source paper to a kernel.
+//! Numerical inversion of the Laplace transform, the source paper's method for kernels.
 //!
-//! `framework` has the methods that evaluate the transform anew for every time, at nodes beta/t; `series`
-//! those that share their samples among all times of a window. `hankel` has the paper's
-//! transforms with the quadrature that an inversion needs of them.
+//! `framework` contains the methods that evaluate the transform anew for every time, at nodes beta/t, and `series` the
+//! methods that share their samples among all times of a window. `hankel` contains the paper's transforms and their
+//! quadrature.
 //!
 //! ```text
 //! f(t) ~ (1/t) sum_k Re[ weight_k F(beta_k/t) ]                              Abate and Whitt (2006)
@@ -21,11 +21,11 @@ use hankel::Hankel;
 use num_complex::Complex64;
 use series::{Series, de_hoog, durbin, in_window};
 
-/// A numerical inversion of the Laplace transform at one setting, ready for any scene and time.
+/// A numerical inversion of the Laplace transform at one setting, for any scene and time.
 pub(crate) struct Inversion {
     pub(crate) method: ComparedMethod,
     pub(crate) setting: String,
-    /// Digits that the transform needs: those of the result and those that the weights cancel.
+    /// Digits needed of the transform: those of the result and those that the weights cancel.
     digits: f64,
     invert: Box<Invert>,
 }
@@ -33,17 +33,17 @@ pub(crate) struct Inversion {
 /// Step responses at ascending times.
 type Invert = dyn Fn(&Hankel, &[f64]) -> Vec<Six>;
 
-/// Ratio of times that share the samples of an accelerated series: over more the early ones are not resolved, over
-/// less the samples are not used.
+/// Ratio of the times that share the samples of an accelerated series. With a larger ratio early times are not
+/// resolved; with a smaller one the samples are not used fully.
 ///
-/// Durbin's plain sum gains nothing by it.
+/// Durbin's plain sum gains nothing from a ratio above 1.
 const SPAN: f64 = 4.0;
 
-/// Setting, digits and inversion of a method with a number of terms or samples.
+/// Setting, digits and inversion of a method with a given number of terms or samples.
 type Make = fn(usize) -> (String, f64, Box<Invert>);
 
-/// Methods, with their settings in a quick and a full chart, and in the pictures of errors over time of both: in a full
-/// one its best.
+/// Methods, with their settings in a quick chart, in a full chart, and in the pictures of errors over time of a full
+/// chart.
 const METHODS: [(ComparedMethod, Make, [&[usize]; 3]); 5] = [
     (
         ComparedMethod::FixedTalbot,
@@ -67,7 +67,7 @@ const METHODS: [(ComparedMethod, Make, [&[usize]; 3]); 5] = [
     ),
     (
         ComparedMethod::DeHoog,
-        // the aliasing error that the accelerated series reaches
+        // aliasing error that the accelerated series can reach
         |n| {
             in_windows(
                 de_hoog,
@@ -113,8 +113,8 @@ impl Inversion {
         methods.map(pictured).collect()
     }
 
-    /// Step responses at ascending times, and the integrand evaluations they took; at the centre of the surface only
-    /// w over its static value.
+    /// Step responses at ascending times, and the number of integrand evaluations; at the centre of the surface only w
+    /// over its static value.
     pub(crate) fn run(&self, medium: &Medium, place: [f64; 2], times: &[f64]) -> Found<Vec<Six>> {
         let hankel = Hankel::new(medium, place, self.digits);
         let values = (self.invert)(&hankel, times);
@@ -122,7 +122,7 @@ impl Inversion {
     }
 }
 
-/// A method that takes the transform anew for every time.
+/// A method that evaluates the transform anew for every time.
 fn anew(rule: Vec<[Complex64; 2]>) -> Box<Invert> {
     Box::new(move |hankel, times| {
         let at = |&t: &f64| invert(&rule, t, |s| hankel.values(s));

@@ -4,10 +4,10 @@
 use num_complex::Complex64;
 use std::f64::consts::PI;
 
-/// A way to sum the series: from its samples, the sums for some e^{i pi t/T}.
+/// A method of summation: from the samples, the sums for some e^{i pi t/T}.
 pub(crate) type Series = fn(&[Complex64], &[Complex64]) -> Vec<f64>;
 
-/// f at some times of a transform with any number of components, which is sampled at a + i k pi/T for all of them.
+/// f at some times, for a transform with any number of components that is sampled at a + i k pi/T for all times.
 ///
 /// The times lie up to `longest`: a = -ln(`aliasing`)/(2 T) for an aliasing error of that size, T = 1.25 `longest`.
 pub(crate) fn in_window<const N: usize>(
@@ -27,7 +27,7 @@ pub(crate) fn in_window<const N: usize>(
     let mut found = vec![[0.0; N]; times.len()];
     for f in 0..N {
         let column: Vec<Complex64> = values.iter().map(|value| value[f]).collect();
-        // a component that is not looked at is zero
+        // components that are not needed are zero
         if column.iter().any(|v| v.norm_sqr() > 0.0) {
             let sums = series(&column, &turns).into_iter().zip(times);
             for (found, (sum, t)) in found.iter_mut().zip(sums) {
@@ -38,7 +38,7 @@ pub(crate) fn in_window<const N: usize>(
     found
 }
 
-/// Durbin (1974): the tail of the series is cut off.
+/// Durbin (1974): the series is truncated.
 pub(crate) fn durbin(samples: &[Complex64], turns: &[Complex64]) -> Vec<f64> {
     let sum = |turn: &Complex64| {
         // Horner from the last term

@@ -9,7 +9,7 @@ use fault::AnyError;
 use figure::{Axis, Layer, Style};
 use halfspace::{Kernel, Medium, Profile, Six};
 
-/// What the pictures say.
+/// Caption of the pictures.
 const CAPTION: &str = "Fixed Talbot, which is the best of all after the last front, leaves the numbers before it \
     (errors up to 1e60, cut off at the top): the transform of a wave that is still to come grows as e^{-s t} on \
     its contour. The Fourier-series methods lose their digits at every front; the single integral knows where \

@@ -1,4 +1,4 @@
-//! Where the kernels' formulas lose digits: potentials far away, coalescing roots, incompressible solids.
+//! Cancellation in the formulas of the kernels: potentials far away, coalescing roots, incompressible solids.
 
 use crate::measure::Effort;
 use crate::picture::Picture;
@@ -13,7 +13,7 @@ use std::f64::consts::PI;
 
 /// Poisson's ratio where two roots of the Rayleigh cubic meet.
 ///
-/// The zero of the discriminant of the Rayleigh cubic, to the last bit.
+/// It is the zero of the discriminant of the Rayleigh cubic, to the last bit.
 const DOUBLE_ROOT: f64 = 0.263_082_064_883_363_66;
 
 /// A_3 and A_2 of Hertz's pressure without cancellation: a Gauss rule over the chord function.
@@ -35,7 +35,7 @@ pub(super) fn chord_potentials(xi: Complex64, r: f64) -> [Complex64; 2] {
 
 /// A_3 of Hertz's pressure in closed form, Re xi >= 0.
 ///
-/// Differences of nearly equal logarithms for |xi| >> 1: the error grows as |xi|^3.
+/// For |xi| >> 1 it is a difference of nearly equal logarithms, and the error grows as |xi|^3.
 fn closed_potential(xi: Complex64, r: f64) -> Complex64 {
     let i = Complex64::i();
     // E_2 and E_3 at an end of the chord
@@ -50,7 +50,7 @@ fn closed_potential(xi: Complex64, r: f64) -> Complex64 {
     1.5 / PI * (difference - 0.5 * (second + second_below))
 }
 
-/// Relative error of A_3 in closed form at |xi| in a direction (0 the real axis, pi/2 the imaginary one).
+/// Relative error of A_3 in closed form at |xi| = `size` in a direction (0: real axis, pi/2: imaginary axis).
 pub(super) fn closed_form_error(size: f64, direction: f64, r: f64) -> f64 {
     let xi = Complex64::from_polar(size, direction);
     let xi = Complex64::new(xi.re.max(0.0), xi.im);
@@ -58,7 +58,7 @@ pub(super) fn closed_form_error(size: f64, direction: f64, r: f64) -> f64 {
     (closed_potential(xi, r) - exact).norm() / exact.norm()
 }
 
-/// Relative error of the program's static w at a depth, where it uses the multipole series.
+/// Relative error of the program's static w at a depth where it uses the multipole series.
 pub(super) fn deep_static_error(medium: &Medium, r: f64, z: f64) -> Result<f64, AnyError> {
     let kernel = Kernel::new(medium, Profile::Hertz, 1e-10)?;
     let [a3, a2] = chord_potentials(z.into(), r);
@@ -92,7 +92,7 @@ pub(super) fn double_root_own_error(distance: f64) -> Result<f64, AnyError> {
 
 /// Difference of the kernels at tolerances 1e-8 and 1e-13 over the largest field, at a distance from nu = 1/2.
 ///
-/// The times are those of the shear waves, which stay where they are while c1 goes to infinity.
+/// The times are those of the shear waves, which do not change as c1 goes to infinity.
 pub(super) fn incompressible_error(distance: f64) -> Result<f64, AnyError> {
     let medium = Medium::new(0.5 - distance)?;
     let coarse = Kernel::new(&medium, Profile::Hertz, 1e-8)?;
@@ -126,7 +126,7 @@ pub(crate) fn figures(effort: Effort) -> Result<Vec<Picture>, AnyError> {
     figures.into_iter().map(|figure| figure(effort)).collect()
 }
 
-/// Adds a curve of errors, those below 1e-17 drawn there.
+/// Adds a curve of errors; errors below 1e-17 are drawn at 1e-17.
 fn add(
     figure: &mut Picture,
     name: &str,

@@ -1,4 +1,4 @@
-//! Marching schemes: the step against the contact's stiffness over the half-space's impedance.
+//! Marching schemes: the step, and the stiffness of the contact over the impedance of the half-space.
 //!
 //! At its peak the contact is a spring k = (3/2) p^(1/3); at first the half-space is a dashpot of impedance
 //! Z = 1/G(0), G the impulse response. Both in collision units.
@@ -30,7 +30,7 @@ use halfspace::bisected;
 use paper::PRINTED_PA;
 
 contact::choice! {
-    /// What a march made of an impact.
+    /// Outcome of a march.
     #[derive(Debug, Clone, Copy, PartialEq, Eq)]
     pub(super) enum MarchOutcome {
         /// Restitution within 1e-3 of the converged one.
@@ -46,7 +46,7 @@ contact::choice! {
     }
 }
 
-/// A disc with its converged impact and what first-order theory needs of it.
+/// A disc with its converged impact and the integrals for first-order theory.
 pub(super) struct Converged<'a> {
     disc: FixedDisc<'a>,
     /// Its results.
@@ -58,7 +58,7 @@ pub(super) struct Converged<'a> {
 }
 
 impl<'a> Converged<'a> {
-    /// Marches implicitly with 800 steps or more and takes the integrals of the energy balance.
+    /// Marches implicitly with at least 800 steps and computes the integrals of the energy balance.
     pub(super) fn new(disc: FixedDisc<'a>) -> Result<Self, MarchError> {
         let history = march_implicit(&disc, CONTACT_TIME / 800.0)?;
         let summary = Summary::new(&history)?;
@@ -77,7 +77,7 @@ impl<'a> Converged<'a> {
         })
     }
 
-    /// Restitution of the explicit scheme at a step (collision units), to first order.
+    /// Restitution of the explicit scheme at a step in collision units, to first order.
     pub(super) fn explicit_restitution(&self, step: f64) -> f64 {
         (1.0 - self.summary.loss + step * self.gain).max(0.0).sqrt()
     }
@@ -97,13 +97,13 @@ impl<'a> Converged<'a> {
         1.5 * self.summary.peak_force.cbrt()
     }
 
-    /// What the explicit scheme makes of the impact at a step.
+    /// Outcome of the explicit scheme at a step.
     pub(super) fn explicit(&self, step: f64) -> MarchOutcome {
         let march = march_explicit(&self.disc, step);
         self.outcome(march.map(|(history, summary)| (summary, history)))
     }
 
-    /// What the implicit scheme makes of it.
+    /// Outcome of the implicit scheme at a step.
     pub(super) fn implicit(&self, step: f64) -> MarchOutcome {
         let march = march_implicit(&self.disc, step);
         self.outcome(march.and_then(|march| Ok((Summary::new(&march)?, march))))
@@ -133,10 +133,10 @@ pub(super) fn admittance(disc: &FixedDisc<'_>) -> f64 {
     disc.coupling * disc.response.impulse(0.0) / disc.wave_time
 }
 
-/// Maxima of a force that stand out by 1e-4 of its largest value on both sides.
+/// Number of maxima of a force that exceed both sides by 1e-4 of its largest value.
 fn maxima(force: &[f64]) -> usize {
     let least = 1e-4 * force.iter().fold(0.0_f64, |a, &p| a.max(p));
-    // since the last turn the force rises or falls, by sign
+    // the sign tells whether the force has risen or fallen since the last extremum
     let (mut count, mut sign, mut turn) = (0, 1.0_f64, 0.0_f64);
     for &p in force {
         turn = sign * (sign * turn).max(sign * p);
@@ -148,7 +148,7 @@ fn maxima(force: &[f64]) -> usize {
     count
 }
 
-/// The paper's case at steps over its contact, of which the second gives its restitution: label, place on a map, step.
+/// The paper's case at two steps, the second of which reproduces its restitution: label, place on the map, step.
 fn paper_steps(paper: &Converged<'_>) -> [(String, (f64, f64), f64); 2] {
     [54, 200].map(|n| {
         let step = paper.summary.contact_time / f64::from(n);
@@ -157,7 +157,7 @@ fn paper_steps(paper: &Converged<'_>) -> [(String, (f64, f64), f64); 2] {
     })
 }
 
-/// A map of discs, from side to side, against the step over Hertz's contact time.
+/// A map of discs and of the step over Hertz's contact time.
 fn map<'a>(
     x: [f64; 2],
     quantity: &'a str,
@@ -193,7 +193,7 @@ pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Picture>
     let map = map([0.1, 100.0], stiffness, &outcomes, effort);
     let mut columns = Vec::new();
     for stiffness in map.columns() {
-        // another stiffness over impedance at the same wave time
+        // a different stiffness over impedance with the same wave time
         let scale = stiffness / (1.5 * admittance(&disc));
         let coupling = disc.coupling * scale;
         columns.push((stiffness, Converged::new(FixedDisc { coupling, ..disc })?));
@@ -279,15 +279,15 @@ fn implicit(
 
 /// Growth per step of the implicit scheme's newest samples at a frozen contact stiffness k.
 ///
-/// The largest root, in modulus, of p_n/k + coupling [p_n - sum_j g_j (p_{n-j} - p_{n-j-1})] = 0, for the dynamic
-/// share without the first p_n in brackets, from a long run of the recurrence; below one the samples settle.
+/// The largest root, in modulus, of p_n/k + coupling [p_n - sum_j g_j (p_{n-j} - p_{n-j-1})] = 0, without the first p_n
+/// in brackets for the dynamic share, from a long run of the recurrence. The samples settle if it is below one.
 pub(super) fn linear_growth(disc: &FixedDisc<'_>, stiffness: f64, step: f64) -> f64 {
     const RECURRENCE_STEPS: usize = 400;
     let lag = Weights::of(disc, disc.response, step).values;
     let own = 1.0 / stiffness + disc.coupling * (disc.share.factor() - lag[0]);
     let mut p = vec![0.0; lag.len() + 1];
     p.push(1.0);
-    // rescaled so that nothing overflows; the logarithm of the scale is kept
+    // rescaled to avoid overflow; the logarithm of the scale is summed
     let mut growth = 0.0;
     for n in 0..RECURRENCE_STEPS {
         let m = p.len();
@@ -319,7 +319,7 @@ fn dynamic<'a>(disc: &FixedDisc<'a>, coupling: f64) -> FixedDisc<'a> {
     }
 }
 
-/// What the `dynamic` share makes of an impact at a step: whether it has a solution.
+/// Whether the `dynamic` share has a solution at a step.
 pub(super) fn dynamic_is_solved(disc: &FixedDisc<'_>, step: f64) -> bool {
     let march = march_implicit(&dynamic(disc, disc.coupling), step);
     !matches!(march, Err(MarchError::NoSolution { .. }))
@@ -348,7 +348,8 @@ const DYNAMIC: [&str; 4] = [
     "refused: no solution",
 ];
 
-/// The `dynamic` share in the plane of coupling and step: where it has no solution, and where a coarse step hides that.
+/// The `dynamic` share in the plane of coupling and step: regions without a solution, and regions where a coarse step
+/// hides that.
 fn dynamic_share(paper: &FixedDisc<'_>, effort: Effort) -> Picture {
     let coupling = "static deflection over indentation (coupling)";
     let map = map([0.05, 5.0], coupling, &DYNAMIC, effort);
@@ -370,7 +371,7 @@ fn dynamic_share(paper: &FixedDisc<'_>, effort: Effort) -> Picture {
     let line = |limit: fn(&FixedDisc<'_>, f64) -> f64| {
         let steps = y.cells(effort.pick(30, 80)).into_iter();
         let points = steps.map(|y| (limit(paper, y * CONTACT_TIME), y));
-        // as long as it stays in the plane
+        // the part of the curve in the plane
         points.filter(|point| point.0 < x.high).collect()
     };
     let folds = "theory: newest weight times coupling = 2/3, the law folds back";

@@ -1,7 +1,7 @@
-//! Maps of where each method works, where it fails, and where theory says it should.
+//! Maps of the regions in which methods work and fail, with theoretical boundaries.
 //!
-//! `marches`: the steps of marches; `models`: which contact model a scene needs; `inversions` and `kernels`: the errors
-//! of kernels.
+//! `marches`: steps of marches; `models`: contact model that a scene needs; `inversions` and `kernels`: errors of
+//! kernels.
 
 pub(crate) mod inversions;
 pub(crate) mod kernels;
@@ -13,10 +13,10 @@ mod tests;
 use crate::picture::Picture;
 use figure::{Axis, Classes, Interval, Layer};
 
-/// A plane that is divided into cells, each of a class.
+/// A plane divided into cells, each of which has a class.
 struct StabilityMap<'a> {
     plane: [Interval; 2],
-    /// What its axes are.
+    /// Quantities of the axes.
     quantities: [&'a str; 2],
     /// Columns and rows of cells.
     shape: [usize; 2],
@@ -24,7 +24,7 @@ struct StabilityMap<'a> {
 }
 
 impl StabilityMap<'_> {
-    /// A picture of the class of every cell, from its number, by rows, and its ordinate.
+    /// A picture of the class of every cell; the classes are given by the index of the cell, by rows, and its ordinate.
     fn picture(
         &self,
         name: &'static str,
@@ -49,7 +49,7 @@ impl StabilityMap<'_> {
         self.plane[0].cells(self.shape[0])
     }
 
-    /// A curve of so many points from side to side.
+    /// A curve of `count` points over the whole width.
     fn line(&self, count: usize, ordinate: impl Fn(f64) -> f64) -> Vec<(f64, f64)> {
         let places = self.plane[0].cells(count).into_iter();
         places.map(|x| (x, ordinate(x))).collect()

@@ -1,8 +1,8 @@
-//! Which model a scene needs: the plane of the two dimensionless regime.
+//! Contact model that a scene needs, in the plane of the two dimensionless numbers of the regime.
 //!
-//! Static deflection over indentation is the half-space's part phi of the contact's compliance for a contact
-//! that follows the load, and the coupling of a fixed disc, the paper's, whose whole deflection is added to Hertz's
-//! indentation; memory is the time that the waves need across the contact, over Hertz's contact time.
+//! Static deflection over indentation: for a contact whose radius follows the load, the half-space's part phi of the
+//! compliance; for the paper's fixed disc, whose whole deflection is added to Hertz's indentation, the coupling.
+//! Memory: the time that waves need to cross the contact, over Hertz's contact time.
 
 use super::StabilityMap;
 use crate::measure::Effort;
@@ -25,18 +25,18 @@ use paper::TABLE_1_PA;
 /// Tolerances of the three pictures.
 pub(super) const TOLERANCES: [f64; 3] = [1e-2, 1e-3, 1e-4];
 
-/// Speeds of the built-in materials' points in m/s.
+/// Velocities in m/s for the points of the built-in materials.
 pub(super) const SPEEDS_M_S: [f64; 3] = [1.0, 10.0, 100.0];
 
-/// Accuracy of the contact with memory that models are compared with.
+/// Accuracy of the reference, the contact with memory.
 const ACCURACY: f64 = 1e-5;
 
-/// Largest part of the compliance of a growing contact that comes from the half-space: the contact of a rigid striker, 1,
-/// begins with a jump of its radius, which no march follows.
+/// Largest part of the compliance of a growing contact that comes from the half-space. For a rigid striker, 1, the
+/// contact begins with a jump of its radius that no march can follow.
 const MOST_SHARE: f64 = 0.9999;
 
-/// Errors of the cheaper models at one place of a plane, largest over peak force, contact time, restitution
-/// and peak displacement; infinite where the program refuses the model.
+/// Errors of the cheaper models at one place of a plane, the largest over peak force, contact time, restitution and
+/// peak displacement; infinite if the program rejects the model.
 #[derive(Debug)]
 pub(super) struct ModelErrors {
     /// No waves: Hertz, or two springs.
@@ -45,12 +45,12 @@ pub(super) struct ModelErrors {
     pub(super) radiation: f64,
     /// Dashpot on the area of a contact that follows the load.
     pub(super) dashpot: f64,
-    /// Estimated error of the contact with memory that they are compared with; infinite where the program refuses it.
+    /// Estimated error of the reference, the contact with memory; infinite if the program rejects it.
     pub(super) memory: f64,
 }
 
 impl ModelErrors {
-    /// The cheapest model that meets a tolerance: 3 is the contact with memory, 4 none.
+    /// Index of the cheapest model that meets a tolerance: 3 is the contact with memory, 4 means none.
     fn cheapest(&self, tolerance: f64) -> usize {
         let cheaper = [self.quasi_static, self.radiation, self.dashpot];
         let found = cheaper.into_iter().position(|error| error <= tolerance);
@@ -58,14 +58,14 @@ impl ModelErrors {
     }
 }
 
-/// The largest error of a model's results, or infinite where it is beyond its bounds.
+/// The largest error of the results of a model; infinite outside its bounds.
 fn error(is_allowed: bool, found: &Summary, exact: &Summary) -> f64 {
     let error = sizes(&errors(found, exact))[0];
     if is_allowed { error } else { f64::INFINITY }
 }
 
-/// The plane of one physics at one Poisson ratio: of contacts that follow the load ([`Physics::Growing`]), or of the paper's
-/// disc with other groups ([`Physics::Disc`] with the full share).
+/// The plane of a physics at a Poisson ratio: contacts whose radius follows the load ([`Physics::Growing`]), or the
+/// paper's disc with other dimensionless groups ([`Physics::Disc`] with the full share).
 pub(super) struct Plane {
     physics: Physics,
     centre: SurfaceResponse,
@@ -101,7 +101,7 @@ impl Plane {
         }
     }
 
-    /// What `auto` chooses by, as it forms them.
+    /// The dimensionless numbers by which `auto` chooses.
     fn regime(&self, deflection: f64, memory: f64) -> Regime {
         let (wave_time, memory) = if self.physics == Physics::Disc(StaticShare::Full) {
             let disc = self.disc(deflection, memory);
@@ -118,13 +118,13 @@ impl Plane {
         }
     }
 
-    /// What `auto` chooses at a place.
+    /// The choice of `auto` at a place.
     pub(super) fn chosen(&self, deflection: f64, memory: f64, tolerance: f64) -> Memory {
         let asked = Accuracy::of_contact(tolerance, None);
         self.regime(deflection, memory).choose(&asked).0
     }
 
-    /// Largest memory, up to 1e3, at which `auto` has not yet left a memory for the next.
+    /// Largest memory, up to 1e3, at which `auto` still uses a model rather than the next one.
     pub(super) fn boundary(&self, deflection: f64, tolerance: f64, leaves: Memory) -> f64 {
         let low: f64 = if self.physics == Physics::Disc(StaticShare::Full) {
             1e-12
@@ -139,7 +139,7 @@ impl Plane {
         bisected(low.ln(), 1e3_f64.ln(), stays).exp()
     }
 
-    /// Errors of the cheaper models: against the growing contact, or against the implicit march of a disc.
+    /// Errors of the cheaper models, relative to the growing contact or to the implicit march of a disc.
     pub(super) fn errors(&self, deflection: f64, memory: f64) -> Result<ModelErrors, MarchError> {
         let is_disc = self.physics == Physics::Disc(StaticShare::Full);
         let deflection = deflection.min(if is_disc { f64::INFINITY } else { MOST_SHARE });
@@ -187,8 +187,8 @@ impl Plane {
         })
     }
 
-    /// A picture a tolerance: the cheapest model that meets it in each cell, the memory at which `auto` leaves some, and
-    /// what is added at a tolerance.
+    /// A picture for each tolerance: the cheapest model that meets it in each cell, the memory at which `auto` changes
+    /// the model, and additional layers.
     fn pictures(
         &self,
         map: &StabilityMap<'_>,
@@ -229,7 +229,7 @@ impl Plane {
     }
 }
 
-/// Where a steel ball on a material of the library lies in the plane.
+/// Place in the plane of a steel ball on a built-in material.
 pub(super) fn place_of(target: &str, velocity_m_s: f64) -> Result<(f64, f64), AnyError> {
     let collision = ball(target, velocity_m_s)?.collision();
     let medium = Medium::new(collision.target_poisson_ratio)?;
@@ -248,7 +248,7 @@ pub(super) fn targets() -> impl Iterator<Item = &'static str> {
 /// The ordinate of both planes.
 const MEMORY: &str = "memory over contact time";
 
-/// A picture a tolerance for contacts that follow the load, then for the paper's disc.
+/// Pictures for each tolerance, of contacts whose radius follows the load and then of the paper's disc.
 pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Picture>, AnyError> {
     let mut figures = growing_figures(effort, advance)?;
     figures.extend(disc_figures(effort)?);
@@ -268,7 +268,7 @@ fn growing_figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Picture>, A
         shape,
         classes: &["hertz", "radiation", "area dashpot", "growing", refused],
     };
-    // `auto`'s estimate of what hertz leaves out over the error found, in the middle of the plane
+    // `auto`'s estimate of the error of hertz over the true error, in the middle of the plane
     let [i, k] = shape.map(|cells| cells / 2);
     let (share, memory) = (x.cells(shape[0])[i], y.cells(shape[1])[k]);
     let any = Accuracy::of_contact(f64::INFINITY, None);

@@ -1,10 +1,9 @@
 //! Question 3: how to compute fields under a given force history.
 //!
-//! The force is a pulse sin^4(pi t/T); one value is the six fields at one point over r0/c1 of time, so that
-//! coarser cells are worth what they save; the error is relative to each field's peak, against the exact
-//! convolution.
+//! The force is a pulse sin^4(pi t/T). One value is the six fields at one point over a time of r0/c1, so that coarser
+//! cells count as cheaper. The error is relative to the peak of each field; the reference is the exact convolution.
 //!
-//! That is the convolution integral by Gauss rules between the arrivals, without cells or samples of the force:
+//! The exact convolution is computed by Gauss rules between the arrivals, without cells or samples of the force:
 //!
 //! ```text
 //! u(t) = P(t) static + int_0^t P'(t - x) R(x) dx,     P = sin^4(pi t/T)
@@ -26,11 +25,11 @@ use lookup::{PulseSum, Stencil};
 use std::f64::consts::PI;
 use tabulator::{Axis, PointPlan};
 
-/// Every method is sampled at multiples of this.
+/// Interval in r0/c1 at which every method is sampled.
 const EVERY: f64 = 1.6;
 
-/// Scenes: name, name where two ways to interpolate are compared, point and length of the pulse; the first alone in a
-/// quick chart.
+/// Scenes: name, name in the comparison of two interpolations, point, and length of the pulse; a quick chart has the
+/// first only.
 const SCENES: [(&str, &str, [f64; 2], f64); 3] = [
     (
         "under the disc, pulse of 10 r0/c1",
@@ -78,7 +77,7 @@ pub(crate) fn measure(effort: Effort, densities: &[Density], advance: &dyn Fn())
     Ok(records)
 }
 
-/// Samples with their number, the work.
+/// Samples, and their number as the work.
 fn counted(samples: Vec<Six>) -> Found<Vec<Six>> {
     let count = samples.len() as u64;
     Ok((samples, Some(count)))
@@ -91,7 +90,7 @@ fn response(convolver: &Convolver, rest: &Six, cells: &[Six]) -> Vec<Six> {
     samples.map(|n| fields.each_ref().map(|f| f[n])).collect()
 }
 
-/// Cells computed for a point in r0, for so many samples so far apart of a pulse of a length.
+/// Cells computed for a point in r0, for samples of a pulse.
 pub(crate) fn computed(
     source: &KernelSource,
     place: [f64; 2],
@@ -117,7 +116,7 @@ fn exact_cells(
 ) -> Result<(), AnyError> {
     use ComparedMethod::{Direct, DirectLinear};
     let medium = Medium::new(POISSON_RATIO)?;
-    // method, smoothness, kernel tolerance and halvings of the step; the program's own tolerance goes with the scene's
+    // method, smoothness, kernel tolerance and halvings of the step; the program's own tolerance depends on the scene's
     let settings: [(_, _, f64, [&[i32]; 2]); 4] = [
         (Direct, Smooth, 1e-8, [&[1, 3], &[0, 1, 2, 3, 4, 5]]),
         (Direct, Smooth, 1e-12, [&[], &[2, 3, 4, 5]]),
@@ -154,7 +153,7 @@ fn looked_up(
     rows: &mut MeasuredScene<'_, Vec<Six>>,
 ) -> Result<(), AnyError> {
     use Method::{Direct, Transform};
-    // for which forces, and how they are summed: none is by running sums of the two exponentials of the pulse
+    // smoothness of the force and method of summation; none means running sums of the two exponentials of the pulse
     let own = [
         (ComparedMethod::TableDirectSums, Smooth, Some(Direct), true),
         (
@@ -213,7 +212,7 @@ struct PulseReference {
 }
 
 impl PulseReference {
-    /// At `count` multiples of `every` until a while after pulse and waves have passed.
+    /// The reference at `count` multiples of `every`, until some time after pulse and waves have passed.
     fn new(
         medium: &Medium,
         [r, z]: [f64; 2],
@@ -230,7 +229,7 @@ impl PulseReference {
         let end = times[count - 1];
         let mut cuts = arrivals.sorted();
         cuts.extend([0.0, end]);
-        // panels no longer than a sixteenth of the pulse
+        // panels of at most 1/16 of the pulse
         let panels = (1..).map(|i| f64::from(i) * length / 16.0);
         cuts.extend(panels.take_while(|&x| x < end));
         cuts.sort_by(f64::total_cmp);
@@ -242,7 +241,7 @@ impl PulseReference {
         for pair in cuts.windows(2) {
             let (middle, half) = (0.5 * (pair[0] + pair[1]), 0.5 * (pair[1] - pair[0]));
             for (x, weight) in rule.on(-1.0, 1.0) {
-                // absorbs square roots at the arrivals
+                // a substitution that absorbs square roots at the arrivals
                 let place = middle + half * 0.5 * x * (3.0 - x * x);
                 let weight = weight * half * 1.5 * (1.0 - x * x);
                 let value = kernel.remainder(r, z, place)?.value;
@@ -268,14 +267,14 @@ impl PulseReference {
         self.times[self.times.len() - 1]
     }
 
-    /// Samples of the pulse so far apart, as many as are needed.
+    /// Samples of the pulse, `width` apart, as many as are needed.
     fn force(&self, width: f64) -> Vec<f64> {
         let pulse = PulseSum::new(self.length, width);
         let count = (self.end() / width).round() as usize + 1;
         (0..count).map(|n| pulse.force(n)).collect()
     }
 
-    /// Relative errors of samples until the end, some of which are at the times.
+    /// Relative errors of the samples at the times of the reference.
     fn errors(&self, samples: &[Six]) -> Vec<f64> {
         let width = self.end() / (samples.len() - 1) as f64;
         let at = |t: &f64| {
@@ -297,7 +296,7 @@ fn sine(t: f64, length: f64) -> [f64; 2] {
     [sine.powi(4), 4.0 * PI / length * sine.powi(3) * cosine]
 }
 
-/// Cells corrected for the force's curvature from the numbers of one point.
+/// Cells corrected for the curvature of the force, from the numbers of one point.
 pub(crate) fn series(point: &lookup::Numbers, width: f64, count: usize) -> Vec<Six> {
     let whole = lookup::Series::new(width, point[0].len(), point.clone());
     let mut cells = vec![[0.0; 6]; count];
@@ -305,8 +304,8 @@ pub(crate) fn series(point: &lookup::Numbers, width: f64, count: usize) -> Vec<S
     cells
 }
 
-/// Interpolating the whole response against interpolating the remainder beside the exact static part: by the same stencils
-/// over the same exact kernels in double precision.
+/// Compares interpolation of the whole response with interpolation of the remainder plus the exact static part, with
+/// the same stencils and the same exact kernels in double precision.
 fn interpolations(
     pulse: &PulseReference,
     rows: &mut MeasuredScene<'_, Vec<Six>>,
@@ -336,7 +335,7 @@ fn interpolations(
                     corners.push((weight, cells, kernel.static_field(nodes[i], nodes[k])?));
                 }
             }
-            // what of the static part is interpolated
+            // fraction of the static part that is interpolated
             for (method, inside) in [
                 (ComparedMethod::WholeResponse, 1.0),
                 (ComparedMethod::RemainderAlone, 0.0),
@@ -379,12 +378,12 @@ mod tests {
             if z < 0.2 || length > 20.0 || seen >= 12 {
                 continue;
             }
-            // the first of many times is the row's own
+            // the first time is that of the row
             let found =
                 PulseReference::new(&Medium::new(nu).unwrap(), [r, z], length, t, 100).unwrap();
             assert_eq!(found.times[0], t);
             seen += 1;
-            // w, u, szz, srz, srr, stt there
+            // the columns are w, u, szz, srz, srr, stt
             for (column, field) in [(5, 1), (6, 0), (7, 4), (8, 5), (9, 2), (10, 3)] {
                 let error = (found.exact[0][field] - row[column]).abs();
                 assert!(error < 1e-9, "{line}: {field} off by {error:e}");

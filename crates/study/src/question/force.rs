@@ -40,7 +40,7 @@ pub(crate) fn measure(effort: Effort, advance: &dyn Fn()) -> Rows {
     let medium = Medium::new(collision.target_poisson_ratio)?;
     let waves = PunchWaves::new(&medium);
     let growing = collision.growing_contact(&waves);
-    // itself measured against superposition in time (tests/reference/growing.csv)
+    // this reference is compared with superposition in time in tests/reference/growing.csv
     let growing_exact = solve_growing(&growing, &Accuracy::of_contact(1e-10, None))?.summary;
 
     let mut records = Vec::new();
@@ -74,14 +74,14 @@ fn work(history: &History, memory: f64) -> u64 {
     steps * steps.min((memory / history.step).ceil() as u64 + 1)
 }
 
-/// The results of a march with so much memory, and its work.
+/// The results of a march with the given memory, and its work.
 fn measured(history: &History, memory: f64) -> Found<Summary> {
     Ok((Summary::new(history)?, Some(work(history, memory))))
 }
 
-/// A march by its number of steps over a duration: few settings, or all.
+/// A march with given numbers of steps over a duration.
 ///
-/// The program halves its step instead: nobody tells it how many are enough.
+/// The program halves its step instead, since the number of steps needed is not known.
 fn stepped(
     scene: &mut MeasuredScene<'_, Summary>,
     method: ComparedMethod,
@@ -173,7 +173,7 @@ fn halved<'a>(
     })
 }
 
-/// Tolerances of so many digits.
+/// Tolerances from numbers of digits.
 fn tolerances(digits: impl IntoIterator<Item = i32>) -> impl Iterator<Item = f64> {
     digits.into_iter().map(|digits| 10.0_f64.powi(-digits))
 }
@@ -213,7 +213,7 @@ fn to_tolerance(
     Ok(())
 }
 
-/// What sweeps do with many contacts of two materials: series for a million alike, made before they are timed.
+/// The method of large sweeps: series for contacts of two materials; the series are computed before the timing.
 fn from_series(scene: &mut MeasuredScene<'_, Summary>, impact: &Impact) -> Result<(), AnyError> {
     const CONTACTS: usize = 1_000_000;
     let (collision, responses) = (impact.collision(), Tabulated::default());

@@ -1,7 +1,7 @@
 //! Question 4: how to compute the fields of a whole impact at a probe.
 //!
-//! One value is the contact and its six fields at one point; the error is the largest over time and fields, over each
-//! field's peak, against an integral over the past of a force that was solved to 1e-9.
+//! One value is the contact with its six fields at one point. The error is the largest over time and fields, relative
+//! to the peak of each field; the reference is an integral over the past of a force that was solved to 1e-9.
 
 use super::fields;
 use super::kernels::POISSON_RATIO;
@@ -23,7 +23,7 @@ struct Probed {
     name: &'static str,
     impact: Impact,
     place_m: [f64; 2],
-    /// Solved to [`CONVERGED`].
+    /// Reference, solved to [`CONVERGED`].
     reference: Excitation,
     /// Peak of each field at the point.
     peaks: Six,
@@ -33,7 +33,7 @@ struct Probed {
 const CONVERGED: f64 = 1e-9;
 const FIELDS_CONVERGED: f64 = 1e-8;
 
-/// Measures every way in every scene.
+/// Measures every method in every scene.
 pub(crate) fn measure(effort: Effort, densities: &[Density], advance: &dyn Fn()) -> Rows {
     let own = densities.iter().find(|d| d.is_default(Density::points()));
     let mut records = Vec::new();
@@ -112,15 +112,15 @@ impl Probed {
         r <= table.content().r_max && z <= table.content().z_max
     }
 
-    /// The program's own way by kernels computed for the point: times in s with the fields in m and Pa.
+    /// Fields of the program with kernels computed for the point: times in s, fields in m and Pa.
     fn computed(&self, tolerance: f64) -> Result<Vec<(f64, Six)>, AnyError> {
         let medium = Medium::new(POISSON_RATIO)?;
-        // as the program itself takes them
+        // as in the program
         let source = KernelSource::direct(&medium, 0.1 * tolerance)?;
         self.fields(tolerance, source)
     }
 
-    /// The program's own way.
+    /// Fields of the program with any source of kernels.
     fn fields(&self, tolerance: f64, source: KernelSource) -> Result<Vec<(f64, Six)>, AnyError> {
         let run = self.impact.clone().to_tolerance(tolerance).solve()?;
         let fields = run.excitation().fields_from(source).to_tolerance(tolerance);
@@ -130,8 +130,8 @@ impl Probed {
         Ok(times.map(|(n, &time)| (time, at(n))).collect())
     }
 
-    /// Cells of a kernel computed for the point under samples of the force: no integration where the contact begins and
-    /// ends.
+    /// Fields from cells of a kernel computed for the point and samples of the force, without integration at the ends
+    /// of the contact.
     fn cells_alone(&self, width: f64) -> Result<Vec<(f64, Six)>, AnyError> {
         let run = self.impact.clone().to_tolerance(1e-6).solve()?;
         let excitation = run.excitation();
@@ -151,14 +151,14 @@ impl Probed {
         Ok((0..count).map(|n| (n as f64 * step_s, at(n))).collect())
     }
 
-    /// When the slowest wave of the contact has passed.
+    /// Time in s at which the slowest wave of the contact has passed.
     fn end_s(&self, excitation: &Excitation) -> f64 {
         let arrivals = excitation.arrivals_s(self.place_m);
         let last = arrivals.into_iter().filter(|t| t.is_finite());
         last.fold(0.0, f64::max) + 1.2 * excitation.end_s()
     }
 
-    /// Largest error of each field over its peak, at instants from the first arrival on.
+    /// Errors of all fields relative to their peaks, at times from the first arrival on.
     fn errors(&self, effort: Effort, found: &[(f64, Six)]) -> Result<Vec<f64>, AnyError> {
         let count = effort.pick(12, 40);
         let [first, ..] = self.reference.arrivals_s(self.place_m);

@@ -21,22 +21,22 @@ pub(crate) struct KernelScene {
     /// Arrivals of the waves.
     pub(crate) arrivals: Vec<f64>,
     exact: Vec<Six>,
-    /// The fields that are looked at.
+    /// Indices of the compared fields.
     fields: &'static [usize],
     /// Largest values.
     scale: Six,
     static_part: Six,
-    /// One over what the fields are measured in.
+    /// Reciprocal of the unit of the fields.
     per_unit: f64,
 }
 
 /// Poisson's ratio of the chart.
 pub(crate) const POISSON_RATIO: f64 = 0.3;
 
-/// Off the nodes of every table; inside the disc, so that all fronts pass.
+/// Point between the nodes of every table, and below the disc, so that all fronts pass it.
 const INTERIOR: [f64; 2] = [0.55, 0.65];
 
-/// How near the fronts are looked at, after and before them: over their times.
+/// Distances in time from the fronts, after and before them, relative to their times.
 const NEAR_FRONTS: [f64; 2] = [0.01, -0.01];
 
 /// All six fields.
@@ -45,13 +45,13 @@ pub(crate) const ALL_FIELDS: [usize; 6] = [0, 1, 2, 3, 4, 5];
 impl KernelScene {
     /// Six fields at a point inside, from before the first arrival to long after the last.
     ///
-    /// `near` are distances from every arrival, over its time, that are looked at too.
+    /// `near` are additional times: distances from every arrival, relative to its time.
     pub(crate) fn interior(medium: &Medium, count: usize, near: &[f64]) -> Result<Self, AnyError> {
         let name = "interior point, across the fronts";
         Self::new(name, medium, INTERIOR, count, &ALL_FIELDS, near)
     }
 
-    /// The same point where all fields are smooth: inversions at their best.
+    /// The same point at late times, where all fields are smooth and inversions work best.
     fn late(medium: &Medium, count: usize) -> Result<Self, AnyError> {
         let name = "interior point, after the last front";
         let mut scene = Self::new(name, medium, INTERIOR, 3 * count, &ALL_FIELDS, &[])?;
@@ -89,7 +89,7 @@ impl KernelScene {
     ) -> Result<Self, AnyError> {
         let kernel = Kernel::new(medium, Profile::Hertz, 1e-14)?;
         let arrivals = Arrivals::new(medium, Profile::Hertz, r, z)?;
-        // from before the first arrival to long after the last, even in the logarithm
+        // from before the first arrival to long after the last, evenly spaced in the logarithm
         let (first, last) = (0.8 * arrivals.first().max(0.1), 8.0 * arrivals.last());
         let time = |i| first * (last / first).powf(i as f64 / (count - 1) as f64);
         let mut times: Vec<f64> = (0..count).map(time).collect();
@@ -137,7 +137,7 @@ impl KernelScene {
         off(values, &self.exact, &self.scale, self.fields)
     }
 
-    /// The largest of them at each time.
+    /// The largest relative error at each time.
     pub(crate) fn errors_over_time(&self, values: &[Six]) -> Vec<f64> {
         let errors = self.errors(values);
         let largest = |errors: &[f64]| sizes(errors)[0];
@@ -182,7 +182,7 @@ pub(crate) fn measure(effort: Effort, densities: &[Density], progress: &dyn Prog
             progress.advance(1);
         }
         if scene.place == [0.0, 0.0] {
-            // what the impact equation uses, and what it is compared with
+            // the response that the impact equation uses, and its reference
             let response = SurfaceResponse::new(&medium, Deflection::Centre);
             let fitted = || Ok((scene.at_centre(|t| response.step(t)), None));
             let row = rows.add(ComparedMethod::SurfaceResponse, "fitted once", fitted)?;

@@ -1,4 +1,4 @@
-//! Implicit marches of known order for the impact on a disc, to be compared with the program's.
+//! Implicit marches of known order for the impact on a disc, for comparison with the program's march.
 //!
 //! ```text
 //! d'' = -(5/4) p,   p^(2/3) = d - w,   w_n = sigma [p_n - sum_j g_j (p_{n-j} - p_{n-j-1})]
@@ -17,8 +17,8 @@ pub(crate) enum MarchOrder {
     Second,
 }
 
-/// Differences from a reference of peak force, contact time, restitution and peak displacement: relative, the
-/// restitution's absolute.
+/// Differences of peak force, contact time, restitution and peak displacement from a reference: absolute for the
+/// restitution, relative for the others.
 pub(crate) fn errors(found: &Summary, exact: &Summary) -> [f64; 4] {
     let relative = |found: f64, exact: f64| match found - exact {
         0.0 => 0.0,
@@ -32,7 +32,7 @@ pub(crate) fn errors(found: &Summary, exact: &Summary) -> [f64; 4] {
     ]
 }
 
-/// Marches until the first separation: the results that [`errors`] looks at, and the work, steps times cells of memory.
+/// Marches until the first separation; returns the results for [`errors`] and the work, steps times cells of memory.
 pub(crate) fn march(
     impact: &FixedDisc<'_>,
     step: f64,
@@ -48,7 +48,7 @@ pub(crate) fn march(
     };
     let lag = |j: usize| 1.0 - followed(j as f64 * cell, (j + 1) as f64 * cell);
     let lag: Vec<f64> = (0..cells).map(lag).collect();
-    // what the newest force does to v h, and to d
+    // effect of the newest force on v h and on d
     let (swing, push) = match order {
         MarchOrder::First => ([0.0, 1.0], [0.0, 0.5]),
         MarchOrder::Second => ([0.5, 0.5], [1.0 / 3.0, 1.0 / 6.0]),

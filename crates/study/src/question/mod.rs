@@ -1,7 +1,7 @@
-//! The four questions: methods, settings and scenes, and what each costs.
+//! The four questions, with their methods, settings, scenes and measurements.
 //!
-//! A question a file: `kernels`, `force`, `fields`, `impacts`. `marching` has marches that
-//! the program itself does not take.
+//! Each question has a file: `kernels`, `force`, `fields`, `impacts`. `marching` contains marches that the program does
+//! not use.
 
 pub(crate) mod fields;
 pub(crate) mod force;

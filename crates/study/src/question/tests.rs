@@ -73,7 +73,7 @@ fn the_implicit_march_is_on_the_front_by_work() {
         }
     }
     for ranking in rankings(&records) {
-        // what is ahead of the program's own way, which finds its step, has a reason
+        // every method that is ahead of the program's own, which finds its step, has a reason
         assert_eq!(ranking.unexplained(), None, "{ranking:?}");
     }
     let reached = |level: f64| {
@@ -200,7 +200,7 @@ fn a_table_knows_its_errors_near_the_edge_and_for_short_pulses() {
             }
         }
     }
-    // what the map shows: slow pulses are hundreds of times better
+    // as in the map, errors are hundreds of times smaller for slow pulses
     assert!(largest[0] > 100.0 * largest[1], "{largest:?}");
 }
 

@@ -1,4 +1,4 @@
-//! From rows to a table: numbers in their places, errors measured off the grid (`verify`), the file under its name.
+//! Assembly: from rows to content, measured errors (`verify`) and the file under its final name.
 
 mod verify;
 
@@ -13,26 +13,26 @@ use std::fs::File;
 use std::path::Path;
 use std::time::{Instant, SystemTime, UNIX_EPOCH};
 
-/// What a build did.
+/// Summary of a build.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BuildSummary {
-    /// Identity of the settings.
+    /// Hash of the settings.
     pub id: String,
     /// SHA-256 of the content.
     pub content_sha256: String,
-    /// Points of the grid over all slices.
+    /// Number of nodes of all slices.
     pub points: usize,
-    /// Size of the file.
+    /// Size of the file in bytes.
     pub bytes: u64,
-    /// Time taken.
+    /// Elapsed time in s.
     pub wall_s: f64,
-    /// Blocks that an interrupted run had computed already.
+    /// Number of blocks from an interrupted run.
     pub resumed_blocks: usize,
     /// Relative errors by field, on slices and between them, for each pulse length.
     pub accuracy: Vec<Accuracy>,
 }
 
-/// From all rows to the file under its name.
+/// Writes the table of all rows under its final name.
 pub(crate) fn complete(
     work: &TableWork<'_>,
     rows: Vec<Row>,
@@ -54,24 +54,24 @@ pub(crate) fn complete(
     })
 }
 
-/// Writes a table and reads it back.
+/// Writes a table, reads it back and compares.
 fn write_checked(content: &Content, name: &Path) -> Result<File, OutputFault> {
     let held = lookup::write(name, content)
         .and_then(|file| Ok(lookup::holds(name, content)?.then_some(file)));
     let wrong = match held.map_err(|error| error.what) {
         Ok(Some(file)) => return Ok(file),
-        Ok(None) => "it is not read back as it was written".to_owned(),
-        // its path is that of a temporary file, which means nothing to the user
+        Ok(None) => "reading it back returned other content".to_owned(),
+        // without the path, which is that of a temporary file
         Err(BadTable::Unwritable(detail)) => detail,
         Err(other) => other.to_string(),
     };
     Err(wrong.into())
 }
 
-/// Puts the rows in their places and measures the errors off the grid.
+/// The content of the rows, with errors measured between the nodes.
 ///
 /// # Errors
-/// [`BuildError`] when the numbers are no table or a probe cannot be looked up.
+/// [`BuildError`] if the numbers are not a table, or a probe cannot be looked up.
 pub(crate) fn assemble(work: &TableWork<'_>, rows: Vec<Row>) -> Result<Content, BuildError> {
     let mut of_kind =
         PointKind::ALL.map(|kind| vec![Vec::new(); work.points[kind as usize].0.len()]);
@@ -108,7 +108,7 @@ pub(crate) fn assemble(work: &TableWork<'_>, rows: Vec<Row>) -> Result<Content, 
     Ok(content)
 }
 
-/// The content before anything is measured, from the rows of nodes of each slice.
+/// The content without measured errors, from the rows of nodes of each slice.
 fn unmeasured(work: &TableWork<'_>, nodes: Vec<Vec<Row>>) -> Result<Content, BuildError> {
     let TableWork { grid, known, .. } = *work;
     let older = known.map(|known| known.content.origin.numbers_revision);
@@ -163,7 +163,7 @@ fn unmeasured(work: &TableWork<'_>, nodes: Vec<Vec<Row>>) -> Result<Content, Bui
     })
 }
 
-/// `SOURCE_DATE_EPOCH` if it is set, so that a build can be repeated byte by byte, else now.
+/// `SOURCE_DATE_EPOCH` if it is set, so that a build can be repeated byte by byte; otherwise the present time.
 fn creation_time() -> u64 {
     let stated = std::env::var("SOURCE_DATE_EPOCH").ok();
     let now = || SystemTime::now().duration_since(UNIX_EPOCH);

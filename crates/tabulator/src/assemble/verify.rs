@@ -1,4 +1,4 @@
-//! Errors measured off the grid: exact against looked-up responses at the centre of every mesh.
+//! Errors between the nodes: exact responses compared with looked-up ones at the centre of every mesh.
 
 use crate::block::{PointKind, Row};
 use crate::error::BuildError;
@@ -8,10 +8,11 @@ use halfspace::{Medium, Profile, Six};
 use lookup::{PulseSum, Series, Smoothness, Table, Verification};
 use rayon::prelude::*;
 
-/// A pulse is sampled by at least this many cells where the table has them.
+/// Smallest number of cells that sample a pulse, if the cells of the table are narrow enough.
 const CELLS_OF_PULSE: f64 = 250.0;
 
-/// Measures errors at one Poisson ratio at the places of a kind: a row holds the exact numbers at a radius and all depths.
+/// Measures errors at one Poisson ratio at the places of a kind; a row contains the exact numbers at a radius and all
+/// depths.
 pub(super) fn verify<'a>(
     table: &Table,
     work: &TableWork<'a>,
@@ -21,7 +22,7 @@ pub(super) fn verify<'a>(
 ) -> Result<Verification, BuildError> {
     let (_, [r, z]) = &work.points[kind as usize];
     let width = table.cell_width(poisson_ratio)?;
-    // Until a pulse has passed the last arrival at the farthest point, and the smooth rest is small.
+    // until the pulse has passed the last arrival at the farthest point, and the smooth remainder is small
     let arrived = table.content().slices[0].cells as f64 * width / 1.5;
     let medium = Medium::new(poisson_ratio)?;
     let parts: Vec<Verification> = rows
@@ -56,7 +57,7 @@ pub(super) fn verify<'a>(
     Ok(whole)
 }
 
-/// Exact series of depth `k` of a row of probes at so many depths.
+/// Exact series at the depth with index `k` of a row of probes at `depths` depths.
 fn exact(width: f64, row: &Row, k: usize, depths: usize) -> Series {
     let numbers = row.each_ref().map(|values| -> Vec<Six> {
         let length = values.len() / (6 * depths);
@@ -67,7 +68,7 @@ fn exact(width: f64, row: &Row, k: usize, depths: usize) -> Series {
     Series::new(width, numbers[0].len(), numbers)
 }
 
-/// The errors of pulses whose cells are 2^`coarsening` of the table's.
+/// Errors for pulses whose cells are 2^`coarsening` cells of the table.
 fn probe(
     [exact, found]: [&Series; 2],
     rest: &Six,

@@ -1,4 +1,4 @@
-//! Nodes of one axis, uniform or graded toward a place where the fields are rough.
+//! Nodes of one axis, uniform or graded toward a place where the fields vary strongly.
 
 use serde::{Deserialize, Serialize};
 
@@ -16,13 +16,13 @@ pub struct Axis {
     pub max: f64,
     /// Largest spacing.
     pub spacing: f64,
-    /// Where the nodes are densest.
+    /// Place with the smallest spacing.
     pub focus: Option<f64>,
     /// Spacing at the focus.
     pub focus_spacing: Option<f64>,
     /// Growth of the spacing with distance from the focus.
     pub growth: Option<f64>,
-    /// Equal steps of the last spacing follow `max` until they reach this far.
+    /// End of the equal steps of the last spacing that follow `max`.
     pub extended_to: Option<f64>,
 }
 
@@ -46,7 +46,7 @@ impl Axis {
         }
     }
 
-    /// The nodes, ascending from 0 to `max`, the focus among them, rounded to multiples of 2^-16; then the extension.
+    /// The nodes ascending from 0 to `max`, including the focus, rounded to multiples of 2^-16, and then the extension.
     pub fn nodes(&self) -> Vec<f64> {
         self.padded(0)
     }
@@ -70,13 +70,13 @@ impl Axis {
         nodes
     }
 
-    /// Number of steps beyond `max`, a whole number.
+    /// Number of steps beyond `max`, an integer.
     fn extension(&self, step: f64) -> f64 {
         let steps = (self.extended_to.unwrap_or(0.0) - self.max) / step;
         (steps - 1e-9).ceil().max(0.0)
     }
 
-    /// Number of nodes, found without making those beyond `max`; infinite where neighbours coincide.
+    /// Number of nodes, without computing those beyond `max`; infinite if neighbours coincide.
     ///
     /// `max` and the spacings must be positive.
     pub(crate) fn count(&self) -> f64 {
@@ -88,7 +88,7 @@ impl Axis {
         }
     }
 
-    /// [`Self::nodes`] and `count` more beyond `max`, at the last spacing.
+    /// [`Self::nodes`] and `count` more nodes at the last spacing.
     pub fn padded(&self, count: usize) -> Vec<f64> {
         let mut nodes = self.inner();
         let step = last_step(&nodes);
@@ -97,12 +97,12 @@ impl Axis {
         nodes
     }
 
-    /// The last node served.
+    /// Last place that can be looked up.
     pub fn end(&self) -> f64 {
         self.nodes().last().copied().unwrap_or(self.max)
     }
 
-    /// Distances 0 ..= `length` from the focus, equally spaced in int dx/spacing(x).
+    /// Distances from 0 to `length` from the focus, equally spaced in int dx/spacing(x).
     fn one_side(&self, length: f64) -> Vec<f64> {
         let steps = self.measure(length);
         let count = (steps - 1e-9).ceil().max(1.0);
@@ -137,7 +137,7 @@ impl Axis {
         }
     }
 
-    /// Spacing at the focus, growth, and the distance where the largest spacing is reached.
+    /// Spacing at the focus, growth, and the distance at which the largest spacing is reached.
     fn grading(&self) -> Option<(f64, f64, f64)> {
         let start = self.focus_spacing?;
         let growth = self.growth.filter(|growth| *growth > 0.0)?;
@@ -171,7 +171,7 @@ mod tests {
         let mut axis = Axis::graded(6.0, 0.125, 1.0, 0.02, 0.2);
         axis.extended_to = Some(7.3);
         assert_eq!(axis.count(), axis.nodes().len() as f64);
-        // A focus that rounds to the end: the last step is none.
+        // a focus that rounds to the end, with a last step of zero
         axis.focus = Some(6.0 - 1e-9);
         assert_eq!(axis.count(), f64::INFINITY);
     }

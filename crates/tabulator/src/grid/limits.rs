@@ -1,19 +1,19 @@
-//! Which settings make a grid.
+//! Ranges of the settings of a grid.
 
 use crate::error::BuildError;
 use crate::grid::{Axis, Grid};
 
-/// Bytes that the numbers of a table may take in memory.
+/// Largest memory in bytes for the numbers of a table.
 const MOST_TABLE_BYTES: f64 = 64e9;
 
-/// How often the numbers are in memory while a table is put together.
+/// Number of copies of the numbers in memory while a table is assembled.
 const COPIES: f64 = 3.0;
 
 impl Grid {
-    /// Checks every setting, and that the numbers of the table fit into 64 GB of memory.
+    /// Checks that every setting is in its range, and that the numbers of the table fit into 64 GB of memory.
     ///
     /// # Errors
-    /// [`BuildError::Refused`] naming the first key outside its range.
+    /// [`BuildError::Refused`], which names the first key outside its range.
     pub fn validate(&self) -> Result<(), BuildError> {
         within("cell_width", self.cell_width, [0.005, 1.0], "[0.005, 1]")?;
         within("time_factor", self.time_factor, [1.1, 10.0], "[1.1, 10]")?;
@@ -33,7 +33,12 @@ impl Grid {
         ascending("exact_ratios", exact, [-0.95, 0.495], "[-0.95, 0.495]")?;
         for &nu in exact {
             let new = !ratios.contains(&nu);
-            setting("exact_ratios", nu, new, "ratios that poisson_ratios lacks")?;
+            setting(
+                "exact_ratios",
+                nu,
+                new,
+                "ratios that are not in poisson_ratios",
+            )?;
         }
         axis("r", &self.r)?;
         axis("z", &self.z)?;
@@ -43,7 +48,7 @@ impl Grid {
         setting("size of the table in memory in GB", gigabytes, fits, range)
     }
 
-    /// Memory in bytes that building the table takes, about: its numbers as rows, as a table and as a file.
+    /// Approximate memory in bytes for building the table: its numbers as rows, as a table and as a file.
     ///
     /// # Errors
     /// As [`validate`](Self::validate).
@@ -52,7 +57,7 @@ impl Grid {
         Ok(COPIES * self.bytes()?)
     }
 
-    /// Bytes of the numbers of the table in memory.
+    /// Size in bytes of the numbers of the table in memory.
     pub(crate) fn bytes(&self) -> Result<f64, BuildError> {
         let nodes: usize = self.nodes().iter().map(Vec::len).product();
         let slices = self.poisson_ratios.len() + self.exact_ratios.len();
@@ -95,7 +100,7 @@ fn axis(name: &str, axis: &Axis) -> Result<(), BuildError> {
     )
 }
 
-/// Values within their range, each above the one before.
+/// Checks that values are in their range and ascend strictly.
 fn ascending(
     key: &str,
     values: &[f64],
@@ -110,7 +115,7 @@ fn ascending(
     Ok(())
 }
 
-/// A value within its range.
+/// Checks that a value is in its range.
 pub(crate) fn within(
     key: &str,
     value: f64,

@@ -1,4 +1,4 @@
-//! The settings that a table's numbers depend on: axes (`axis`), ranges (`limits`), grids with names (`presets`).
+//! Settings that determine the numbers of a table: axes (`axis`), ranges (`limits`) and named grids (`presets`).
 
 mod axis;
 mod limits;
@@ -16,30 +16,30 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
 
-/// Lengths of the verification pulses in r0/c1, unless a grid has others.
+/// Default lengths of the verification pulses in r0/c1.
 pub const PULSE_LENGTHS: [f64; 6] = [1.0, 3.0, 10.0, 20.0, 40.0, 100.0];
 
-/// A grid: which Poisson ratios, which points, which times, how exact.
+/// Grid of a table: Poisson ratios, points, times and accuracy.
 ///
-/// Its TOML form is stored in the table and decides the table's id.
+/// Its TOML form is stored in the table and determines the id of the table.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Grid {
-    /// Poisson ratios, one slice each, ascending, in [-0.95, 0.495].
+    /// Poisson ratios of the interpolated slices, ascending, in [-0.95, 0.495].
     pub poisson_ratios: Vec<f64>,
-    /// Poisson ratios that have a slice of their own and take no part in interpolation, ascending.
+    /// Poisson ratios of exact slices, which take no part in interpolation, ascending, in [-0.95, 0.495].
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub exact_ratios: Vec<f64>,
-    /// Width of a time cell in r0/c1 at nu = 0.3; in proportion to the Rayleigh slowness elsewhere.
+    /// Width of a time cell in r0/c1 at nu = 0.3; at other ratios it is proportional to the Rayleigh slowness.
     #[serde(default = "defaults::cell_width")]
     pub cell_width: f64,
-    /// The cells end at this multiple of the last arrival at the farthest point; then the tail takes over.
+    /// End of the time cells as a multiple of the last arrival at the farthest point; the tail follows.
     #[serde(default = "defaults::time_factor")]
     pub time_factor: f64,
-    /// Coefficients of a tail.
+    /// Number of coefficients of a tail, 2 to 20.
     #[serde(default = "defaults::tail_terms")]
     pub tail_terms: usize,
-    /// Interpolation points along each axis: 2, 4, 6 or 8.
+    /// Number of interpolation points along each axis: 2, 4, 6 or 8.
     #[serde(default = "defaults::stencil_points")]
     pub stencil_points: usize,
     /// Tolerance of the exact kernels.
@@ -61,7 +61,7 @@ impl Grid {
     /// Reads a grid from a TOML file.
     ///
     /// # Errors
-    /// [`BuildError`] when the file cannot be read, has unknown keys or values outside their ranges.
+    /// [`BuildError`] if the file cannot be read, has unknown keys, or has values outside their ranges.
     pub fn from_file(path: &Path) -> Result<Self, BuildError> {
         let unreadable = |error| format!("cannot read {}: {error}", path.display());
         let refused = |error| BuildError::refused(Some(path), unreadable(error));
@@ -72,7 +72,7 @@ impl Grid {
     /// Reads a grid from TOML.
     ///
     /// # Errors
-    /// [`BuildError::Refused`] for text that is no grid, with its line, or a value outside its range.
+    /// [`BuildError::Refused`] for text that is not a grid, with the line, or for a value outside its range.
     pub fn parse(text: &str) -> Result<Self, BuildError> {
         let grid: Self = toml::from_str(text).map_err(|error| {
             let before = error.span().map_or(0, |span| span.start).min(text.len());
@@ -85,7 +85,7 @@ impl Grid {
         Ok(grid)
     }
 
-    /// The same with other Poisson ratios, and other largest radii, depths and multiples of the last arrival, where they are
+    /// The grid with other Poisson ratios, largest radius, largest depth and multiple of the last arrival, as far as
     /// given.
     #[must_use]
     pub fn with(mut self, nu: Option<Vec<f64>>, most: [Option<f64>; 3]) -> Self {
@@ -102,15 +102,15 @@ impl Grid {
         self
     }
 
-    /// The resolved settings as TOML.
+    /// All settings, with defaults, as TOML.
     ///
     /// # Errors
-    /// [`BuildError::Unwritable`], which no grid causes.
+    /// [`BuildError::Unwritable`], which does not occur for a grid.
     pub fn to_toml(&self) -> Result<String, BuildError> {
         Ok(toml::to_string(self)?)
     }
 
-    /// Nodes in r and z, with those beyond the largest values served that the stencils there need.
+    /// Nodes in r and z, including those beyond the largest values that the stencils there need.
     pub fn nodes(&self) -> [Vec<f64>; 2] {
         let beyond = self.stencil_points / 2 - 1;
         [self.r.padded(beyond), self.z.padded(beyond)]
@@ -119,7 +119,7 @@ impl Grid {
     /// Number of time cells, the same in every slice.
     ///
     /// # Errors
-    /// [`BuildError::Domain`], which no grid causes.
+    /// [`BuildError::Domain`], which does not occur for a valid grid.
     pub fn cells(&self) -> Result<usize, BuildError> {
         let farthest = self.r.end().hypot(self.z.end()) + 1.0;
         let end = self.time_factor * farthest / Medium::new(0.3)?.rayleigh_speed();
@@ -135,7 +135,7 @@ impl Grid {
         slices
     }
 
-    /// The Poisson ratios in the middle between each slice that interpolates and the next.
+    /// The Poisson ratios midway between neighbouring interpolated slices.
     ///
     /// # Errors
     /// [`BuildError::Domain`] for a ratio outside (-1, 0.5).
@@ -149,9 +149,9 @@ impl Grid {
     }
 }
 
-/// The text of a regular file: a pipe would wait for its other end, a device never ends.
+/// The text of a regular file; a pipe would block, and a device may never end.
 fn read(path: &Path) -> io::Result<String> {
-    /// Bytes at most.
+    /// Largest size in bytes.
     const MOST_FILE_BYTES: u64 = 1 << 20;
     if !std::fs::metadata(path)?.is_file() {
         return Err(io::Error::other("it is not a regular file"));
@@ -179,7 +179,7 @@ pub(crate) fn bisect(mut low: f64, mut high: f64, wanted: f64) -> Result<f64, Bu
     Ok(high)
 }
 
-/// Settings that a grid file may leave out.
+/// Defaults of the optional settings of a grid file.
 pub(crate) mod defaults {
     pub(crate) fn cell_width() -> f64 {
         0.1

@@ -1,17 +1,17 @@
-//! Grids with names.
+//! Named grids.
 
 use crate::grid::{Axis, Grid, defaults};
 
-/// Names that [`Grid::preset`] knows.
+/// Names for [`Grid::preset`].
 pub const PRESETS: [&str; 3] = ["demo", "standard", "wide"];
 
-/// Poisson ratios at equal steps of [`lookup::ratio_coordinate`], to three decimals.
+/// Poisson ratios at equal steps of [`lookup::ratio_coordinate`], rounded to three decimals.
 const RATIOS: [f64; 11] = [
     0.0, 0.099, 0.176, 0.237, 0.286, 0.327, 0.361, 0.389, 0.413, 0.433, 0.45,
 ];
 
 impl Grid {
-    /// One slice at nu = 0.30, r and z to 6 r0: built in seconds.
+    /// One slice at nu = 0.30, r and z to 6 r0; takes seconds.
     pub fn demo() -> Self {
         Self {
             poisson_ratios: vec![0.3],
@@ -27,7 +27,7 @@ impl Grid {
         }
     }
 
-    /// Every Poisson ratio from 0 to 0.45, r and z to 6 r0: minutes.
+    /// Poisson ratios from 0 to 0.45, r and z to 6 r0; takes minutes.
     pub fn standard() -> Self {
         Self {
             poisson_ratios: RATIOS.to_vec(),
@@ -38,7 +38,7 @@ impl Grid {
         }
     }
 
-    /// [`Self::standard`] to 12 r0, with fewer nodes to a length.
+    /// As [`Self::standard`], but with r and z to 12 r0 and a larger spacing.
     pub fn wide() -> Self {
         Self {
             r: Axis::graded(12.0, 0.15, 1.0, 0.04, 0.12),
@@ -47,7 +47,7 @@ impl Grid {
         }
     }
 
-    /// The preset called `name`.
+    /// The preset of a name, if there is one.
     pub fn preset(name: &str) -> Option<Self> {
         match name {
             "demo" => Some(Self::demo()),

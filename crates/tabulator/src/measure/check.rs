@@ -1,4 +1,4 @@
-//! Whether a finished table is what it says: checksums, completeness, finiteness, and a sample computed again.
+//! Check of a finished table: checksums, completeness, finite values, and a recomputed sample.
 
 use crate::error::BuildError;
 use crate::grid::Grid;
@@ -8,40 +8,40 @@ use lookup::{content_hash, damaged_patches, schema};
 use rayon::prelude::*;
 use std::path::Path;
 
-/// What [`check_table`] found.
+/// Result of [`check_table`].
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct CheckReport {
-    /// Nodes computed again.
+    /// Number of recomputed nodes.
     pub nodes_checked: usize,
-    /// Largest relative difference of averages and tails among them.
+    /// Largest relative difference of their averages and tails.
     pub largest_difference: f64,
-    /// Whether the content is that of the stated SHA-256.
+    /// Whether the content has the stated SHA-256.
     pub hash_right: bool,
-    /// Numbers beyond the tolerance or not finite: each where it is, and what is wrong with it.
+    /// Places of numbers that differ by more than the tolerance or are not finite, each with a description.
     pub bad: Vec<String>,
-    /// Where nodes cannot be read; nothing else is then checked.
+    /// Places of nodes that cannot be read; if there are any, nothing else is checked.
     pub damaged: Vec<String>,
 }
 
 impl CheckReport {
-    /// Whether nothing is wrong.
+    /// Whether the check found no error.
     pub fn is_good(&self) -> bool {
         self.hash_right && self.bad.is_empty() && self.damaged.is_empty()
     }
 }
 
-/// Largest difference of moments, which are computed and rounded to about 1e-5, and at fronts within 30 times that.
+/// Largest allowed difference of moments: they are computed and rounded to about 1e-5, and at fronts to 30 times that.
 const ALLOWED_OF_MOMENTS: f64 = 4e-4;
-/// Of tables with numbers of revision 1, most of whose moments followed from five averages.
+/// Largest allowed difference of moments in tables of revision 1, most of which were derived from five averages.
 const ALLOWED_OF_FIRST_MOMENTS: f64 = 5e-3;
 
-/// Reads the table at `path`, compares its checksums, validates it, and computes `sample` nodes again.
+/// Reads the table at `path`, compares its checksums, validates it, and recomputes `sample` nodes.
 ///
-/// `seed` picks the nodes; the same seed picks the same ones.
+/// `seed` determines the selected nodes.
 ///
 /// # Errors
-/// [`BuildError`] when the file cannot be read or accepted, its settings do not fit, or the exact kernels
-/// fail. Nodes with wrong values, or that a checksum of the file gives away, are not an error but a finding.
+/// [`BuildError`] if the file cannot be read or validated, its settings do not fit, or the exact kernels fail. Nodes with wrong
+/// values or wrong checksums are part of the report, not an error.
 pub fn check_table(path: &Path, sample: usize, seed: u64) -> Result<CheckReport, BuildError> {
     let content = match lookup::read(path) {
         Ok(content) => content,
@@ -75,7 +75,7 @@ pub fn check_table(path: &Path, sample: usize, seed: u64) -> Result<CheckReport,
     let total = nodes * content.slices.len();
     let plan = |slice: &Slice| grid.point(slice.poisson_ratio);
     let plans: Vec<_> = content.slices.iter().map(plan).collect::<Result<_, _>>()?;
-    // of averages and tails, what single precision and the kernel's tolerance explain
+    // averages and tails may differ by the rounding to single precision and the tolerance of the kernels
     let limit = 2e-7 + 100.0 * grid.tolerance;
     let found: Vec<(f64, Vec<String>)> = picks(total, sample, seed)
         .into_par_iter()
@@ -101,13 +101,13 @@ fn place(content: &Content, node: usize) -> [f64; 2] {
     [content.r[node / depths], content.z[node % depths]]
 }
 
-/// A node of a slice in words.
+/// Description of a node of a slice.
 fn named(content: &Content, slice: &Slice, node: usize) -> String {
     let [r, z] = place(content, node);
     format!("nu = {}, r/r0 = {r}, z/r0 = {z}", slice.poisson_ratio)
 }
 
-/// Nodes and fields with numbers that are infinite or NaN.
+/// Descriptions of nodes and fields with infinite numbers or NaN.
 fn not_finite(content: &Content) -> Vec<String> {
     let nodes = content.r.len() * content.z.len();
     let mut bad = Vec::new();
@@ -127,7 +127,8 @@ fn not_finite(content: &Content) -> Vec<String> {
     bad
 }
 
-/// The largest difference of averages and tails of a node from the exact ones, and all that are not allowed.
+/// The largest difference of the averages and tails of a node from the exact ones, and descriptions of those above the
+/// limit.
 fn compare(
     content: &Content,
     slice: &Slice,
@@ -169,7 +170,7 @@ fn compare(
     (largest, bad)
 }
 
-/// Whether the axes and cells are those of the settings.
+/// Checks that axes and cells match the settings.
 fn same_axes(grid: &Grid, cells: usize, content: &Content) -> Result<(), ContentError> {
     let [r, z] = grid.nodes();
     let ratios: Vec<f64> = grid.slices().iter().map(|slice| slice.0).collect();
@@ -185,12 +186,12 @@ fn same_axes(grid: &Grid, cells: usize, content: &Content) -> Result<(), Content
     Ok(())
 }
 
-/// Whether a list is that of the settings.
+/// Checks that a list matches the settings.
 fn same(item: &str, needed: &[f64], found: &[f64]) -> Result<(), ContentError> {
     same_length(item, needed.len(), found.len())?;
     match (0..found.len()).find(|&i| needed[i] != found[i]) {
         Some(i) => Err(ContentError::Wrong(format!(
-            "{item}[{i}] = {}, allowed: the value that the settings say",
+            "{item}[{i}] = {}, allowed: the value of the settings",
             found[i]
         ))),
         None => Ok(()),
@@ -205,7 +206,7 @@ fn same_length(item: &str, needed: usize, found: usize) -> Result<(), ContentErr
     Err(ContentError::Wrong(wrong))
 }
 
-/// `count` different numbers below `total` in ascending order, all of them if there are no more.
+/// `count` different numbers below `total`, or all if there are fewer, in ascending order.
 fn picks(total: usize, count: usize, seed: u64) -> Vec<usize> {
     if count >= total {
         return (0..total).collect();

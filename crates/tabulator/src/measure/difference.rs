@@ -1,8 +1,8 @@
-//! How two tables differ.
+//! Comparison of two tables.
 
 use lookup::{Content, Slice};
 
-/// Everything in which `first` and `second` differ, a line each, apart from creation time and software version.
+/// Descriptions of all differences of `first` and `second`, one line each, except creation time and software version.
 pub fn differences<'a>(first: &'a Content, second: &'a Content) -> Vec<String> {
     let mut found = Vec::new();
     for (name, same) in [

@@ -1,5 +1,5 @@
-//! How good a table is: the spacing that an error needs (`refine`), the stored numbers compared with the exact kernels
-//! (`check`), and one table compared with another (`difference`).
+//! Accuracy of tables: the spacing for a given error (`refine`), comparison with the exact kernels (`check`), and
+//! comparison of two tables (`difference`).
 
 pub(crate) mod check;
 pub(crate) mod difference;

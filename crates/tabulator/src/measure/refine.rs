@@ -1,4 +1,4 @@
-//! Chooses the spacing of a grid so that errors off it stay below a tolerance.
+//! Choice of the spacing of a grid so that interpolation errors stay below a tolerance.
 
 use crate::assemble::assemble;
 use crate::error::BuildError;
@@ -7,18 +7,18 @@ use crate::progress::Progress;
 use crate::rows::TableWork;
 use std::collections::HashMap;
 
-/// Trials at most.
+/// Largest number of trials.
 const MOST_TRIALS: usize = 8;
 
-/// The grid whose errors for pulses `pulse_length` long (r0/c1) are below `tolerance`, and a line about each
-/// trial that led to it.
+/// The grid whose errors for pulses of length `pulse_length` in r0/c1 are below `tolerance`, and a line about each
+/// trial.
 ///
-/// All spacings of `grid` are scaled alike, and the pulse joins those that the table is verified with. A trial is
-/// the whole slice with the largest Poisson ratio, whose waves are the shortest, measured as the table will be.
+/// All spacings of `grid` are scaled by the same factor, and the pulse is added to the verification pulses. A trial is
+/// the whole slice with the largest Poisson ratio, which has the shortest waves, verified as in the table.
 ///
 /// # Errors
-/// [`BuildError::Refused`] for a tolerance outside [1e-7, 0.1] or a length outside [0.5, 1000], or when no spacing
-/// allowed is fine enough, or what the exact kernels say.
+/// [`BuildError::Refused`] for a tolerance outside [1e-7, 0.1] or a length outside [0.5, 1000], or if no allowed spacing is
+/// fine enough; other [`BuildError`]s of the exact kernels.
 pub fn refine(
     grid: &Grid,
     tolerance: f64,
@@ -52,7 +52,7 @@ pub fn refine(
         if error <= tolerance {
             return Ok((scaled, trials));
         }
-        // Towards the spacing that the order of the stencil promises, and a little below it.
+        // the spacing expected from the order of the stencil, and a little less
         let order = grid.stencil_points as f64;
         factor *= (0.95 * (tolerance / error).powf(1.0 / order)).clamp(0.5, 0.95);
     }

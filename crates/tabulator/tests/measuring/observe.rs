@@ -20,7 +20,7 @@ pub(crate) struct Observation {
     pub(crate) peak: [f64; 6],
     /// Largest difference in time between looked-up and exact response.
     pub(crate) error: [f64; 6],
-    /// What [`Table::error`] says.
+    /// Estimate of [`Table::error`].
     pub(crate) estimate: [f64; 6],
 }
 

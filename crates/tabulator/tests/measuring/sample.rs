@@ -21,7 +21,7 @@ pub(crate) enum Storage {
 /// Errors over peaks in time at sampled meshes of the slice with the largest Poisson ratio, sorted, for each length.
 ///
 /// # Errors
-/// What the exact kernels say.
+/// Values of the exact kernels.
 pub(crate) fn sample_errors(
     grid: &Grid,
     pulse_lengths: &[f64],

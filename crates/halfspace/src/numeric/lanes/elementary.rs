@@ -1,6 +1,6 @@
-//! The functions of the real numbers of a register: angle, logarithm and exponential are ours.
+//! Functions of the real numbers in a register; angle, logarithm and exponential are implemented here.
 //!
-//! The polynomials are those of fdlibm (Sun Microsystems, 1993): within two units in the last place.
+//! The polynomials are those of fdlibm (Sun Microsystems, 1993); errors are below two units in the last place.
 
 use super::{Lanes, Pair};
 use crate::numeric::scalar::{Real, Scalar};
@@ -102,7 +102,7 @@ impl<S: Simd> Real for Lanes<S> {
         self.max(self.constant(least))
     }
 
-    /// The angle of the vector (`x`, self), in [-pi, pi]; of nothing it is zero.
+    /// The angle of the vector (`x`, self), in [-pi, pi]; zero for the zero vector.
     #[inline(always)]
     fn angle_over(self, x: Self) -> Self {
         const TAN_PI_8: f64 = 0.414_213_562_373_095_03;
@@ -111,7 +111,7 @@ impl<S: Simd> Real for Lanes<S> {
         let (across, along) = (self.abs(), x.abs());
         let small = across.min(along);
         let large = across.max(along).at_least(f64::MIN_POSITIVE);
-        // atan(small/large), or pi/4 less atan of the rest
+        // atan(small/large), or pi/4 minus atan of the remainder
         let limit = large * TAN_PI_8;
         let t = small.where_below(limit, small, small - large)
             / small.where_below(limit, large, small + large);

@@ -1,9 +1,9 @@
-//! Real or complex numbers side by side in vector registers, with the functions of the closed forms.
+//! Real or complex numbers in vector registers, with the functions of the closed forms.
 //!
-//! A register holds four numbers or eight. No operation is fused, and sums are those of blocks of eight, so that every
-//! machine finds the same bits.
+//! A register contains four or eight numbers. No operation is fused, and sums are those of blocks of eight, so that
+//! results are bit-identical on every machine.
 
-/// Operators between numbers side by side, each by its formula.
+/// Operators between registers, each by its formula.
 macro_rules! operators {
     ($($numbers:ident, $operation:ident<$other:ty>, $method:ident: |$a:ident, $b:ident| $formula:expr;)*) => {$(
         impl<S: Simd> $operation<$other> for $numbers<S> {
@@ -29,7 +29,7 @@ use crate::numeric::scalar::Scalar;
 use pulp::{Simd, WithSimd};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// Numbers are kept in blocks of so many, which fill one register or several.
+/// Number of numbers in a block, which fills one register or several.
 pub(crate) const WIDTH: usize = 8;
 
 /// Runs `work` with the machine's vector registers, or without any.
@@ -71,7 +71,7 @@ impl<S: Simd> Lanes<S> {
         Self::of(simd, simd.splat_f64s(value))
     }
 
-    /// The first of two numbers, and the second in all other places.
+    /// The first of two numbers in the first place, and the second in all others.
     #[inline(always)]
     pub(crate) fn two(simd: S, [first, second]: [f64; 2]) -> Self {
         let mut block = [second; WIDTH];

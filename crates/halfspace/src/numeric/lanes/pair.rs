@@ -1,4 +1,4 @@
-//! Complex numbers side by side.
+//! Complex numbers in registers.
 
 use super::Lanes;
 use crate::numeric::scalar::{Complex, Scalar};

@@ -1,4 +1,4 @@
-//! Points of a complex plane, of which a function is taken for several at a time.
+//! Points in the complex plane; functions are evaluated at several points at a time.
 
 use super::{Lanes, Pair, WIDTH, dispatch};
 use crate::numeric::scalar::{Complex, Real, Scalar};
@@ -6,7 +6,7 @@ use arrayvec::ArrayVec;
 use num_complex::Complex64;
 use pulp::{Simd, WithSimd};
 
-/// Most blocks of points: each of 16 fronts and 10 fixed points may be a cut too.
+/// Largest number of blocks of points: each of 16 fronts and 10 fixed points may be a cut too.
 const BLOCKS: usize = 8;
 
 /// A function of a complex number.
@@ -14,16 +14,16 @@ pub(crate) trait ComplexMap {
     fn at<C: Complex>(&self, v: C) -> C;
 }
 
-/// Points of a complex plane, real and imaginary parts side by side.
+/// Points in the complex plane, with separate real and imaginary parts.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Points {
-    /// The last is filled with what is nowhere.
+    /// The last block is filled with [`Self::NOWHERE`].
     blocks: ArrayVec<[[f64; WIDTH]; 2], BLOCKS>,
     count: usize,
 }
 
 impl Points {
-    /// Real and imaginary part of what is too far to matter, and of what fills the last block.
+    /// Real and imaginary part of points that are too far to matter, and of those that fill the last block.
     pub(crate) const NOWHERE: f64 = 1e12;
 
     #[inline]
@@ -45,7 +45,7 @@ impl Points {
             .map(|(&re, &im)| Complex64::new(re, im))
     }
 
-    /// Becomes the points of another.
+    /// Copies the points of another.
     #[inline]
     pub(crate) fn copy(&mut self, points: &Self) {
         self.blocks.clone_from(&points.blocks);
@@ -58,7 +58,7 @@ impl Points {
         dispatch(Mapped { points: self, map });
     }
 
-    /// The same, one by one.
+    /// Replaces each point, one by one.
     pub(crate) fn replace(&mut self, map: impl Fn(Complex64) -> Complex64) {
         let parts = self
             .blocks
@@ -101,7 +101,7 @@ pub(crate) fn half_axes<T: Real>(axis: T) -> T {
     half + (half * half - 1.0).sqrt().at_least(1e-9)
 }
 
-/// x to a whole power.
+/// x to an integer power.
 #[inline(always)]
 pub(crate) fn power<T: Scalar>(mut x: T, mut exponent: u32) -> T {
     let mut product = x.constant(1.0);

@@ -1,6 +1,7 @@
-//! Times the calls that the Python package wraps, for scripts/time-python: `calls TABLE.h5 WHAT` prints seconds.
+//! Times the library calls that the Python package wraps, for `scripts/time-python`.
 //!
-//! WHAT is `impact`, a force-only scene from its text; `trace`, 10,000 points of the table; or `sweep`, 200,000 contacts.
+//! `calls TABLE.h5 CALL` prints the median time in seconds. CALL is `impact`, a force-only scene from its text; `trace`,
+//! 10,000 points of the table; or `sweep`, 200,000 contacts.
 
 use formats::sweep::{Spec, run_rows};
 use formats::{Existing, parse_scene};
@@ -37,7 +38,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Seconds of so many calls after a first one, ascending.
+/// Times in seconds of `count` calls after a first one, in ascending order.
 fn repeated(
     count: usize,
     call: impl Fn() -> Result<(), Box<dyn Error>>,
