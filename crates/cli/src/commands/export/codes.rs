@@ -1,4 +1,4 @@
-//! Inputs of LAMMPS and YADE: the numbers of a case and its laws, and scripts that take them.
+//! Inputs of LAMMPS and YADE: the numbers of a case and its laws, and scripts that use them.
 
 use crate::commands::export::case::Case;
 use crate::commands::export::law::{Laws, PairLaw};
@@ -6,17 +6,17 @@ use crate::commands::export::law::{Laws, PairLaw};
 /// Hertz's contact time over (m^2/(E*^2 R v))^(1/5).
 const HERTZ_TIME: f64 = 2.868;
 
-/// Steps over the shortest contact that the balls of a file can have: more change the loss by less than 1e-3 of itself
+/// Time steps per shortest contact between balls of a file. More steps change the loss by a relative 1e-3 at most
 /// (`scripts/check-exports`).
 const LAMMPS_STEPS: f64 = 250.0;
 const YADE_STEPS: f64 = 2500.0;
 
-/// Steps over the shortest contact below which a run stops: with these the loss of the dashpot on the area is within 2 %
-/// (`scripts/check-exports`), with a fifth to a tenth of them a ball gains energy. YADE's comes a step late and needs more.
+/// Steps per shortest contact below which a run stops. With this number the loss of the area dashpot is accurate to 2 %
+/// (`scripts/check-exports`); with 1/10 to 1/5 of it a ball gains energy. YADE's damping lags by a step and needs more.
 const LEAST_LAMMPS_STEPS: f64 = 25.0;
 const LEAST_YADE_STEPS: f64 = 100.0;
 
-/// An input of LAMMPS, whose atoms of type 1 are of the striker's material and those of type 2 of the target's.
+/// An input of LAMMPS. Atoms of type 1 are of the striker's material, atoms of type 2 of the target's.
 pub(super) fn lammps(case: &Case, laws: &Laws) -> String {
     let mut text = String::new();
     let mut variable = |name: &str, value: f64, what: &str| {
@@ -113,8 +113,8 @@ pair_coeff  1 2 hertz $(4/3*v_ES) ${E0} tangential linear_nohistory 0 0 damping 
 pair_coeff  2 2 hertz $(4/3*v_ES2) ${E02} tangential linear_nohistory 0 0 damping coeff_restitution
 ";
 
-/// The dashpot on the contact's area needs no memory: it is a force on each ball above the plane z = 0. It stands before
-/// the stock block, which it makes a comment.
+/// The area dashpot needs no memory: it is a force on each ball above the plane z = 0. It precedes the stock block,
+/// which its last line turns into a comment.
 const DASHPOT: &str = "
 # the block below z = 0, for balls of any radius at any velocity below yield; d is the depth, fz not below zero
 variable    d  atom \"(z<radius)*(radius-z)\"
@@ -127,8 +127,8 @@ fix         block all addforce 0 0 v_fz
 const BLOCK: &str = "fix block all wall/gran granular hertz $(4/3*v_ES) ${E0} tangential linear_nohistory 0 0 damping coeff_restitution zplane 0 NULL
 ";
 
-/// The shortest contact has the lightest ball and the highest velocity: m >= m1/2, R <= R1 and v <= V + 2 max v in Hertz's
-/// contact time, which no pair of balls in the file falls below.
+/// The shortest contact has the lightest ball and the highest velocity. With m >= m1/2, R <= R1 and v <= V + 2 max v,
+/// Hertz's contact time is a lower bound for all pairs of balls in the file.
 const RUN: &str = "
 # time step: by the shortest contact that the balls here can have, which goes with the radius; a later, smaller or faster
 # ball that is left with too few steps stops the run
