@@ -412,7 +412,7 @@ fn chosen_columns_and_single_precision_are_kept_by_parts() {
         here,
         "sweep s.toml --columns restitutions -o no.h5",
         2,
-        "the column = \"restitutions\" is not one of",
+        "columns = \"restitutions\" is not one of",
     );
 }
 

@@ -66,7 +66,7 @@ impl WrittenResults {
             .find(|name| !known().any(|known| known == *name))
         {
             let known: Vec<&str> = known().collect();
-            let key = "the column".to_owned();
+            let key = "columns".to_owned();
             return Err(SceneError::unknown_choice(key, name, &known.join(", ")));
         }
         let wanted = |place: &usize| names.clone().any(|name| name == self.known[*place].name);
