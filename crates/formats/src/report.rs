@@ -76,7 +76,9 @@ pub fn infer(
 ) -> Result<(Inferred, Value), InferError> {
     let refused = |what: String| Err(InferError::Given(what));
     let Some(strike) = scene.strike() else {
-        return refused("a force record has no rebound: replace [force] by a [striker] in the scene".to_owned());
+        return refused(
+            "a force record has no rebound: replace [force] by a [striker] in the scene".to_owned(),
+        );
     };
     let mut velocity_m_s = strike.velocity_m_s;
     let (measure, value) = match (Measure::named(name), values) {
@@ -90,7 +92,12 @@ pub fn infer(
             error *= (1.0 + (second / first).powi(2)).sqrt() / first;
             (Measure::Restitution, second / first)
         }
-        _ => return refused(format!("{name} has {} times, but two are required", values.len())),
+        _ => {
+            return refused(format!(
+                "{name} has {} times, but two are required",
+                values.len()
+            ));
+        }
     };
     let positive = |x: f64| x > 0.0 && x.is_finite();
     if !(positive(value) && positive(velocity_m_s) && error >= 0.0 && error.is_finite()) {

@@ -25,7 +25,10 @@ pub enum ImpactError {
     #[error("{0}")]
     Table(AnyError),
     /// A point is outside the table.
-    #[error("probe r = {r_m} m, z = {z_m} m with disc radius {disc_radius_m} m: {source}")]
+    #[error(
+        "probe r = {} m, z = {} m with disc radius {} m: {source}",
+        fault::rounded(*r_m), fault::rounded(*z_m), fault::rounded(*disc_radius_m)
+    )]
     OutsideTable {
         /// Distance from the axis in m.
         r_m: f64,
@@ -37,7 +40,10 @@ pub enum ImpactError {
         source: LookupError,
     },
     /// A point is outside the half-space.
-    #[error("probe r = {r_m} m, z = {z_m} m: {source}")]
+    #[error(
+        "probe r = {} m, z = {} m: {source}",
+        fault::rounded(*r_m), fault::rounded(*z_m)
+    )]
     OutsideBlock {
         /// Distance from the axis in m.
         r_m: f64,
@@ -48,7 +54,7 @@ pub enum ImpactError {
     },
     /// More samples than memory should hold.
     #[error(
-        "the output needs {samples:.3e} samples of {step_s:.3e} s, more than {limit}: give a larger step_s or a smaller duration_s"
+        "the output needs {samples:.3e} samples of {step_s:.3e} s, more than {limit}: use a larger step_s or a smaller duration_s"
     )]
     TooManySamples {
         /// Samples needed.
@@ -60,7 +66,7 @@ pub enum ImpactError {
     },
     /// More memory than there is.
     #[error(
-        "the scene needs about {needed_gb:.3} GB of memory, more than the {limit_gb:.3} GB allowed ({points} points, {} samples, {frames} frames): ask for {change}",
+        "the scene needs about {needed_gb:.3} GB of memory, more than the {limit_gb:.3} GB allowed ({points} points, {} samples, {frames} frames): use {change}",
         fault::number(*samples)
     )]
     TooMuchMemory {
@@ -79,7 +85,7 @@ pub enum ImpactError {
     },
     /// A frame of the section after the output.
     #[error(
-        "map.times_s = {} is outside [0, {}], the times of the output: give output.duration_s",
+        "map.times_s = {} is outside [0, {}], the times of the output: set output.duration_s",
         fault::number(*wanted_s),
         fault::number(*end_s)
     )]
@@ -90,14 +96,14 @@ pub enum ImpactError {
         end_s: f64,
     },
     /// Whoever asked for the scene has seen the forecast and does not want it.
-    #[error("the scene was given up before it was begun: it takes about {seconds:.1e} s")]
+    #[error("the scene was cancelled before it began: it would take about {seconds:.1e} s")]
     GivenUp {
         /// Time in s.
         seconds: f64,
     },
     /// A result that is no number.
     #[error(
-        "{quantity} comes out as {value}: the numbers of the scene are beyond what floating-point arithmetic holds; check their units"
+        "{quantity} is {value}: the numbers of the scene exceed the range of floating-point numbers; check their units"
     )]
     NotFinite {
         /// Which result.
@@ -109,11 +115,11 @@ pub enum ImpactError {
     #[error(transparent)]
     Domain(#[from] DomainError),
     /// A record without the disc that it loads.
-    #[error("a force record needs the radius of the disc that it loads: set disc_radius_m")]
+    #[error("a force record requires the radius of the loaded disc: set disc_radius_m")]
     NoDisc,
     /// A disc so large beside the record that only rounding would be left.
     #[error(
-        "disc_radius_m = {} is outside (0, {largest_m:.3e}]: waves cross too little of a larger disc while the record lasts",
+        "disc_radius_m = {} is outside (0, {largest_m:.3e}]: in a larger disc waves would cross only a tiny part during the record",
         fault::number(*radius_m)
     )]
     TooWide {

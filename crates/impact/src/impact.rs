@@ -154,7 +154,7 @@ impl Impact {
         let elastic = results.restitution;
         ((elastic - restitution).abs() >= TOLD).then(|| {
             format!(
-                "the contact yields, which plasticity = \"none\" ignores: restitution {elastic:.3}, but {restitution:.3} with \"{}\"",
+                "the contact yields, which plasticity = \"none\" ignores: its restitution is {elastic:.3}, but {restitution:.3} with \"{}\"",
                 plasticity.name()
             )
         })
@@ -182,7 +182,7 @@ impl Impact {
         let change = run.peak_force_n / force_n - 1.0;
         (change.abs() > NOTABLE).then(|| {
             format!(
-                "the full static share counts the static deflection of the half-space twice, in Hertz's law and in the disc: the peak force is {:+.0} % off that of a contact that follows the load, {force_n:.4e} N",
+                "the full static share includes the static deflection of the half-space twice, in Hertz's law and in the disc: the peak force deviates by {:+.0} % from {force_n:.4e} N, that of a contact radius that follows the load",
                 100.0 * change
             )
         })

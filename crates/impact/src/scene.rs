@@ -103,7 +103,7 @@ impl Scene {
         let found: Vec<String> = probes.into_iter().chain(section).collect();
         (!found.is_empty()).then(|| {
             format!(
-                "within {near_m:.3e} m, two contact radii, stresses are not those of a yielding block: {}",
+                "within {near_m:.3e} m of the contact (two contact radii) the stresses ignore the yielding of the block: {}",
                 found.join(" and ")
             )
         })

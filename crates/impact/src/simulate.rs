@@ -131,7 +131,7 @@ fn of_record(
     let relative_error = left_n / record.largest_n().max(f64::MIN_POSITIVE);
     if relative_error > scene.settings.tolerance {
         warnings.push(format!(
-            "on the output's step of {:.3e} s, the cells miss the force by up to {left_n:.3e} N, {relative_error:.1e} of its largest: the errors of the fields count it, a smaller step_s lowers it",
+            "with the output step of {:.3e} s the force is approximated to {left_n:.3e} N, a relative error of {relative_error:.1e}, which the errors of the fields include: use a smaller step_s to reduce it",
             grid.step_s
         ));
     }
@@ -158,7 +158,7 @@ fn rates_of_jumps(scene: &Scene, record: &ForceRecord, step_s: f64) -> Option<St
     let counts = scene.rates() > 0 && jump_n > scene.settings.tolerance * record.largest_n();
     counts.then(|| {
         format!(
-            "the force jumps by up to {jump_n} N: velocities and accelerations are means over the output's step of {step_s:.3e} s, and where fronts of the jump pass they grow without limit as the step falls"
+            "the force jumps by up to {jump_n} N: velocities and accelerations are means over the output step of {step_s:.3e} s, and at the wave fronts of the jump they grow without limit as the step decreases"
         )
     })
 }
@@ -187,7 +187,7 @@ fn begin<'e>(
     let time_s: Vec<f64> = grid.times_s().collect();
     if grid.step_s > grid.wanted_s {
         warnings.push(format!(
-                "the output's step is {:.3e} s, that of the table's cells, where {:.3e} s or less was wanted",
+                "the output step is {:.3e} s, the width of the table's time cells, although at most {:.3e} s was requested",
                 grid.step_s, grid.wanted_s
             ));
     }

@@ -197,7 +197,7 @@ pub(crate) fn choose_source(
         table.map(KernelSource::Table).map_err(ImpactError::Table)
     };
     let (tables, cost_s, before) = match kernels {
-        KernelChoice::Direct => return direct("asked for, or no table is given".to_owned()),
+        KernelChoice::Direct => return direct("requested, or no table given".to_owned()),
         KernelChoice::Table(tables) => return Ok(Some((load(tables)?, "asked for".to_owned()))),
         KernelChoice::Within(tables) => (tables, 0.0, Default::default()),
         KernelChoice::Auto(tables) => {

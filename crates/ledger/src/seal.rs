@@ -165,8 +165,7 @@ fn read_seal(file: &mut std::fs::File, whole: u64) -> Result<Option<Vec<[u8; DIG
 
 fn changed(piece: usize) -> io::Error {
     let (start, end) = (piece * PIECE, (piece + 1) * PIECE);
-    let what =
-        format!("its bytes from {start} to {end} were changed after it was written");
+    let what = format!("its bytes from {start} to {end} were changed after it was written");
     io::Error::new(ErrorKind::InvalidData, what)
 }
 

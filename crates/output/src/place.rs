@@ -134,8 +134,9 @@ pub fn apart(outputs: &[&Path], inputs: &[Role]) -> Result<(), OutputError> {
         if let Some((role, input)) = inputs.iter().find(|(_, input)| identity(input) == this) {
             let other = Some(input).filter(|input| *input != output);
             let other = other.map_or(String::new(), |input| format!(" as {}", input.display()));
-            let reason =
-                format!("is {role} that this command reads{other}: choose another name for the output");
+            let reason = format!(
+                "is {role} that this command reads{other}: choose another name for the output"
+            );
             return Err(OutputError::Refused(output.to_owned(), reason));
         }
         seen.push((output, this));

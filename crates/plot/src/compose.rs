@@ -22,7 +22,9 @@ pub fn compose(paths: &[PathBuf], request: &Request) -> Drawn<Figure> {
             names => names.join(", "),
         };
         let path = paths[0].display();
-        let sentence = format!("{path} is {file}, for which the picture {kind} does not exist; choose one of {allowed}");
+        let sentence = format!(
+            "{path} is {file}, for which the picture {kind} does not exist; choose one of {allowed}"
+        );
         Err(PlotError::refused(Some(&paths[0]), sentence))
     };
     if let Some(kind) = request.kind.filter(|kind| kind.file() != file) {

@@ -39,7 +39,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let table = folder.join("kernels.h5");
     if !table.exists() {
         let shown = table.display();
-        say(format!("building the demo kernel table {shown} (only the first time)"));
+        say(format!(
+            "building the demo kernel table {shown} (only the first time)"
+        ));
         let summary = build(&Grid::demo(), &table, &Bar::new())?;
         let (points, took_s, bytes) = (summary.points, summary.wall_s, summary.bytes);
         say(format!("{points} points in {took_s:.1} s, {bytes} bytes"));

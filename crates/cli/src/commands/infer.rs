@@ -105,8 +105,7 @@ impl Display for InferReport {
             ("peak force", si(results.peak_force_n, "N")),
         ];
         if found.elastic {
-            let told =
-                "the measured value is that of an elastic contact: any higher yield pressure gives it";
+            let told = "the measured value is that of an elastic contact: any higher yield pressure gives it";
             text.push(("note", told.to_owned()));
         }
         if let Some(over) = results

@@ -102,7 +102,11 @@ fn ending(path: &Path) -> Result<String, Failure> {
     let ending = path.extension().map(|e| e.to_string_lossy().to_lowercase());
     let known = ending.filter(|end| ["svg", "png", "pdf", "gif"].contains(&end.as_str()));
     let path = path.display();
-    let otherwise = || Failure::input(format!("{path} does not have the extension .svg, .png, .pdf or .gif"));
+    let otherwise = || {
+        Failure::input(format!(
+            "{path} does not have the extension .svg, .png, .pdf or .gif"
+        ))
+    };
     known.ok_or_else(otherwise)
 }
 

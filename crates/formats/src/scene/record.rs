@@ -341,8 +341,9 @@ fn from_text(text: &str, reading: &Reading) -> Result<Rows, (usize, String)> {
             return Err((line, not_ascending(&wanted[0], t, before)));
         }
         if time_s.len() == MOST_RECORD_SAMPLES {
-            let reason =
-                format!("there are more than {MOST_RECORD_SAMPLES} rows: cut or decimate the record");
+            let reason = format!(
+                "there are more than {MOST_RECORD_SAMPLES} rows: cut or decimate the record"
+            );
             return Err((line, reason));
         }
         time_s.push(t);
@@ -378,7 +379,8 @@ fn no_header<'a>(
     }
     let names = wanted.join(",");
     let Some(row) = row else {
-        let reason = format!("no header \"{names}\", and no row with two numbers: is this a force record?");
+        let reason =
+            format!("no header \"{names}\", and no row with two numbers: is this a force record?");
         return (1, reason);
     };
     let count = fields(row.1).len();
@@ -451,7 +453,9 @@ fn samples(root: &Group, name: &str) -> Result<Vec<f64>, String> {
     let data = root.dataset(name).map_err(failed)?;
     let (dimensions, count) = (data.shape().len(), data.count());
     if dimensions != 1 {
-        return Err(format!("/{name} has {dimensions} dimensions, but 1 is required"));
+        return Err(format!(
+            "/{name} has {dimensions} dimensions, but 1 is required"
+        ));
     }
     if count > MOST_RECORD_SAMPLES {
         return Err(format!(

@@ -368,7 +368,8 @@ fn text_of(source: impl Read, path: &Path, most: u64) -> Result<String, SceneErr
         return Err(fault(format!("it has more than {} MB", most >> 20)));
     }
     if let Some(text) = from_utf16(&bytes) {
-        return text.ok_or_else(|| fault("it begins like UTF-16, but is not valid UTF-16".to_owned()));
+        return text
+            .ok_or_else(|| fault("it begins like UTF-16, but is not valid UTF-16".to_owned()));
     }
     String::from_utf8(bytes).map_err(|error| {
         let (bytes, valid) = (error.as_bytes(), error.utf8_error().valid_up_to());

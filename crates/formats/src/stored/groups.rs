@@ -64,7 +64,9 @@ fn each_group(
 ) -> Result<(), OutputFault> {
     let mut file = File::open(&part.path)?;
     if metadata.num_row_groups() != hashes.len() {
-        return Err(OutputFault::from("its row groups are not those of its footer".to_owned()));
+        return Err(OutputFault::from(
+            "its row groups are not those of its footer".to_owned(),
+        ));
     }
     let mut next = part.selection.rows.start;
     for (group, hash) in metadata.row_groups().iter().zip(hashes) {

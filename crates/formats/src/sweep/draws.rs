@@ -212,8 +212,7 @@ fn correlations(random: &TomlSection<'_>, keys: &[String]) -> Result<Vec<Vec<f64
 }
 
 fn pair(section: &TomlSection<'_>, keys: &[String]) -> Result<[usize; 2], SceneError> {
-    let hint =
-        "two random keys, such as [\"striker.diameter_m\", \"striker.velocity_m_s\"]";
+    let hint = "two random keys, such as [\"striker.diameter_m\", \"striker.velocity_m_s\"]";
     let words = section.words("keys", "a pair of random keys")?;
     let [first, second] = words.ok_or_else(|| section.missing("keys", hint))?;
     let place = |word: String| {

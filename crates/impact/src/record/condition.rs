@@ -70,7 +70,8 @@ impl ForceRecord {
         if let Some(cutoff_hz) = low_pass_hz {
             let limits = allowed_hz(record.time_s());
             if !(cutoff_hz > limits[0] && cutoff_hz <= limits[1]) {
-                let reason = "one period in the record to rows that memory holds";
+                let reason =
+                    "from one period per record to the number of rows that fits into memory";
                 return Err(TreatmentError::new(
                     "low_pass_hz",
                     cutoff_hz,
@@ -101,7 +102,7 @@ impl ForceRecord {
             || begins_n.abs() > SEEN * self.largest_n();
         seen.then(|| {
             format!(
-                "the low pass reaches before the time zero, where {lost_n_s:.3e} N s are lost, and the force begins with {begins_n:.3e} N: a record that begins with rest keeps them"
+                "the low pass spreads the force to times before zero, which loses {lost_n_s:.3e} N s, and the force begins with {begins_n:.3e} N: use a record that begins before the pulse"
             )
         })
     }

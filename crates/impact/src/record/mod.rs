@@ -71,7 +71,7 @@ pub struct Treated {
 #[non_exhaustive]
 pub enum RecordError {
     /// Times and forces differ in number, or there are fewer than two.
-    #[error("there are {times} times and {forces} forces; as many of each are needed, at least 2")]
+    #[error("there are {times} times and {forces} forces; both need the same number, at least 2")]
     Count {
         /// Number of times.
         times: usize,
@@ -108,7 +108,7 @@ pub enum RecordError {
     },
     /// More jumps than a force has.
     #[error(
-        "the force jumps at {jumps} times, at most {MOST_JUMPS} are allowed: two rows have each of these times, which may have been rounded"
+        "the force jumps at {jumps} times, at most {MOST_JUMPS} are allowed: two rows share each of these times, perhaps because of rounding"
     )]
     Jumps {
         /// Number of jumps.
@@ -117,8 +117,7 @@ pub enum RecordError {
 }
 
 /// Rule for the times of a record, for messages.
-pub const ASCENDING: &str =
-    "times must ascend, and at most two rows may have one time, where the force jumps";
+pub const ASCENDING: &str = "times must ascend; two rows may share a time if the force jumps";
 
 /// Largest slope of sin^4(pi t/T) times T: 3 sqrt(3) pi/4.
 const STEEPNESS: f64 = 4.081;
@@ -287,7 +286,7 @@ impl ForceRecord {
         for (verb, way, side, at_s, force_n) in ends {
             if let Some(force_n) = force_n.filter(|p| p.abs() > NOT_AT_REST * largest_n) {
                 found.push(format!(
-                    "the record {verb} at {force_n} N, {:.0} % of its largest force: the force jumps {way} zero at {at_s} s, and the fields follow the jump; if a part {side} it is missing, add it, or subtract a baseline",
+                    "the record {verb} at {force_n} N, {:.0} % of its largest force: the force jumps {way} zero at {at_s} s, and the fields include that jump; add the part {side} it if it is missing, or subtract a baseline",
                     100.0 * force_n.abs() / largest_n
                 ));
             }

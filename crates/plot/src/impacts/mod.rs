@@ -92,9 +92,8 @@ fn histories(impacts: &[StoredImpact], kind: PictureKind, request: &Request) -> 
     let (of_contact, at_probes): (Vec<String>, Vec<String>) =
         request.quantities.iter().cloned().partition(is_of_contact);
     if let (true, [name, ..]) = (is_all, of_contact.as_slice()) {
-        let sentence = format!(
-            "{name} is a quantity of the contact, not of a probe: use the picture impact"
-        );
+        let sentence =
+            format!("{name} is a quantity of the contact, not of a probe: use the picture impact");
         return Err(PlotError::refused(None, sentence));
     }
     let (probes, left_out) = match of_contact.is_empty() || !at_probes.is_empty() {

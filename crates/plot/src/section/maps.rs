@@ -36,7 +36,10 @@ pub(crate) fn frames(impact: &StoredImpact, request: &Request, count: usize) -> 
             with_unit(4.0 * pulse_m, "m")
         ));
     } else if request.quantities.is_empty() && quantity.name == "displacement_z" {
-        notes.push("velocities show waves better: add [output] quantities = [\"velocity_z\"] to the scene".to_owned());
+        notes.push(
+            "velocities show waves better: add [output] quantities = [\"velocity_z\"] to the scene"
+                .to_owned(),
+        );
     }
     let images = chosen.iter().map(|&frame| section.values(&quantity, frame));
     let images = images.collect::<Result<Vec<_>, _>>()?;
@@ -137,7 +140,7 @@ fn with_landmarks(
         let reached = match (points.is_empty(), largest < strength_pa) {
             (true, true) => "not reached",
             (true, false) => "reached everywhere",
-            "reached within the line", => (false, _) => "reached inside the line", => "reached within the line",
+            (false, _) => "reached inside the line",
         };
         words += &format!(", yield strength {strength} {reached}");
         panel = panel.line("", Style::Rimmed, points);

@@ -28,7 +28,9 @@ impl Case {
     /// The case of a scene; with `target_diameter_m` the target is a ball.
     pub(super) fn new(scene: &Scene, target_diameter_m: Option<f64>) -> Result<Self, Failure> {
         let strike = scene.strike().ok_or_else(|| {
-            Failure::input("a force record has no rebound: replace [force] by a [striker] in the scene")
+            Failure::input(
+                "a force record has no rebound: replace [force] by a [striker] in the scene",
+            )
         })?;
         let settings = &scene.settings;
         let on_disc = settings.model.on_disc() && settings.model != Model::Auto;

@@ -12,9 +12,7 @@ const SECOND_ORDER: f64 = 0.65;
 pub(super) fn table(case: &Case, velocities: Option<&[f64]>, rows: u32) -> Result<String, Failure> {
     let top = case.impact.velocity_m_s;
     let &[from, to] = velocities.unwrap_or(&[top / 100.0, top]) else {
-        return Err(Failure::input(
-            "--velocities requires two values: FROM,TO",
-        ));
+        return Err(Failure::input("--velocities requires two values: FROM,TO"));
     };
     if !(from > 0.0 && from < to && to.is_finite()) {
         return Err(Failure::input(format!(

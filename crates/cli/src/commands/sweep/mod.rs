@@ -173,7 +173,8 @@ fn stream(arguments: &RunArguments, sweep: &Path) -> Result<(), Failure> {
     tally.verdict(arguments, spec.selected().len())
 }
 
-const STREAMED: &str = "--csv - and --json both write to standard output: use --csv OUT.csv for the rows";
+const STREAMED: &str =
+    "--csv - and --json both write to standard output: use --csv OUT.csv for the rows";
 
 /// Rows that are counted while they are computed.
 struct Watched<'a> {
@@ -423,7 +424,9 @@ impl Outputs {
             check_complete(output, spec).map_err(Failure::work)?;
             return match csv.filter(|csv| !csv.real.exists()) {
                 None if !print => Ok(None),
-                None => Err(Failure::work("--csv - cannot print rows that --skip-complete does not compute: leave one of them out")),
+                None => Err(Failure::work(
+                    "--csv - cannot print rows that --skip-complete does not compute: leave one of them out",
+                )),
                 Some(csv) => Err(Failure::work(format!(
                     "{} is complete, but {} does not exist; pass --force to compute both",
                     output.display(),

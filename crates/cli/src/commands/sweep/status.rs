@@ -38,8 +38,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let shards = shards.or(parts.shards());
     let missing_shards = shards.map(|count| parts.missing_shards(count));
     if arguments.missing {
-        let unknown =
-            "the parts do not store the number of shards of the sweep: pass --shards N";
+        let unknown = "the parts do not store the number of shards of the sweep: pass --shards N";
         let missing = missing_shards.ok_or_else(|| Failure::input(unknown))?;
         return print(ranges(&missing));
     }
