@@ -98,7 +98,7 @@ impl Display for InferReport {
             (unknown.words(), format!("{value} ({low} to {high})")),
             (
                 "yield",
-                format!("onset at {yields}, exceeded {over:.4} times here"),
+                format!("{over:.4} times the onset velocity, {yields}"),
             ),
             ("restitution", format!("{:.6}", results.restitution)),
             ("contact time", si(results.contact_time_s, "s")),
@@ -114,7 +114,7 @@ impl Display for InferReport {
             .filter(|&over| over > 1.0)
         {
             let told = format!(
-                "{over:.1} times as fast as plasticity = \"{}\" is trusted",
+                "{over:.1} times the largest velocity for which plasticity = \"{}\" is valid",
                 self.law
             );
             text.push(("note", told));

@@ -52,7 +52,7 @@ pub fn read_scene(path: &Path) -> Result<Scene, SceneError> {
     read_with_inputs(path).map(|(scene, _)| scene)
 }
 
-/// Reads a scene from text. Relative paths in it start at `directory`.
+/// Reads a scene from text; other files it names are found in `directory`.
 pub fn parse_scene(text: &str, directory: &Path) -> Result<Scene, SceneError> {
     scene_of(&parse(text)?, directory)
 }

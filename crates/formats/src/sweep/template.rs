@@ -212,7 +212,7 @@ impl Fast<'_> {
         let range = if !(self.range.holds)(value) {
             self.range.name
         } else if !self.set.apply(scene, &self.column.section, value) {
-            "what makes a mass of the ball"
+            "the range with a valid mass of the ball"
         } else {
             return Ok(());
         };
