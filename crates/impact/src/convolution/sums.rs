@@ -1,4 +1,4 @@
-//! Sums of the loads of one forcing over the kernels of a point, with bounds on what they leave out.
+//! Sums of the loads of one forcing over the kernels of a point, with truncation bounds.
 //!
 //! Theory: `docs/theory.md` (T24, T60).
 
@@ -309,7 +309,7 @@ impl Sums {
         }
     }
 
-    /// What may be left out of a sample of each field.
+    /// Errors that are allowed in a sample of each field.
     pub(crate) fn allowed(&self, forcing: &Forcing<'_>) -> Six {
         let differences = 0.1_f64.powi(forcing.differences as i32);
         let part = tuning::ACCEPTED * forcing.tolerance * differences;

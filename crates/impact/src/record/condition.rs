@@ -1,11 +1,11 @@
-//! What may be asked to be done to a record before it loads the half-space: a baseline taken away, a low pass.
+//! Treatments of a record before it loads the half-space: subtraction of a baseline, low pass.
 
 use crate::record::jump::jumps;
 use crate::record::low_pass::{Rows, allowed_hz, low_pass};
 use crate::record::{ForceRecord, Treated};
 use thiserror::Error;
 
-/// Something asked of a record that it cannot have.
+/// A treatment that is impossible for the record.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error("{key} = {value} is outside {range}, {reason}")]
 pub struct TreatmentError {
@@ -17,12 +17,12 @@ pub struct TreatmentError {
     pub limits: [f64; 2],
     /// The same in interval notation.
     pub range: String,
-    /// Where the limits come from.
+    /// Origin of the limits.
     pub reason: &'static str,
 }
 
 impl TreatmentError {
-    /// Of a value that is not between two limits, with the brackets of their interval.
+    /// The error of a value outside two limits, with the brackets of their interval.
     pub fn new(
         key: &'static str,
         value: f64,
@@ -42,11 +42,11 @@ impl TreatmentError {
 }
 
 impl ForceRecord {
-    /// The record after a treatment; [`ForceRecord::treated`] says what it came to.
+    /// The record after a treatment; [`ForceRecord::treated`] describes its effect.
     ///
-    /// The low pass is exact for lines between rows, however uneven; a force that is smooth on the cutoff's period keeps
-    /// its shape, and every force its impulse. Rows are added where the record has fewer than 64 in a period of the
-    /// cutoff, and beyond both ends, where the filtered force dies.
+    /// The low pass is exact for a piecewise linear force with any spacing of rows. A force that is smooth on the
+    /// period of the cutoff keeps its shape, and every force its impulse. Rows are added if there are fewer than 64 per
+    /// period of the cutoff, and beyond both ends, where the filtered force decays.
     ///
     /// # Errors
     /// [`TreatmentError`] with the range that this record allows.
@@ -92,7 +92,7 @@ impl ForceRecord {
         Ok(record)
     }
 
-    /// What a low pass has put before the time zero, where a thousandth of the impulse or of the force is seen of it.
+    /// A warning if the low pass moves a thousandth of the impulse or of the force to times before zero.
     pub(crate) fn lost_before_zero(&self) -> Option<String> {
         const SEEN: f64 = 1e-3;
         let done = self.treated?;
@@ -141,7 +141,7 @@ impl ForceRecord {
         Ok(sum / length_s)
     }
 
-    /// Root mean square over the time of this record of its difference from one that has its rows.
+    /// Root mean square over the time of this record of its difference from a record with the same rows.
     fn difference_rms_n(&self, other: &Rows) -> f64 {
         let mut sum = 0.0;
         let mut place = 0;

@@ -164,7 +164,11 @@ pub(super) fn yade(case: &Case, laws: &Laws) -> String {
             "Hertz's contact time over (m^2/(E*^2 R v))^(1/5)",
         ),
         ("STEPS", YADE_STEPS, "steps per shortest contact"),
-        ("LEAST", LEAST_YADE_STEPS, "steps per contact below which the run stops"),
+        (
+            "LEAST",
+            LEAST_YADE_STEPS,
+            "steps per contact below which the run stops",
+        ),
     ];
     for (name, value, what) in numbers {
         text += &format!("{name} = {value:?}  # {what}\n");
