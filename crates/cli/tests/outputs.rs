@@ -192,7 +192,7 @@ fn stopped_it_says_what_is_kept_and_two_at_once_are_one() {
     assert!(!done.status.success());
     let said = String::from_utf8(done.stderr).unwrap();
     assert!(said.contains("scenes are kept in long.h5.part"), "{said}");
-    assert!(said.contains("the same command goes on"), "{said}");
+    assert!(said.contains("run the same command again to resume"), "{said}");
     let left: Vec<String> = all(here).into_iter().map(|(name, _)| name).collect();
     assert!(!left.iter().any(|name| name.starts_with('.')), "{left:?}");
     // another sweep under the name: told what it is, and a word is enough

@@ -89,13 +89,13 @@ fn parts_in_parquet_are_listed_skipped_and_merged() {
         here,
         "sweep merge out -o v.h5 --virtual",
         2,
-        "it is no HDF5 file",
+        "it is not an HDF5 file",
     );
     // damage of the footer and of rows is seen when the part is looked at
     let part = bytes("out/4.parquet");
     std::fs::write(here.join("out/4.parquet"), &part[..part.len() - 1]).unwrap();
     assert_eq!(well(here, "sweep status out --missing"), "4\n");
-    refused(here, fourth, 1, "it was cut short");
+    refused(here, fourth, 1, "it was truncated");
     let mut damaged = part.clone();
     damaged[part.len() / 2] ^= 1;
     std::fs::write(here.join("out/4.parquet"), &damaged).unwrap();
@@ -154,12 +154,12 @@ fn a_merge_that_refers_to_its_parts_is_refused_as_a_copy_is_and_by_what_would_re
         here,
         "plot all.h5 -o all.svg",
         2,
-        "has the places of its parts",
+        "refers to its parts",
     );
     refused(
         here,
         "sweep s.toml --skip-complete -o all.h5",
         1,
-        "has the places of its parts",
+        "refers to its parts",
     );
 }

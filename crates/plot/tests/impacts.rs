@@ -119,7 +119,7 @@ fn what_cannot_be_drawn_is_told_in_one_sentence() {
     hdf5::File::create(&foreign).unwrap();
     assert!(
         said(std::slice::from_ref(&foreign), None)
-            .ends_with("is an HDF5 file, but none of hertzlamb's")
+            .ends_with("is an HDF5 file, but not one of hertzlamb")
     );
     // a file that was cut short
     let bytes = std::fs::read(&bare).unwrap();
@@ -291,7 +291,7 @@ fn a_quantity_of_the_contact_is_drawn_alone() {
     let said = of(Some(PictureKind::Probes), &["force"])
         .unwrap_err()
         .to_string();
-    assert!(said.ends_with("the picture impact shows it"), "{said}");
+    assert!(said.ends_with("use the picture impact"), "{said}");
     // what cannot be drawn is not left out in silence
     let bare = impact(folder.path(), "b.h5", 0.7, "");
     let said = compose(&[bare], &asked(None, &["stress_zz"]))
@@ -320,7 +320,7 @@ fn a_span_is_the_time_axis() {
         }
     }
     for (span_s, why) in [
-        ((7e-6, 4e-6), "has to be before"),
+        ((7e-6, 4e-6), "must be before"),
         ((1.0, 2.0), "there is nothing"),
     ] {
         let said = compose(

@@ -284,7 +284,7 @@ fn a_wave_along_the_surface_has_no_teeth() {
     let few = section(folder.path(), 6, "");
     let (_, notes) = compose(&[few], &request(PictureKind::Surface, "displacement_z")).unwrap();
     assert!(
-        notes[0].contains("look like dots: [map] frames = "),
+        notes[0].contains("look like dots: use [map] frames = "),
         "{notes:?}"
     );
 }
@@ -329,7 +329,7 @@ fn a_span_chooses_the_frames() {
         ..asked
     };
     let said = compose(&[path], &both).unwrap_err().to_string();
-    assert!(said.ends_with("give one of them"), "{said}");
+    assert!(said.ends_with("use only one of them"), "{said}");
 }
 
 /// Frames that the scene puts at some times are those that a picture of these times shows.

@@ -230,7 +230,7 @@ fn what_cannot_be_shown_of_a_sweep_is_told() {
     };
     assert!(curves > 12 && example.is_some(), "{refused}");
     assert!(
-        refused.to_string().ends_with("choose among them"),
+        refused.to_string().ends_with("select some of them"),
         "{refused}"
     );
 }

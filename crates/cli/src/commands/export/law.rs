@@ -171,7 +171,7 @@ impl Laws {
         let error = LEFT_OUT * memory * memory;
         let below = case.impact.velocity_m_s * ((1e-3 / LEFT_OUT).sqrt() / memory).powf(5.0 / 3.0);
         format!(
-            "{dashpot}, for balls of the striker's material and any radius on {target}; its loss has a relative error of {error:.1e} at {here}, and below 1e-3 under {}",
+            "{dashpot}, for balls of the striker's material and any radius on {target}; the relative error of its loss is {error:.1e} at {here} and below 1e-3 at velocities under {}",
             short(below, "m/s")
         )
     }
