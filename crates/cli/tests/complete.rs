@@ -70,7 +70,7 @@ fn an_impact_that_is_there_is_not_computed_again() {
         here,
         &format!("{line} --csv s.csv"),
         1,
-        "s.csv is not there",
+        "s.csv does not exist",
     );
     expect(here, &format!("{line} --force"), 2, "--force");
 

@@ -428,7 +428,11 @@ fn what_no_particle_code_has_is_refused() {
         .replace("density_kg_m3 = 7800", "density_kg_m3 = 1000")
         .replace("velocity_m_s = 1.0", "velocity_m_s = 90.0");
     let cases: [(&str, &[&str], &str); 11] = [
-        (&soft, &["lammps"], "a particle code loses a contact deeper than 5 mm"),
+        (
+            &soft,
+            &["lammps"],
+            "a particle code loses a contact deeper than 5 mm",
+        ),
         (&soft, &["yade"], "use a lower striker.velocity_m_s"),
         (&disc, &["lammps"], "disc_radius_m"),
         (&wave, &["yade"], "fixed disc"),

@@ -204,7 +204,7 @@ fn what_is_complete_is_skipped_and_what_differs_is_told() {
         here,
         &format!("{line} --csv 1.csv"),
         1,
-        "1.csv is not there",
+        "1.csv does not exist",
     );
     std::fs::write(here.join("t.toml"), SWEEP.replace("seed = 5", "seed = 6")).unwrap();
     refused(
@@ -245,7 +245,7 @@ fn gaps_overlaps_and_strangers_are_not_merged() {
         here,
         "sweep merge out -o all.h5",
         2,
-        "out has no part of a sweep",
+        "out contains no part of a sweep",
     );
     assert_eq!(
         well(here, "sweep status out --sweep s.toml --shards 4 --missing"),
@@ -269,14 +269,14 @@ fn gaps_overlaps_and_strangers_are_not_merged() {
         here,
         "sweep merge out -o all.h5",
         2,
-        "rows 32768 to 65535 of the sweep are in no part, and those of another range",
+        "rows 32768 to 65535 of the sweep are in no part, and one more range is missing",
     );
     well(here, "sweep s.toml --shard 2/2 -o out/b.h5");
     refused(
         here,
         "sweep merge out -o all.h5",
         2,
-        "are in out/3.h5 and in out/b.h5",
+        "are both in out/3.h5 and in out/b.h5",
     );
     let status = json(here, "sweep status out --json");
     assert!(

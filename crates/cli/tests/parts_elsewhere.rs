@@ -51,7 +51,7 @@ fn refused(folder: &Path, line: &str, code: i32, words: &str) {
 fn a_program_without_parquet_says_how_to_build_it_in() {
     let folder = folder();
     let here = folder.path();
-    let words = "which this program was built without: build it with `cargo build --release --package hertzlamb-cli --features parquet`";
+    let words = "but this program was built without that format: build it with `cargo build --release --package hertzlamb-cli --features parquet`";
     refused(here, "sweep s.toml -o rows.parquet", 2, words);
     refused(here, "sweep merge out -o all.parquet", 2, words);
     assert!(!here.join("rows.parquet.part").exists());
@@ -132,7 +132,7 @@ fn a_merge_that_refers_to_its_parts_is_refused_as_a_copy_is_and_by_what_would_re
         here,
         line,
         2,
-        "rows 50000 to 50000 are in out/7-50001.h5 and in out/last.h5",
+        "rows 50000 to 50000 are both in out/7-50001.h5 and in out/last.h5",
     );
     well(
         here,
@@ -143,19 +143,14 @@ fn a_merge_that_refers_to_its_parts_is_refused_as_a_copy_is_and_by_what_would_re
         here,
         "sweep merge out -o all.parquet --virtual",
         2,
-        "is to be an HDF5 file",
+        "must be an HDF5 file",
     );
     well(here, line);
     assert!(std::fs::metadata(here.join("all.h5")).unwrap().len() < 2_000_000);
     // beside the parts too, and again
     well(here, "sweep merge out -o out/all.h5 --virtual");
     well(here, "sweep merge out -o out/all.h5 --virtual --force");
-    refused(
-        here,
-        "plot all.h5 -o all.svg",
-        2,
-        "refers to its parts",
-    );
+    refused(here, "plot all.h5 -o all.svg", 2, "refers to its parts");
     refused(
         here,
         "sweep s.toml --skip-complete -o all.h5",

@@ -198,8 +198,10 @@ fn of_the_materials(collision: &Collision, results: &Results, found: &mut Vec<St
         let crack = strength.cone_crack_force_n(contact);
         if let Some(crack_n) = crack.filter(|&crack_n| force_n > crack_n) {
             found.push(format!(
-                "the peak force {force_n:.4e} N is {:.2} times {crack_n:.4e} N, at which a cone crack in the {body} is expected (Auerbach's law, accurate to about one significant digit)",
-                force_n / crack_n
+                "the peak force {} N is {:.2} times {} N, at which a cone crack in the {body} is expected (Auerbach's law, accurate to about one significant digit)",
+                fault::rounded(force_n),
+                force_n / crack_n,
+                fault::rounded(crack_n)
             ));
         }
     }

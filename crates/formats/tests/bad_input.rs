@@ -225,7 +225,7 @@ fn force_files_are_checked_line_by_line() {
         ),
         (
             "time_s,force_n\n0,1\n1,2\n1,3\n1,4\n",
-            &["line 5", "must ascend", "two rows may share"],
+            &["line 5", "must ascend", "at most two rows"],
         ),
         ("time_s,force_n\n1,1\n0.5,2\n", &["line 3", "0.5"]),
         ("time_s,force_n\n-1,1\n0.5,2\n", &["line 2", "[0, inf)"]),

@@ -182,8 +182,9 @@ impl Impact {
         let change = run.peak_force_n / force_n - 1.0;
         (change.abs() > NOTABLE).then(|| {
             format!(
-                "the full static share includes the static deflection of the half-space twice, in Hertz's law and in the disc: the peak force deviates by {:+.0} % from {force_n:.4e} N, that of a contact radius that follows the load",
-                100.0 * change
+                "the full static share includes the static deflection of the half-space twice, in Hertz's law and in the disc: the peak force deviates by {:+.0} % from {} N, that of a contact radius that follows the load",
+                100.0 * change,
+                fault::rounded(force_n)
             )
         })
     }

@@ -131,8 +131,9 @@ fn of_record(
     let relative_error = left_n / record.largest_n().max(f64::MIN_POSITIVE);
     if relative_error > scene.settings.tolerance {
         warnings.push(format!(
-            "with the output step of {:.3e} s the force is approximated to {left_n:.3e} N, a relative error of {relative_error:.1e}, which the errors of the fields include: use a smaller step_s to reduce it",
-            grid.step_s
+            "with the output step of {:.3e} s the force is approximated to {} N, a relative error of {relative_error:.1e}, which the errors of the fields include: use a smaller step_s to reduce it",
+            grid.step_s,
+            fault::rounded(left_n)
         ));
     }
     warnings.extend(record.lost_before_zero());
@@ -158,7 +159,8 @@ fn rates_of_jumps(scene: &Scene, record: &ForceRecord, step_s: f64) -> Option<St
     let counts = scene.rates() > 0 && jump_n > scene.settings.tolerance * record.largest_n();
     counts.then(|| {
         format!(
-            "the force jumps by up to {jump_n} N: velocities and accelerations are means over the output step of {step_s:.3e} s, and at the wave fronts of the jump they grow without limit as the step decreases"
+            "the force jumps by up to {} N: velocities and accelerations are means over the output step of {step_s:.3e} s, and at the wave fronts of the jump they grow without limit as the step decreases",
+            fault::rounded(jump_n)
         )
     })
 }

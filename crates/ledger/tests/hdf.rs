@@ -141,7 +141,7 @@ fn a_limit_is_kept_and_a_type_is_asked_for() {
     assert!(patches.numbers::<f32>(needed).is_ok());
     let error = patches.numbers::<f32>(needed - 1).unwrap_err();
     let text = format!(
-        "it makes {needed} bytes of memory, more than {}",
+        "it needs {needed} bytes of memory, more than the limit {}",
         needed - 1
     );
     assert_eq!(error.to_string(), text);

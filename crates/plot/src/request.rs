@@ -148,7 +148,7 @@ impl Request {
             () if to_s <= first_s || from_s >= last_s => "it contains no data",
             () => return Ok([from_s, to_s]),
         };
-        let [from, to, first, last] = [from_s, to_s, first_s, last_s].map(fault::number);
+        let [from, to, first, last] = [from_s, to_s, first_s, last_s].map(fault::rounded);
         let there = format!("the times of the file are {first} to {last} s");
         let sentence = format!("the span {from}:{to} s cannot be shown, {why}: {there}");
         Err(PlotError::refused(None, sentence))

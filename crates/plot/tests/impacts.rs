@@ -105,7 +105,7 @@ fn what_cannot_be_drawn_is_told_in_one_sentence() {
     let said = |paths: &[PathBuf], kind| picture(paths, kind).unwrap_err().to_string();
     assert!(
         said(std::slice::from_ref(&bare), Some(PictureKind::Probes))
-            .ends_with("has no probes: give the scene a [[probe]] with r_m and z_m")
+            .ends_with("has no probes: add a [[probe]] with r_m and z_m to the scene")
     );
     let text = folder.path().join("scene.toml");
     std::fs::write(&text, "[target]\n").unwrap();
@@ -173,7 +173,7 @@ fn sizes_keep_the_negative_parts() {
         assert_eq!(signed.points.len(), shown.points.len());
         let largest = shown.points.iter().map(|p| p.1).fold(0.0, f64::max);
         let axis = &sizes.panels[panel].y;
-        assert_eq!(axis.quantity, "size of the radial stress");
+        assert_eq!(axis.quantity, "magnitude of the radial stress");
         // not the eighteen decades of rounding
         assert!(axis.range.unwrap().0 >= 1e-7 * largest && axis.range.unwrap().1 >= largest);
         let [lower, upper] = &shown.band;

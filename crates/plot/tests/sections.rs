@@ -107,7 +107,9 @@ fn velocities_are_those_of_the_file_or_none() {
     );
     let said = refused.unwrap_err().to_string();
     assert!(
-        said.ends_with("has no velocity_z: give the scene [output] quantities = [\"velocity_z\"]"),
+        said.ends_with(
+            "has no velocity_z: add [output] quantities = [\"velocity_z\"] to the scene"
+        ),
         "{said}"
     );
     let (figure, notes) = compose(&[without], &Request::default()).unwrap();
@@ -127,7 +129,7 @@ fn limits_and_ratios_are_those_that_are_asked_for() {
     let (figure, _) = compose(std::slice::from_ref(&path), &asked).unwrap();
     let image = images(&figure)[0];
     assert_eq!(image.colours.range, Some((1e3, 1e6)));
-    assert_eq!(image.colours.quantity, "size of the axial stress");
+    assert_eq!(image.colours.quantity, "magnitude of the axial stress");
     assert!(image.values.iter().all(|value| *value >= 0.0));
     texts(&figure);
     let turned = Request {

@@ -89,7 +89,8 @@ impl ForceRecord {
         let zero_s = self.reading.start_s.unwrap_or(0.0);
         (quiet_s > OBVIOUS * blow_s).then(|| {
             format!(
-                "the force stays below {level_n:.3e} N until {:.4e} s, but arrivals, echoes and the duration are counted from {start_s:.4e} s, where it leaves zero: set force.onset_s = {:.4e} to count from the main pulse",
+                "the force stays below {} N until {:.4e} s, but arrivals, echoes and the duration are counted from {start_s:.4e} s, where it leaves zero: set force.onset_s = {:.4e} to count from the main pulse",
+                fault::rounded(level_n),
                 time_s[foot],
                 zero_s + time_s[foot]
             )

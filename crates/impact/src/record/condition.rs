@@ -102,7 +102,8 @@ impl ForceRecord {
             || begins_n.abs() > SEEN * self.largest_n();
         seen.then(|| {
             format!(
-                "the low pass spreads the force to times before zero, which loses {lost_n_s:.3e} N s, and the force begins with {begins_n:.3e} N: use a record that begins before the pulse"
+                "the low pass spreads the force to times before zero, which loses {lost_n_s:.3e} N s, and the force begins with {} N: use a record that begins before the pulse",
+                fault::rounded(begins_n)
             )
         })
     }

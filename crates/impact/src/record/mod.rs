@@ -118,7 +118,8 @@ pub enum RecordError {
 }
 
 /// Rule for the times of a record, for messages.
-pub const ASCENDING: &str = "times must ascend; two rows may share a time if the force jumps";
+pub const ASCENDING: &str =
+    "times must ascend, and at most two rows may share a time, at a jump of the force";
 
 /// Largest slope of sin^4(pi t/T) times T: 3 sqrt(3) pi/4.
 const STEEPNESS: f64 = 4.081;
@@ -275,7 +276,8 @@ impl ForceRecord {
         let length_s = end_s - start_s;
         if length_s > LONG_S {
             found.push(format!(
-                "the record lasts {length_s} s: an impact lasts microseconds to milliseconds; are its times in s?"
+                "the record lasts {} s: an impact lasts microseconds to milliseconds; are its times in s?",
+                fault::rounded(length_s)
             ));
         }
         let largest_n = self.largest_n();
@@ -287,8 +289,10 @@ impl ForceRecord {
         for (verb, way, side, at_s, force_n) in ends {
             if let Some(force_n) = force_n.filter(|p| p.abs() > NOT_AT_REST * largest_n) {
                 found.push(format!(
-                    "the record {verb} at {force_n} N, {:.0} % of its largest force: the force jumps {way} zero at {at_s} s, and the fields include that jump; add the part {side} it if it is missing, or subtract a baseline",
-                    100.0 * force_n.abs() / largest_n
+                    "the record {verb} at {} N, {:.0} % of its largest force: the force jumps {way} zero at {} s, and the fields include that jump; add the part {side} it if it is missing, or subtract a baseline",
+                    fault::rounded(*force_n),
+                    100.0 * force_n.abs() / largest_n,
+                    fault::rounded(at_s)
                 ));
             }
         }
@@ -297,7 +301,9 @@ impl ForceRecord {
             [f64::max, f64::min].map(|of| self.force_n.iter().copied().fold(0.0, of));
         if -least_n > most_n {
             found.push(format!(
-                "the largest force is tensile: {least_n} N, and {most_n} N in compression; set force.sign = -1 if the record counts compression as negative"
+                "the largest force is tensile: {} N, and {} N in compression; set force.sign = -1 if the record counts compression as negative",
+                fault::rounded(least_n),
+                fault::rounded(most_n)
             ));
         } else if least_n < 0.0 {
             found.push("the force record is tensile (negative) in places".to_owned());
