@@ -26,7 +26,7 @@ use std::sync::atomic::Ordering;
     name = "hertzlamb",
     version,
     propagate_version = true,
-    after_help = "Exit codes: 0 done; 1 the work failed; 2 bad input or usage; 75 temporary failure, retry later; 101 internal error, please report; 130, 143 or 129 stopped by Ctrl-C, by SIGTERM or because the terminal closed.\nCommands with --json also print an error as one JSON object on standard error."
+    after_help = "Exit codes: 0 done; 1 the work failed; 2 bad input or usage; 75 temporary failure, retry later; 101 internal error, please report; 130, 143 or 129 stopped by Ctrl-C, by SIGTERM or because the terminal closed.\nWith --json, commands that accept it print an error as one JSON object on standard error."
 )]
 struct Cli {
     /// Print only errors on standard error: no progress, no warnings.

@@ -196,7 +196,7 @@ fn every_kind_of_picture_of_a_section_is_drawn() {
         &request(PictureKind::Waves, "stress_zz"),
     );
     let two = two.unwrap_err().to_string();
-    assert!(two.ends_with("shows one file, and 2 were given"), "{two}");
+    assert!(two.ends_with("shows one file, but 2 were given"), "{two}");
 }
 
 fn sides(figure: &Figure) -> &figure::Image {

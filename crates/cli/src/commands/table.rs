@@ -50,9 +50,9 @@ enum TableAction {
     },
     /// Compares two tables except for their creation times; exit code 1 if they differ.
     Diff {
-        /// Kernel table.
+        /// First kernel table.
         first: PathBuf,
-        /// Kernel table.
+        /// Second kernel table.
         second: PathBuf,
     },
     /// Joins the shards of one table.
@@ -60,7 +60,7 @@ enum TableAction {
         /// Files made with `hertzlamb tabulate --shard`.
         #[arg(required = true)]
         shards: Vec<PathBuf>,
-        /// The table to write.
+        /// Table to write.
         #[arg(short, long, value_name = "OUT.h5")]
         output: PathBuf,
         #[command(flatten)]

@@ -24,7 +24,7 @@ const EXAMPLES: &str = "Examples:
   hertzlamb tabulate --grid standard --shard 2/4 -o 2.shard
   hertzlamb tabulate --grid wide --plan
 
-An interrupted build goes on where it stopped when the same command is given again.";
+To resume an interrupted build, run the same command again.";
 
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
@@ -33,7 +33,7 @@ pub(crate) struct Arguments {
     /// Default: demo.
     #[arg(long, value_name = "PRESET|FILE.toml")]
     grid: Option<String>,
-    /// Poisson ratios, comma-separated: instead of those of the grid, or, without --grid, slices to add to the output if it exists.
+    /// Poisson ratios, comma-separated. They replace those of the grid; without --grid they are added to an existing output.
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = ratio)]
     nu: Option<Vec<f64>>,
     /// Largest radius in units of r0; extends an existing output.
@@ -51,7 +51,7 @@ pub(crate) struct Arguments {
     /// Pulse length for --tol, in units of r0/c1.
     #[arg(long, value_name = "LENGTH", requires = "tol")]
     pulse: Option<f64>,
-    /// The table to write.
+    /// Table to write.
     #[arg(short, long, value_name = "OUT.h5", required_unless_present = "plan")]
     output: Option<PathBuf>,
     /// Compute a few points and print the time, memory and size that the table needs; write nothing.
