@@ -176,7 +176,7 @@ fn a_ball_on_a_ball_is_the_reduced_contact_without_waves() {
     // which LAMMPS has at one velocity alone
     let text = written(SCENE, &["lammps", "--target-diameter", "10"]);
     assert!(number(&text, "E0") < 0.999, "{text}");
-    assert!(text.contains("with one restitution, that of the contact with waves"));
+    assert!(text.contains("with the restitution of the contact with waves"));
 }
 
 #[test]

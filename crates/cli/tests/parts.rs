@@ -404,7 +404,7 @@ fn chosen_columns_and_single_precision_are_kept_by_parts() {
         here,
         "sweep s.toml --shard 1/2 --skip-complete -o out/1.h5",
         1,
-        "differ in their columns or precision",
+        "has other columns or another precision",
     );
     well(here, "sweep s.toml --shard 2/2 --force -o out/2.h5");
     refused(here, "sweep merge out -o no.h5", 2, "other columns");

@@ -96,7 +96,7 @@ fn what_is_no_picture_is_refused() {
     refused(
         at,
         &["plot", "none.h5", "-o", "a.svg", "--scale", "3"],
-        "a.svg does not use --scale",
+        "--scale does not apply to a.svg",
     );
     refused(
         at,

@@ -336,7 +336,7 @@ fn each_refusal_of_a_record_says_the_way_out() {
         (
             BARE,
             "columns = [1, 3]\n",
-            "force.columns has 3, and the rows have 2 columns",
+            "force.columns has 3, but the rows have 2 columns",
         ),
         (
             BARE,

@@ -148,7 +148,7 @@ fn a_limit_is_kept_and_a_type_is_asked_for() {
     let error = patches.numbers::<f64>(LIMIT).unwrap_err();
     assert_eq!(
         error.to_string(),
-        "its type is 32-bit float, needed 64-bit float"
+        "its type is 32-bit float, but 64-bit float is required"
     );
     // of a text and of a number
     let error = root.number::<f64>("text").unwrap_err();

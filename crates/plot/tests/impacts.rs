@@ -321,7 +321,7 @@ fn a_span_is_the_time_axis() {
     }
     for (span_s, why) in [
         ((7e-6, 4e-6), "must be before"),
-        ((1.0, 2.0), "there is nothing"),
+        ((1.0, 2.0), "contains no data"),
     ] {
         let said = compose(
             std::slice::from_ref(&path),
