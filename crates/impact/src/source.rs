@@ -198,14 +198,14 @@ pub(crate) fn choose_source(
     };
     let (tables, cost_s, before) = match kernels {
         KernelChoice::Direct => return direct("requested, or no table given".to_owned()),
-        KernelChoice::Table(tables) => return Ok(Some((load(tables)?, "asked for".to_owned()))),
+        KernelChoice::Table(tables) => return Ok(Some((load(tables)?, "requested".to_owned()))),
         KernelChoice::Within(tables) => (tables, 0.0, Default::default()),
         KernelChoice::Auto(tables) => {
             let grid = Grid::new(&Wanted::of(scene), excitation, None)?;
             let (cells, count) = (grid.count(), scene.points());
             let cost_s = computed_s(scene, &grid) / busy(count);
             let cost =
-                format!("{count} points of {cells} cells take about {cost_s:.1e} s to compute");
+                format!("computing {count} points of {cells} cells takes about {cost_s:.1e} s");
             if cost_s <= CHEAP_S {
                 return direct(format!("{cost}: computed"));
             }
@@ -219,7 +219,7 @@ pub(crate) fn choose_source(
     }
     let table = load(tables)?;
     let KernelSource::Table(own) = &table else {
-        return Ok(Some((table, "asked for".to_owned())));
+        return Ok(Some((table, "requested".to_owned())));
     };
     let mut error = 0.0_f64;
     for place_m in points {
