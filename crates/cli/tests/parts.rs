@@ -407,7 +407,12 @@ fn chosen_columns_and_single_precision_are_kept_by_parts() {
         "has other columns or another precision",
     );
     well(here, "sweep s.toml --shard 2/2 --force -o out/2.h5");
-    refused(here, "sweep merge out -o no.h5", 2, "other columns");
+    refused(
+        here,
+        "sweep merge out -o no.h5",
+        2,
+        "differ in their columns or precision",
+    );
     refused(
         here,
         "sweep s.toml --columns restitutions -o no.h5",

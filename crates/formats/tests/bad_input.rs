@@ -346,7 +346,7 @@ fn each_refusal_of_a_record_says_the_way_out() {
         (
             "time_s,force_n\n0,1\n1,2\n",
             "sensitivity_v_per_n = 0.1\n",
-            "has the unit \"N\", and force.sensitivity_v_per_n is for a signal",
+            "has the unit \"N\", but force.sensitivity_v_per_n applies to a signal",
         ),
         (
             "time_s,force_n\n0,1\n1,2\n",

@@ -152,11 +152,14 @@ fn a_limit_is_kept_and_a_type_is_asked_for() {
     );
     // of a text and of a number
     let error = root.number::<f64>("text").unwrap_err();
-    assert_eq!(error.to_string(), "its type is text, needed 64-bit float");
+    assert_eq!(
+        error.to_string(),
+        "its type is text, but 64-bit float is required"
+    );
     let error = root.text("count").unwrap_err();
     assert_eq!(
         error.to_string(),
-        "its type is 64-bit unsigned integer, needed text"
+        "its type is 64-bit unsigned integer, but text is required"
     );
 }
 
