@@ -61,7 +61,7 @@ def test_a_sweep_counts_the_rows_beyond_the_range(tmp_path):
     only = run_well("sweep", path, "-o", tmp_path / "b.h5", "--columns", "restitution")
     assert only["untrusted"] == done["untrusted"]
     text = run("sweep", path, "-o", tmp_path / "c.h5").stdout
-    assert f"{done['untrusted']} faster than" in text and "velocity_over_trusted above 1" in text
+    assert f"{done['untrusted']} are too fast for" in text and "velocity_over_trusted above 1" in text
 
 
 @pytest.mark.parametrize("strength", ["3e5", "2e3", "1e-12", "1e-200"])
