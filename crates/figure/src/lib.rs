@@ -1,4 +1,4 @@
-//! Scientific figures as data, drawn as SVG, PNG and PDF.
+//! Scientific figures as data, drawn as SVG, PNG, PDF and GIF.
 //!
 //! A [`Figure`] has [`Panel`]s in rows; a panel has two [`Axis`]es and [`Layer`]s. There is no state, no canvas and no
 //! system font. Everything else is automatic:
