@@ -184,7 +184,7 @@ fn of_the_materials(collision: &Collision, results: &Results, found: &mut Vec<St
                 onset / limit
             ));
         }
-        // what is brittle bears more pressure than tension, until it cracks
+        // a brittle body bears more pressure than tension, until it cracks
         let brittle = strength.fracture_toughness_pa_sqrt_m.is_some();
         let tensile = strength.tensile_strength_pa.filter(|_| !brittle);
         if let Some(limit) = tensile.filter(|&limit| stress > limit) {
@@ -205,7 +205,7 @@ fn of_the_materials(collision: &Collision, results: &Results, found: &mut Vec<St
             ));
         }
     }
-    // a law of flow says what happens beyond
+    // a plasticity law describes the contact beyond the onset
     if !borne.is_empty() && results.plastic.yield_pressure_pa.is_none() {
         found.push(format!(
             "the mean contact stress {stress:.4e} Pa is {}: the impact is not elastic, unless the strength is higher under such a short load",

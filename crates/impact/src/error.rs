@@ -80,7 +80,7 @@ pub enum ImpactError {
         samples: f64,
         /// Frames of the section.
         frames: usize,
-        /// What to change.
+        /// Advice on the settings to change.
         change: &'static str,
     },
     /// A frame of the section later than the output.

@@ -99,8 +99,8 @@ fn of_strike(
     Ok(outcome)
 }
 
-/// What longitudinal waves have to cross of a disc while a record lasts, over its radius: less of it is lost in rounding,
-/// by 2e-4 at this and by 4e-2 at a tenth of it.
+/// Distance that longitudinal waves travel during a record, relative to the radius of its disc. Below this ratio
+/// rounding errors are too large: 2e-4 at this ratio and 4e-2 at a tenth of it.
 const CROSSED: f64 = 1e-5;
 
 fn of_record(
@@ -119,7 +119,7 @@ fn of_record(
             largest_m,
         });
     }
-    // what it comes to follows from the series
+    // the results follow from the series
     let cause = Cause::Record(RecordResults::default());
     let (grid, mut outcome) = begin(scene, kernels, allowance, &excitation, (cause, Vec::new()))?;
     let (series, warnings) = (&mut outcome.series, &mut outcome.warnings);
@@ -165,7 +165,7 @@ fn rates_of_jumps(scene: &Scene, record: &ForceRecord, step_s: f64) -> Option<St
     })
 }
 
-/// What follows from an excitation, whatever has caused it: the times of the output, and times, force and fields there.
+/// Output times, force and fields of any excitation.
 fn begin<'e>(
     scene: &Scene,
     kernels: &KernelChoice,

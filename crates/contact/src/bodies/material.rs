@@ -81,7 +81,7 @@ impl Material {
         Ok(())
     }
 
-    /// The density in kg/m^3, or the error that says what needs it.
+    /// The density in kg/m^3, or the error with the purpose that requires it.
     pub(crate) fn density_for(&self, purpose: &'static str) -> Result<f64, BodyError> {
         self.density_kg_m3.ok_or_else(|| BodyError::NoDensity {
             material: self.name.clone(),

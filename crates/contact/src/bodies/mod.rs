@@ -1,7 +1,7 @@
 //! The two bodies of an impact, and how fast one falls.
 //!
-//! `material` and `library` are what they are made of, `shape` is that from which mass and tip follow, `strength` has the strengths,
-//! `wave_speeds` when waves and echoes arrive.
+//! `material` and `library` describe their materials, `shape` determines mass and tip, `strength` has the strengths,
+//! and `wave_speeds` the arrival times of waves and echoes.
 
 pub(crate) mod library;
 pub(crate) mod material;

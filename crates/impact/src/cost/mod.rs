@@ -186,7 +186,7 @@ impl Forecast {
     /// Compares the forecast with a memory limit.
     ///
     /// # Errors
-    /// [`ImpactError::TooMuchMemory`] with what to change.
+    /// [`ImpactError::TooMuchMemory`] with advice.
     pub fn check(&self, scene: &Scene, memory_bytes: f64) -> Result<(), ImpactError> {
         if self.memory_bytes <= memory_bytes {
             return Ok(());

@@ -19,7 +19,7 @@ const NOISE: f64 = 2.0;
 const OBVIOUS: f64 = 0.25;
 
 impl ForceRecord {
-    /// The same record with a blow that begins at a time in s; what is before is a quiet part.
+    /// The same record with a main pulse that begins at a time in s; the part before it is quiet.
     ///
     /// Arrivals, the first echo and the duration count from it. The fields are those of the whole record.
     ///
