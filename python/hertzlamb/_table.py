@@ -282,7 +282,7 @@ class Table:
         lines.append(f"z               0 .. {i['z_max']} r0, {i['z_nodes']} nodes")
         fewest, most = min(i["cells"]), max(i["cells"])
         cells = f"{fewest} to {most}" if fewest < most else str(most)
-        lines.append(f"time            cells of {i['cell_width']} r0/c1, {cells} of them, then a tail")
+        lines.append(f"time            {cells} cells of {i['cell_width']} r0/c1 per slice, then a tail")
         lines.append(f"interpolation   {i['stencil_points']} points")
         for errors in i["relative_errors"]:
             name = max(FIELDS, key=lambda field: errors["on_slices"][field]["p99"])

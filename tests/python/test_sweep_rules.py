@@ -72,7 +72,7 @@ def test_rows_with_other_columns_are_kept_until_they_may_go(tmp_path):
     assert running.wait() in (143, -signal.SIGTERM)
     before = part.read_bytes()
     other = subprocess.run(columns("loss,impulse_n_s"), cwd=tmp_path, capture_output=True, text=True)
-    assert other.returncode == 2 and "give --force to drop it" in other.stderr
+    assert other.returncode == 2 and "pass --force to drop it" in other.stderr
     assert part.read_bytes() == before
     # fewer results than are kept, or the same: it goes on
     done = run_well("sweep", "s.toml", "-o", "s.h5", "--columns", "loss", cwd=tmp_path)
@@ -133,9 +133,9 @@ SUGGESTED = [
     ('shape = "ball"', 'shape = "sphere"', "did you mean ball?"),
     ('shape = "ball"', 'shape = "cylinder"', "did you mean rod?"),
     ('"alumina-99.5"', '"ruby"', "`hertzlamb materials` lists the names"),
-    ("velocity_m_s = 0.7", "velocity_m_s = [0.7, 0.8]", "below [product] of a sweep file"),
+    ("velocity_m_s = 0.7", "velocity_m_s = [0.7, 0.8]", "in [product] of a sweep file"),
     ("[contact]", "[probe]\nr_m = 0\nz_m = 1e-3\n[contact]", "write [[probe]] for [probe]"),
-    ("[contact]", '[output]\nquantities = ["stress_rz"]\n[contact]', "always written; leave it out"),
+    ("[contact]", '[output]\nquantities = ["stress_rz"]\n[contact]', "always written: remove it"),
 ]
 
 

@@ -95,4 +95,4 @@ def test_a_part_that_is_gone_is_no_zeros(folder, tmp_path):
     assert np.isnan(found[12_345:27_001]).all() and (models[12_345:27_001] == 255).all()
     assert np.array_equal(found[:12_345], whole[:12_345], equal_nan=True)
     assert np.array_equal(found[27_001:], whole[27_001:], equal_nan=True)
-    assert "has the places of its parts" in run("plot", "elsewhere/all.h5", "-o", "x.svg", cwd=moved).stderr
+    assert "refers to its parts" in run("plot", "elsewhere/all.h5", "-o", "x.svg", cwd=moved).stderr

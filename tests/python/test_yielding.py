@@ -34,8 +34,8 @@ def test_jackson_green_far_beyond_its_range_is_warned_of(tmp_path):
     slow = run_well("impact", scene(tmp_path, "jackson_green", 0.5))
     trusted = 0.5 / slow["velocity_over_trusted"]
     below, above = (run("impact", scene(tmp_path, "jackson_green", part * trusted)) for part in (0.98, 1.02))
-    assert "is trusted" not in below.stderr
-    assert 'plasticity = "jackson_green" is trusted' in above.stderr and "velocity_m_s" in above.stderr
+    assert "is valid" not in below.stderr
+    assert 'plasticity = "jackson_green" is valid' in above.stderr and "velocity_m_s" in above.stderr
     assert run_well("impact", scene(tmp_path, "thornton", 1.02 * trusted)).get("velocity_over_trusted") is None
 
 
@@ -61,7 +61,7 @@ def test_a_sweep_counts_the_rows_beyond_the_range(tmp_path):
     only = run_well("sweep", path, "-o", tmp_path / "b.h5", "--columns", "restitution")
     assert only["untrusted"] == done["untrusted"]
     text = run("sweep", path, "-o", tmp_path / "c.h5").stdout
-    assert f"{done['untrusted']} faster than" in text and "velocity_over_trusted above 1" in text
+    assert f"{done['untrusted']} are too fast for" in text and "velocity_over_trusted above 1" in text
 
 
 @pytest.mark.parametrize("strength", ["3e5", "2e3", "1e-12", "1e-200"])
@@ -137,4 +137,4 @@ def test_the_head_of_an_export_says_how_far_the_law_is_trusted(tmp_path):
     table = tmp_path / "table.csv"
     assert run("export", "table", scene(tmp_path, "jackson_green", 1.3 * trusted), "-o", table).returncode == 0
     head = table.read_text()
-    assert "trusted up to" in head and "is trusted: restitution" in head
+    assert "valid up to" in head and "is valid: restitution" in head

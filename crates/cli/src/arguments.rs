@@ -1,5 +1,4 @@
-//! What several commands are told alike: where kernels come from, what happens to an existing output, and how much memory
-//! may be taken.
+//! Arguments that several commands share: source of the kernels, handling of existing outputs, and memory limit.
 
 use crate::failure::{Failure, lines, show};
 use clap::{Args, ValueEnum};
@@ -13,14 +12,14 @@ use std::fmt::{self, Display, Formatter};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// Where the kernels of the fields come from.
+/// Source of the kernels of the fields.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum KernelOption {
-    /// Computed for each probe, no table.
+    /// Compute the kernels for each probe, without a table.
     Direct,
-    /// Looked up in the table given with --table.
+    /// Look the kernels up in the table given with --table.
     Table,
-    /// The table or computed: for one impact by the estimated cost and error of both, for rows of a sweep by the error alone.
+    /// Choose between table and computation: for one impact by the estimated cost and error of both, for the rows of a sweep by the error alone.
     Auto,
 }
 
@@ -29,18 +28,18 @@ pub(crate) struct KernelOptions {
     /// Kernel table for the fields at probes.
     #[arg(long, value_name = "FILE")]
     pub(crate) table: Option<PathBuf>,
-    /// Where the kernels of the fields come from.
+    /// Source of the kernels of the fields.
     #[arg(long, value_enum, default_value_t = KernelOption::Auto)]
     kernel: KernelOption,
 }
 
 impl KernelOptions {
-    /// The table among the files that are read.
+    /// The table, as one of the input files of the command.
     pub(crate) fn input(&self) -> Option<Role> {
         Some(("the kernel table", self.table.clone()?))
     }
 
-    /// The table, where kernels may be looked up.
+    /// Path of the table, if kernels may be looked up.
     fn looked_up(&self) -> Result<Option<&Path>, Failure> {
         match (self.kernel, self.table.as_deref()) {
             (KernelOption::Table, None) => Err(Failure::input(NO_TABLE)),
@@ -49,7 +48,7 @@ impl KernelOptions {
         }
     }
 
-    /// Of one impact.
+    /// Choice of kernels for one impact.
     pub(crate) fn choice(&self) -> Result<KernelChoice, Failure> {
         let table = self.table.as_deref().map(open_table);
         let table = table.transpose()?.map(Arc::new);
@@ -61,20 +60,20 @@ impl KernelOptions {
         }
     }
 
-    /// Whether a finished result may have computed kernels, and the id of the table whose kernels it may have.
+    /// Whether computed kernels are allowed in an existing result, and the id of the table that is allowed in it.
     pub(crate) fn allowed(&self) -> Result<(bool, Option<String>), Failure> {
         let table = self.looked_up()?.map(open_table).transpose()?;
         let id = table.map(|table| table.id().to_owned());
         Ok((id.is_none() || self.kernel != KernelOption::Table, id))
     }
 
-    /// A sweep with its fields, where its base scene has probes.
+    /// Adds the fields to a sweep whose base scene has probes.
     pub(crate) fn with_fields(&self, spec: Spec) -> Result<Spec, Failure> {
         if !spec.has_probes() {
             return match (self.kernel, &self.table) {
                 (KernelOption::Auto, None) => Ok(spec),
                 _ => Err(Failure::input(
-                    "--table and --kernel are for the fields at probes, and the base scene of the sweep has no [[probe]]",
+                    "--table and --kernel apply only to fields at probes, but the base scene of the sweep has no [[probe]]: remove them or add a [[probe]]",
                 )),
             };
         }
@@ -83,14 +82,14 @@ impl KernelOptions {
 }
 
 const NO_TABLE: &str =
-    "--kernel table needs a table: give --table FILE, made with hertzlamb tabulate";
+    "--kernel table requires a table: pass --table FILE, made with hertzlamb tabulate";
 
-/// The table at `path`.
+/// Opens the kernel table at `path`.
 pub(crate) fn open_table(path: &Path) -> Result<TableFile, Failure> {
     TableFile::open(path).map_err(Failure::input)
 }
 
-/// Replacing what is there: one flag, the same in every command.
+/// The flag --force, the same in every command.
 #[derive(Debug, Clone, Copy, Args)]
 pub(crate) struct Overwrite {
     /// Replace existing outputs.
@@ -103,14 +102,14 @@ impl Overwrite {
         Existing::replaced(self.force)
     }
 
-    /// Claims the one output of a command that reads `inputs`, before any work.
+    /// Claims the only output of a command that reads `inputs`, before any work.
     pub(crate) fn claim(self, path: &Path, inputs: &[Role]) -> Result<Output, Failure> {
         apart(&[path], inputs)?;
         Ok(Output::claim(path, self.existing())?)
     }
 }
 
-/// Whether a name is that of a file of rows that this program can write.
+/// Checks that the file extension names a format for rows that this program can write.
 pub(crate) fn check_rows(path: &Path) -> Result<(), Failure> {
     const BUILD: &str =
         ": build it with `cargo build --release --package hertzlamb-cli --features parquet`";
@@ -122,15 +121,15 @@ pub(crate) fn check_rows(path: &Path) -> Result<(), Failure> {
     })
 }
 
-/// What is said of an output that was to be text.
+/// Hint for an output whose name asks for text.
 pub(crate) const AS_TEXT: &str = "; --csv OUT.csv writes text";
 
-/// Whether the name of an output is that of text.
+/// Whether the file extension of an output is that of text.
 pub(crate) fn is_text(path: &Path) -> bool {
     path.extension().is_some_and(|ending| ending == "csv")
 }
 
-/// Report of `--skip-complete` where nothing is left to do.
+/// Report of `--skip-complete` if nothing is left to do.
 #[derive(Serialize)]
 struct Complete {
     output: String,
@@ -144,7 +143,7 @@ impl Display for Complete {
     }
 }
 
-/// Prints that an output is there already.
+/// Prints that an output exists already and is complete.
 pub(crate) fn say_complete(output: &Path, json: bool) -> Result<(), Failure> {
     let report = Complete {
         output: output.display().to_string(),
@@ -153,10 +152,10 @@ pub(crate) fn say_complete(output: &Path, json: bool) -> Result<(), Failure> {
     show(json, &report)
 }
 
-/// One flag, the same in every command that can take much.
+/// The flag --max-memory, the same in every command that may need much memory.
 #[derive(Debug, Clone, Copy, Args)]
 pub(crate) struct MemoryLimit {
-    /// Memory that the work may take in GB; what the machine has free otherwise.
+    /// Memory limit in GB. Default: the free memory of the machine.
     #[arg(long, value_name = "GB", value_parser = gigabytes)]
     max_memory: Option<f64>,
 }
@@ -168,7 +167,7 @@ impl MemoryLimit {
             .map_or_else(output::free_memory, |gigabytes| 1e9 * gigabytes)
     }
 
-    /// Refuses work that takes more.
+    /// Rejects work that needs more.
     pub(crate) fn check(self, needed: f64, what: &str, change: &str) -> Result<(), Failure> {
         let limit = self.bytes();
         if needed <= limit {
@@ -176,7 +175,7 @@ impl MemoryLimit {
         }
         let [needed, limit] = [needed, limit].map(|bytes| 1e-9 * bytes);
         Err(Failure::input(format!(
-            "{what} needs about {needed:.3} GB of memory, more than the {limit:.3} GB allowed: {change}, or give --max-memory GB"
+            "{what} needs about {needed:.3} GB of memory, more than the {limit:.3} GB allowed: {change}, or pass --max-memory GB"
         )))
     }
 }

@@ -1,4 +1,4 @@
-//! How a command fails: exit code 2 for bad input, 1 when the work itself failed, 75 when it may be tried again.
+//! Failure of a command. Exit codes: 2 for bad input, 1 if the work itself failed, 75 for a temporary failure.
 
 use fault::{Class, Culprit, Fault, Remedy};
 use output::OutputError;
@@ -11,17 +11,17 @@ use std::path::Path;
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// A failure with its sentence for the user.
+/// A failure with its message for the user.
 #[derive(Debug)]
 pub(crate) struct Failure {
     sentence: String,
     remedy: Remedy,
-    /// What it is about, for programs.
+    /// Fields of the JSON error: class, key, value, range, file.
     about: Map<String, Value>,
 }
 
 impl Failure {
-    /// The user can mend it: a scene, a file, an argument.
+    /// Bad input that the user can correct: a scene, a file, an argument.
     pub(crate) fn input(error: impl Fault) -> Self {
         let mut failure = Self::from(error);
         failure.remedy = Remedy::Change;
@@ -31,12 +31,12 @@ impl Failure {
         failure
     }
 
-    /// The work could not be done.
+    /// The work itself failed.
     pub(crate) fn work(error: impl Display) -> Self {
         error.to_string().into()
     }
 
-    /// What stands in the way may go.
+    /// A temporary failure: the same command may succeed later.
     pub(crate) fn until_later(error: impl Display) -> Self {
         Self {
             remedy: Remedy::Wait,
@@ -44,13 +44,13 @@ impl Failure {
         }
     }
 
-    /// Work of many parts failed; an output that cannot be written is told as everywhere.
+    /// Failure of work with several parts; an output that cannot be written is reported as in all other commands.
     pub(crate) fn in_part(error: Box<dyn Error + Send + Sync>) -> Self {
         let output = error.downcast::<OutputError>();
         output.map_or_else(Self::work, |output| (*output).into())
     }
 
-    /// The same with what to do, where it is this error that it helps against.
+    /// Appends the hint `words` if it applies to this error.
     pub(crate) fn hint_if(mut self, helps: bool, words: &str) -> Self {
         if helps {
             self.sentence += words;
@@ -58,7 +58,7 @@ impl Failure {
         self
     }
 
-    /// Standard output does not take what is written.
+    /// Standard output rejects a write.
     pub(crate) fn unprintable(error: std::io::Error) -> Self {
         let output::OutputFault { reason, full } = error.into();
         let told = format!("cannot write to standard output: {reason}");
@@ -69,7 +69,8 @@ impl Failure {
         }
     }
 
-    /// Prints it on standard error, as an object where the command was to print one, and gives the exit code.
+    /// Prints the failure on standard error, as an object if the command was called with --json, and returns the exit
+    /// code.
     pub(crate) fn report(mut self) -> ExitCode {
         if JSON.load(Ordering::Relaxed) {
             (self.about).insert("message".to_owned(), self.sentence.into());
@@ -89,8 +90,8 @@ impl<E: Fault> From<E> for Failure {
     fn from(error: E) -> Self {
         let culprit = error.culprit();
         let hint = match (culprit.class, culprit.remedy) {
-            (Class::Exists, _) => "; give --force to replace it",
-            (Class::Memory, _) => ", or give --max-memory GB",
+            (Class::Exists, _) => "; pass --force to replace it",
+            (Class::Memory, _) => ", or pass --max-memory GB",
             (Class::OutsideTable, Remedy::Change) => "; use --kernel direct or another table",
             (Class::Scene, _) if names_no_material(&culprit) => {
                 "; `hertzlamb materials` lists the names"
@@ -105,15 +106,15 @@ impl<E: Fault> From<E> for Failure {
     }
 }
 
-/// Whether a material is unknown.
+/// Whether the error is an unknown material.
 fn names_no_material(culprit: &Culprit<'_>) -> bool {
     let is_material = |key: &str| key.rsplit('.').next() == Some("material");
     culprit.key.as_deref().is_some_and(is_material) && culprit.word.is_some()
 }
 
-/// A text without its middle, where a file has a word of a megabyte.
+/// A text without its middle, for a file that contains a word of a megabyte.
 fn cut(text: &str) -> String {
-    /// Letters of each end.
+    /// Characters kept at each end.
     const SHOWN_END: usize = 1000;
     let count = text.chars().count();
     if count <= 2 * SHOWN_END {
@@ -124,9 +125,9 @@ fn cut(text: &str) -> String {
     format!("{first}...{last}")
 }
 
-/// What is known of an error.
+/// The JSON fields of an error.
 fn about(culprit: &Culprit<'_>) -> Map<String, Value> {
-    // JSON has no number that is not finite
+    // JSON numbers are finite
     let number = culprit.number.map(|number| match number.is_finite() {
         true => Value::from(number),
         false => Value::from(number.to_string()),
@@ -147,31 +148,31 @@ fn about(culprit: &Culprit<'_>) -> Map<String, Value> {
     known.collect()
 }
 
-/// Whether the command was to print JSON, known before its arguments are understood.
+/// Whether the command was called with --json; set before the arguments are parsed.
 pub(crate) static JSON: AtomicBool = AtomicBool::new(false);
 
-/// An error as an object, of which no more is known.
+/// An error as a JSON object with class and message only.
 pub(crate) fn object(class: &str, message: &str) -> String {
     let object = json!({ "error": { "class": class, "message": message } });
     line(object)
 }
 
-/// Whether only errors are told.
+/// Whether only errors are printed (--quiet).
 pub(crate) static QUIET: AtomicBool = AtomicBool::new(false);
 
-/// Writes a warning, a note or how far the work is on standard error, unless only errors are wanted.
+/// Writes a warning, a note or the progress on standard error, unless --quiet is set.
 pub(crate) fn say(text: impl Display) {
     if !QUIET.load(Ordering::Relaxed) {
         tell(text);
     }
 }
 
-/// Writes a line on standard error; where nobody takes it, the work goes on all the same.
+/// Writes a line on standard error; the work continues if nobody reads it.
 fn tell(text: impl Display) {
     let _ = writeln!(std::io::stderr(), "{}", line(text));
 }
 
-/// Writes lines on standard output, in which names of files are [`line`]s already; nobody need read them, the pipe may be closed.
+/// Writes lines on standard output; file names in them must have passed [`line`]. A closed pipe is not an error.
 pub(crate) fn print(text: impl Display) -> Result<(), Failure> {
     match writeln!(std::io::stdout(), "{}", visible(text, &['\n', '\t'])) {
         Ok(()) => Ok(()),
@@ -180,7 +181,7 @@ pub(crate) fn print(text: impl Display) -> Result<(), Failure> {
     }
 }
 
-/// Prints the report of a command: one value, written as one line of JSON or as its text.
+/// Prints the report of a command, as one line of JSON or as text.
 pub(crate) fn show(json: bool, report: &(impl Serialize + Display)) -> Result<(), Failure> {
     if json {
         print(serde_json::to_string(report).map_err(Failure::work)?)
@@ -189,20 +190,20 @@ pub(crate) fn show(json: bool, report: &(impl Serialize + Display)) -> Result<()
     }
 }
 
-/// Lines of a report, each with its name.
+/// Lines of a report, each with its name in front.
 pub(crate) fn lines<T: Display>(named: impl IntoIterator<Item = (&'static str, T)>) -> String {
     let line = |(name, text)| format!("{name:15}{}", line(text));
     let lines: Vec<String> = named.into_iter().map(line).collect();
     lines.join("\n")
 }
 
-/// A text in one line, whatever names of files it has: a new line in one of them would look like a message of its own.
+/// A text in one line. A new line in a file name would otherwise look like a separate message.
 pub(crate) fn line(text: impl Display) -> String {
     visible(text, &['\t'])
 }
 
-/// A text as it is, but for control characters other than these: names of files may have them, and terminals obey them. They
-/// are escaped as in JSON.
+/// A text with control characters other than `kept` escaped as in JSON: file names may contain them, and terminals obey
+/// them.
 fn visible(text: impl Display, kept: &[char]) -> String {
     let mut shown = String::new();
     for letter in text.to_string().chars() {
@@ -217,12 +218,12 @@ fn visible(text: impl Display, kept: &[char]) -> String {
     shown
 }
 
-/// Fails where standard output was closed before the program began: the system has put nothing in its place.
+/// Fails if standard output was closed before the program began: the system has put nothing in its place.
 pub(crate) fn check_stdout() -> Result<(), Failure> {
     let of = |what: &str| format!("/proc/self/{what}/1");
     let to_nothing = std::fs::read_link(of("fd")).is_ok_and(|path| path.ends_with("null"));
     let described = std::fs::read_to_string(of("fdinfo")).unwrap_or_default();
-    // open for reading too, as nobody opens it for output
+    // the standard library reopens a closed one for reading too, which nobody does for output
     let reads = |line: &str| line.starts_with("flags:") && line.trim_end().ends_with('2');
     if to_nothing && described.lines().any(reads) {
         let closed = "cannot write to standard output: it is closed";

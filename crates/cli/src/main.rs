@@ -1,4 +1,5 @@
-//! The `hertzlamb` command: `commands` has one file per subcommand but the completions, the other files are what they share.
+//! The `hertzlamb` command. `commands` has one file per subcommand except `completions`; the other files are shared
+//! helpers.
 
 // From the bottom up: a module uses only those above it.
 mod failure;
@@ -9,6 +10,7 @@ mod arguments;
 mod report;
 mod commands;
 
+use clap::error::ErrorKind;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use clap_complete::{Shell, generate};
 use commands::{
@@ -18,16 +20,16 @@ use failure::Failure;
 use std::process::ExitCode;
 use std::sync::atomic::Ordering;
 
-/// Impact of a body on an elastic half-space: contact force, rebound and waves.
+/// Computes the impact of a body on an elastic half-space: contact force, rebound and waves.
 #[derive(Debug, Parser)]
 #[command(
     name = "hertzlamb",
     version,
     propagate_version = true,
-    after_help = "Exit codes: 0 done; 1 the work failed; 2 bad input or usage; 75 try the same again later; 101 a fault of the program; 130, 143 or 129 stopped by Ctrl-C, by SIGTERM or because the terminal closed.\nWith --json, an error is one JSON object on standard error."
+    after_help = "Exit codes: 0 done; 1 the work failed; 2 bad input or usage; 75 temporary failure, retry later; 101 internal error, please report; 130, 143 or 129 stopped by Ctrl-C, by SIGTERM or because the terminal closed.\nWith --json, commands that accept it print an error as one JSON object on standard error."
 )]
 struct Cli {
-    /// Only errors on standard error: no progress, no warnings.
+    /// Print only errors on standard error: no progress, no warnings.
     #[arg(short, long, global = true)]
     quiet: bool,
     #[command(subcommand)]
@@ -36,25 +38,25 @@ struct Cli {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Runs a scene: contact force, rebound, fields at probes.
+    /// Computes one scene: contact force, rebound, fields at probes.
     Impact(impact::Arguments),
-    /// Runs many scenes that differ in some keys and writes them as one table.
+    /// Computes many scenes that differ in some keys and writes the results as one table.
     Sweep(sweep::Arguments),
-    /// Yield pressure or velocity from a measured rebound, contact time or peak force.
+    /// Infers the yield pressure or the velocity from a measured rebound, contact time or peak force.
     Infer(infer::Arguments),
-    /// Inputs of particle codes, and a table of the rebound against velocity.
+    /// Writes inputs for particle codes, or a table of the rebound over velocity.
     Export(export::Arguments),
     /// Draws the results of impacts, sweeps and tables.
     Plot(plot::Arguments),
-    /// A first look: the paper's case, its numbers, and the waves under a ball.
+    /// Shows a first example: the paper's case, its numbers, and the waves under a ball.
     Demo(demo::Arguments),
-    /// Redoes the source paper: every number and Figures 4 to 11 beside ours.
+    /// Recomputes the source paper: compares all its numbers and Figures 4 to 11 with this program's.
     Paper(paper::Arguments),
-    /// Builds a kernel table: once, for every material pair.
+    /// Builds a kernel table, which serves all pairs of materials.
     Tabulate(tabulate::Arguments),
-    /// Looks at finished tables (info, verify, diff) and joins shards (merge).
+    /// Inspects finished kernel tables (info, verify, diff) and joins shards (merge).
     Table(table::Arguments),
-    /// Charts speed against accuracy of all methods, and where they fail.
+    /// Compares the speed and accuracy of all methods and maps where they fail.
     Chart(chart::Arguments),
     /// Lists and searches the materials library.
     Materials(materials::Arguments),
@@ -104,26 +106,27 @@ fn completions(shell: Shell) -> Result<(), Failure> {
     failure::print(String::from_utf8_lossy(&script).trim_end())
 }
 
-/// The command line; every command has the version, and the name, of the program.
+/// Parses the command line. Every subcommand shows the version and the name of the program.
 fn parsed() -> Cli {
     let command = Cli::command().mut_subcommands(|command| command.display_name("hertzlamb"));
     let found = command.try_get_matches();
     found
         .and_then(|found| Cli::from_arg_matches(&found))
         .unwrap_or_else(|error| {
-            // a new line in an argument would look like a message of its own
-            let odd = std::env::args_os().any(|argument| {
-                let argument = argument.to_string_lossy();
-                argument.chars().any(char::is_control)
-            });
-            if error.use_stderr() && (odd || failure::JSON.load(Ordering::Relaxed)) {
-                let text = error.to_string();
-                let sentence = text.split("\n\nUsage").next().unwrap_or(&text);
-                let sentence = sentence.trim().trim_start_matches("error: ");
-                let sentence = sentence.replace("\n\n  tip: ", "; ");
-                Failure::input(sentence).report();
-                std::process::exit(2);
+            let help = error.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand;
+            if help || !error.use_stderr() {
+                error.exit();
             }
-            error.exit()
+            Failure::input(usage_sentence(&error.to_string())).report();
+            std::process::exit(2);
         })
+}
+
+/// A usage error in one sentence, without the lines on usage and help; its first tip follows a semicolon.
+fn usage_sentence(text: &str) -> String {
+    let end = ["\n\nUsage", "\n\nFor more"].map(|end| text.find(end).unwrap_or(text.len()));
+    let sentence = text[..end[0].min(end[1])].trim();
+    let sentence = sentence.trim_start_matches("error: ");
+    let sentence = sentence.replace("\n\n  tip: ", "; ").replace("\n  ", " ");
+    format!("{sentence}; --help lists the options")
 }

@@ -1,4 +1,4 @@
-//! How the program ends before its work is done: stopped by somebody, by a fault of its own, or without memory.
+//! Ends of the program before its work is done: a signal, an internal error, or no memory.
 
 use crate::failure::{JSON, line, object};
 use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
@@ -12,22 +12,22 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 
-/// What is kept when the command is stopped now.
+/// Message about the kept results, for a command that is stopped now.
 static NOTE: Mutex<Option<Box<dyn Fn() -> String + Send>>> = Mutex::new(None);
 
 /// Whether a signal is about to end the program.
 static STOPPED: AtomicBool = AtomicBool::new(false);
-/// The thread that ends it.
+/// Name of the thread that handles the signals.
 const EAR: &str = "interrupt";
 
-/// From now on says what is kept when the command is stopped.
+/// Sets the message about kept results that is printed when the command is stopped.
 pub(crate) fn say_then(note: impl Fn() -> String + Send + 'static) {
     *NOTE.lock().unwrap_or_else(PoisonError::into_inner) = Some(Box::new(note));
 }
 
-/// Listens for Ctrl-C and its like until the program ends; where that is not possible, they end it as ever.
+/// Listens for Ctrl-C and similar signals until the program ends; if that is impossible, they end it at once.
 pub(crate) fn listen() {
-    // a file that grows beyond the limit of the process would end it without a handler
+    // a file that grows beyond the process's limit would end the program unless this signal has a handler
     #[cfg(unix)]
     let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, Arc::default());
     let Ok(mut signals) = Signals::new([SIGINT, SIGTERM, SIGHUP]) else {
@@ -43,7 +43,7 @@ pub(crate) fn listen() {
                 "stopped: {}",
                 kept.as_deref().unwrap_or("nothing was written")
             );
-            // a new line, behind what a bar of progress shows
+            // begins with a new line, after the progress bar
             let told = if JSON.load(Ordering::Relaxed) {
                 object("stopped", &told)
             } else {
@@ -57,19 +57,20 @@ pub(crate) fn listen() {
     });
 }
 
-/// Waits for the end where a signal has come: what the program does or fails in from then on is a consequence.
+/// Waits for the end if a signal has arrived: any later failure is a consequence of it.
 pub(crate) fn let_signals_end() {
     while STOPPED.load(Ordering::SeqCst) && thread::current().name() != Some(EAR) {
         thread::park();
     }
 }
 
-/// Writes on standard error what it takes at once. Nobody may read it, and another thread may wait for that with its lock.
+/// Writes as much on standard error as it accepts without waiting. Nobody may read it, or another thread may wait for
+/// that while it holds the lock.
 fn tell_at_once(text: &str) {
     #[cfg(unix)]
     {
         use rustix::event::{PollFd, PollFlags, Timespec, poll};
-        /// Bytes that a pipe takes at least where it takes any.
+        /// Bytes that a pipe accepts at once if it is ready.
         const PIPE_BYTES: usize = 4096;
         let (error, at_once) = (rustix::stdio::stderr(), Timespec::default());
         let mut asked = [PollFd::new(&error, PollFlags::OUT)];
@@ -81,10 +82,10 @@ fn tell_at_once(text: &str) {
     let _ = std::io::stderr().write_all(text.as_bytes());
 }
 
-/// Exit code of a program that met a fault of its own.
+/// Exit code after an internal error.
 const FAULT: i32 = 101;
 
-/// Ends the program with one sentence where it would unwind; with `RUST_BACKTRACE` as usual.
+/// Replaces the message of a panic by one sentence and exit code 101, except with `RUST_BACKTRACE` set.
 pub(crate) fn end_in_one_sentence() {
     if std::env::var_os("RUST_BACKTRACE").is_some_and(|value| value != "0") {
         return;
@@ -98,7 +99,7 @@ pub(crate) fn end_in_one_sentence() {
             } else {
                 format!("error: {}", line(sentence(info)))
             };
-            // Standard error may be closed: that must not be a second fault.
+            // Standard error may be closed: this must not cause a second panic.
             let _ = writeln!(std::io::stderr(), "{told}");
             output::abandon();
         }
@@ -112,19 +113,19 @@ fn sentence(info: &PanicHookInfo<'_>) -> String {
     let text = text.or(payload.downcast_ref::<&str>().copied());
     let place = info.location().map(ToString::to_string);
     format!(
-        "this is a fault of the program, please report it with its input: {} at {}",
+        "internal error, please report it with its input: {} at {}",
         text.unwrap_or_default().replace('\n', " "),
         place.unwrap_or_default()
     )
 }
 
-/// The system's allocator; where it has nothing more, the program ends in a sentence.
+/// The system's allocator; when memory runs out, the program ends with one sentence.
 struct OrSentence;
 
 #[global_allocator]
 static ALLOCATOR: OrSentence = OrSentence;
 
-/// What was given, or the end of the program, which takes no memory either.
+/// Returns the allocated memory, or ends the program without allocating.
 fn given(memory: *mut u8, bytes: usize) -> *mut u8 {
     static TOLD: AtomicBool = AtomicBool::new(false);
     if memory.is_null() {
@@ -135,7 +136,7 @@ fn given(memory: *mut u8, bytes: usize) -> *mut u8 {
             };
             let _ = writeln!(
                 std::io::stderr(),
-                "{before}there is no memory left, of which {bytes} bytes are needed: ask for less, or allow more{behind}"
+                "{before}no memory left: {bytes} more bytes are needed; request less work or allow more memory{behind}"
             );
             output::abandon();
         }
@@ -144,7 +145,7 @@ fn given(memory: *mut u8, bytes: usize) -> *mut u8 {
     memory
 }
 
-// SAFETY: all of it is done by the system's allocator, as it was asked for.
+// SAFETY: every call is passed unchanged to the system's allocator.
 #[allow(unsafe_code)]
 unsafe impl GlobalAlloc for OrSentence {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {

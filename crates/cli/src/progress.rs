@@ -1,4 +1,4 @@
-//! How far a long computation is: a bar on a terminal, plain lines elsewhere.
+//! Progress of a long computation: a bar on a terminal, plain lines elsewhere.
 
 use crate::failure::{QUIET, say};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -8,29 +8,29 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 use tabulator::Progress;
 
-/// A bar on a terminal; elsewhere a line for a tenth of the work, [`PAUSE`] or more after the one before: share, slice, rate,
-/// time left. Gone when it is dropped.
+/// Progress bar on a terminal; elsewhere a line after each tenth of the work, at least [`PAUSE`] apart: share, slice,
+/// rate, time left. It disappears when it is dropped.
 pub(crate) struct Bar {
-    /// It counts in both cases, and is seen on a terminal alone.
+    /// Counts in both cases, is visible on a terminal only.
     bar: ProgressBar,
     on_terminal: bool,
-    /// Time of a stage in which nothing is told: many are over by then.
+    /// A stage shorter than this prints nothing; many are.
     patience: Duration,
     stage: Mutex<Stage>,
 }
 
-/// Times between two lines where there is no terminal: at least, for a job that writes a log, and at most.
+/// Shortest and longest time between two lines without a terminal. The shortest keeps the log of a job short.
 const PAUSE: Duration = Duration::from_secs(10);
 const SILENCE: Duration = Duration::from_secs(30);
 
-/// A part of the work, and what was told of it.
+/// A stage of the work and its last printed progress.
 struct Stage {
     name: String,
-    /// Units that were done before, once it is known.
+    /// Units completed by an earlier run, once this is known.
     before: Option<u64>,
     told: Instant,
     tenth: u64,
-    /// Poisson's ratio where the work is, if it is anywhere.
+    /// Poisson's ratio of the slice in progress, if any.
     slice: Option<f64>,
 }
 
@@ -39,7 +39,7 @@ impl Bar {
         Self::after(Duration::ZERO)
     }
 
-    /// One that tells of what takes longer than this.
+    /// Progress that appears only if the work takes longer than `patience`.
     pub(crate) fn after(patience: Duration) -> Self {
         let style = "{msg:24} [{bar:40}] {percent:>3} %  {per_sec}  {eta} left";
         let style = ProgressStyle::with_template(style);
@@ -52,7 +52,7 @@ impl Bar {
         }
     }
 
-    /// Says how many units of the stage are done; those of the first call were done before.
+    /// Sets the number of completed units of the stage; those of the first call come from an earlier run.
     pub(crate) fn set(&self, done: u64) {
         let mut stage = self.lock();
         if stage.before.is_none() {
@@ -68,12 +68,12 @@ impl Bar {
         self.stage.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Units of the stage.
+    /// Number of units of the stage.
     fn units(&self) -> u64 {
         self.bar.length().unwrap_or(0).max(1)
     }
 
-    /// Shows the bar where the stage takes long enough; whether it does.
+    /// Shows the bar if the stage takes long enough; returns whether it does.
     fn is_due(&self) -> bool {
         let due = self.bar.elapsed() >= self.patience;
         if due && self.on_terminal && self.bar.is_hidden() {
@@ -82,7 +82,7 @@ impl Bar {
         due
     }
 
-    /// What to say when another tenth is done, or nothing has been said for long.
+    /// The next line, due after another tenth of the work or a long silence.
     fn line(&self, stage: &mut Stage, more: u64) -> Option<String> {
         let (done, units) = (self.bar.position(), self.units());
         let (tenth, silence) = (10 * done / units, stage.told.elapsed());
@@ -136,7 +136,7 @@ impl Progress for Bar {
 }
 
 impl Stage {
-    /// The beginning of a stage.
+    /// Begins a stage.
     fn of(name: &str) -> Self {
         Self {
             name: name.to_owned(),

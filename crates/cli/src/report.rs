@@ -6,7 +6,7 @@ use formats::{choices, kernel_name};
 use impact::{Cause, Load, Outcome, ProbeFields, RecordResults, Scene, SectionFields, Treated};
 use std::ops::Range;
 
-/// The results for people.
+/// The results as text for people.
 pub(crate) fn text_report(scene: &Scene, outcome: &Outcome) -> String {
     let [model, scheme, share, deflection, reason] = choices(scene, outcome);
     let mut told = vec![
@@ -32,7 +32,7 @@ pub(crate) fn text_report(scene: &Scene, outcome: &Outcome) -> String {
     lines(told)
 }
 
-/// What is computed, as it was understood.
+/// The impact as the program understood it.
 pub(crate) fn understood(scene: &Scene) -> String {
     let metres = |length_m| short(length_m, "m");
     let load = match &scene.load {
@@ -69,7 +69,7 @@ pub(crate) fn understood(scene: &Scene) -> String {
     )
 }
 
-/// The name of a material that has one, with a blank.
+/// The name of a material followed by a blank, if it has a name.
 fn named(material: &Material) -> String {
     match material.name.as_str() {
         "given" => String::new(),
@@ -99,7 +99,7 @@ fn of_contact(r: &contact::Results) -> Vec<(&'static str, String)> {
     let flow = &r.plastic;
     let flowed = || {
         Some(format!(
-            "from {} on; {} of plastic work, an indentation of {} remains",
+            "onset at {}; plastic work {}, residual indentation {}",
             si(flow.yield_velocity_m_s?, "m/s"),
             si(flow.plastic_work_j?, "J"),
             si(flow.residual_indentation_m?, "m")
@@ -111,16 +111,16 @@ fn of_contact(r: &contact::Results) -> Vec<(&'static str, String)> {
     told
 }
 
-/// What was done to a record.
+/// The treatment of a force record.
 fn treatment(done: &Treated) -> String {
     let baseline = done.baseline_s.map(|length_s| {
         let (mean, length) = (si(done.baseline_n, "N"), si(length_s, "s"));
-        format!("baseline {mean}, the mean of the first {length}, taken away")
+        format!("baseline {mean}, the mean of the first {length}, removed")
     });
     let low_pass = done.low_pass_hz.map(|cutoff_hz| {
         let (cutoff, rms) = (si(cutoff_hz, "Hz"), si(done.removed_rms_n, "N"));
         format!(
-            "low pass at {cutoff} (Butterworth, fourth order, forwards and backwards), took away {rms} rms"
+            "low pass at {cutoff} (Butterworth, fourth order, forwards and backwards), removed {rms} rms"
         )
     });
     let parts: Vec<String> = baseline.into_iter().chain(low_pass).collect();
@@ -165,7 +165,7 @@ fn of_output(outcome: &Outcome) -> Vec<(&'static str, String)> {
     told
 }
 
-/// The largest estimated errors at the probes, over the largest value of their kind at the same probe.
+/// The largest estimated errors at the probes, relative to the largest value of the same kind at the same probe.
 fn field_errors(fields: &ProbeFields) -> String {
     let peak = |field: usize, probe: usize| {
         let samples = fields.values[field][probe].iter();
@@ -180,8 +180,8 @@ fn field_errors(fields: &ProbeFields) -> String {
     format!("at most {displacement}, {stress}")
 }
 
-/// The same on a section, whose largest values are those over all samples, where they are known, or over the frames; and in
-/// the middle of all places.
+/// The median and the largest estimated error on a section, relative to the largest value of the same kind at the same
+/// point. Largest values are over all samples if these were recorded, over the frames otherwise.
 fn section_errors(fields: &SectionFields) -> String {
     let (width, size) = (fields.r_m.len(), fields.r_m.len() * fields.z_m.len());
     let peak = |field: usize, place: usize| match &fields.peaks {
@@ -205,8 +205,8 @@ fn section_errors(fields: &SectionFields) -> String {
     format!("{displacement}; {stress}")
 }
 
-/// The largest error of some fields over their largest value at each place where there is one, with its number, the largest
-/// last.
+/// The largest error of some fields relative to their largest value at each place, with the number of the place, in
+/// ascending order. Places where the fields vanish are left out.
 fn ratios(
     fields: Range<usize>,
     places: usize,
@@ -224,7 +224,7 @@ fn ratios(
     found
 }
 
-/// When the first echo comes to the probes, where the block has faces.
+/// Arrival of the first echo at the probes, if the block has finite dimensions.
 fn validity(fields: &ProbeFields) -> Option<String> {
     const SHOWN: usize = 4;
     let known = fields.valid_until_s.iter().enumerate();
@@ -239,7 +239,7 @@ fn validity(fields: &ProbeFields) -> Option<String> {
 
 /// A number with seven digits and an SI prefix.
 pub(crate) fn si(value: f64, unit: &str) -> String {
-    /// From 1e9 down, a thousand apart.
+    /// From 1e9 down in factors of 1000.
     const PREFIXES: [&str; 8] = ["G", "M", "k", "", "m", "u", "n", "p"];
     let size = value.abs();
     if size == 0.0 {

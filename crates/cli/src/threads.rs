@@ -1,4 +1,4 @@
-//! The threads of the work: as many as there are processors or `RAYON_NUM_THREADS` says, or as the system starts.
+//! Number of threads: `RAYON_NUM_THREADS`, or else the number of processors; fewer if the system starts fewer.
 
 use crate::failure::{Failure, say};
 use formats::SceneError;
@@ -7,18 +7,18 @@ use rayon::{ThreadBuilder, ThreadPoolBuilder};
 use std::sync::{Arc, Mutex, PoisonError, mpsc};
 use std::thread;
 
-/// What says how many there are to be.
+/// Environment variable with the number of threads.
 const KEY: &str = "RAYON_NUM_THREADS";
-/// Stack of each in bytes, whatever RUST_MIN_STACK says: the default of the standard library.
+/// Stack size of each thread in bytes, whatever RUST_MIN_STACK is: the default of the standard library.
 const STACK: usize = 2 << 20;
-/// Address space in bytes that a thread may take: its stack, and what the allocator of the C library reserves for it. Where that
-/// runs out, a thread that has just started ends the program (`crates/cli/tests/ends.rs`).
+/// Address space in bytes that a thread needs: its stack and the arena of the C library's allocator. If it runs out, a
+/// thread that has just started ends the program (test: `crates/cli/tests/ends.rs`).
 const THREAD: f64 = (STACK + (64 << 20)) as f64;
 
-/// Starts the threads that all work is divided among.
+/// Starts the threads of the pool.
 ///
-/// They are started before the pool is made of them: it could not be made with fewer once one of them had failed to start
-/// (`ulimit -u`, `pids.max`).
+/// They are started one by one before the pool is built, because a pool cannot be built with fewer threads after one of
+/// them failed to start (`ulimit -u`, `pids.max`).
 pub(crate) fn start() -> Result<(), Failure> {
     let asked = std::env::var(KEY).ok().and_then(|text| text.parse().ok());
     let wanted = match asked {
@@ -50,7 +50,7 @@ pub(crate) fn start() -> Result<(), Failure> {
     let count = (0..wanted.min(room.max(1))).take_while(starts).count();
     if count < wanted {
         say(format!(
-            "warning: the work goes on with {count} of {wanted} threads: the system starts no more (ulimit -u, pids.max), or more would need over half of the memory that is allowed (ulimit -v); {KEY} sets their number"
+            "warning: continuing with {count} of {wanted} threads: the system starts no more (ulimit -u, pids.max), or more would need over half of the allowed memory (ulimit -v); set {KEY} to choose the number"
         ));
     }
     let pool = ThreadPoolBuilder::new().num_threads(count.max(1));

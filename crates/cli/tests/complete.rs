@@ -70,13 +70,13 @@ fn an_impact_that_is_there_is_not_computed_again() {
         here,
         &format!("{line} --csv s.csv"),
         1,
-        "s.csv is not there",
+        "s.csv does not exist",
     );
     expect(here, &format!("{line} --force"), 2, "--force");
 
     let faster = SCENE.replace("= 1.0", "= 1.5");
     std::fs::write(here.join("s.toml"), faster).unwrap();
-    expect(here, line, 1, "is of another scene");
+    expect(here, line, 1, "is the result of another scene");
     std::fs::write(here.join("s.toml"), SCENE).unwrap();
     std::fs::write(here.join("s.h5"), &before[..before.len() / 2]).unwrap();
     assert_eq!(run(here, line).0, Some(1));
@@ -107,7 +107,7 @@ fn a_record_counts_by_its_samples() {
     expect(here, line, 0, "peak force");
     expect(here, line, 0, "nothing to do");
     std::fs::write(here.join("pulse.csv"), record.replace("10", "11")).unwrap();
-    expect(here, line, 1, "is of another scene");
+    expect(here, line, 1, "is the result of another scene");
 }
 
 #[test]

@@ -112,7 +112,7 @@ fn an_output_is_never_an_input_and_never_something_else_than_a_file() {
         ("sweep sweep.toml -o new.h5 --csv sweep.csv", "is the sweep"),
         ("sweep sweep.toml -o scene.h5", "is the base scene"),
         ("sweep sweep.toml -o same --csv ./same", "are the same file"),
-        ("sweep sweep.toml -o same.csv", "ends with .h5"),
+        ("sweep sweep.toml -o same.csv", "with the extension .h5"),
         ("tabulate --grid grid.toml -o grid.h5", "is the grid"),
         ("table merge 1.shard -o shard.h5", "is a shard"),
         ("impact scene.toml -o /dev/null", "device"),
@@ -192,7 +192,10 @@ fn stopped_it_says_what_is_kept_and_two_at_once_are_one() {
     assert!(!done.status.success());
     let said = String::from_utf8(done.stderr).unwrap();
     assert!(said.contains("scenes are kept in long.h5.part"), "{said}");
-    assert!(said.contains("the same command goes on"), "{said}");
+    assert!(
+        said.contains("run the same command again to resume"),
+        "{said}"
+    );
     let left: Vec<String> = all(here).into_iter().map(|(name, _)| name).collect();
     assert!(!left.iter().any(|name| name.starts_with('.')), "{left:?}");
     // another sweep under the name: told what it is, and a word is enough

@@ -204,7 +204,7 @@ fn what_is_complete_is_skipped_and_what_differs_is_told() {
         here,
         &format!("{line} --csv 1.csv"),
         1,
-        "1.csv is not there",
+        "1.csv does not exist",
     );
     std::fs::write(here.join("t.toml"), SWEEP.replace("seed = 5", "seed = 6")).unwrap();
     refused(
@@ -245,7 +245,7 @@ fn gaps_overlaps_and_strangers_are_not_merged() {
         here,
         "sweep merge out -o all.h5",
         2,
-        "out has no part of a sweep",
+        "out contains no part of a sweep",
     );
     assert_eq!(
         well(here, "sweep status out --sweep s.toml --shards 4 --missing"),
@@ -269,14 +269,14 @@ fn gaps_overlaps_and_strangers_are_not_merged() {
         here,
         "sweep merge out -o all.h5",
         2,
-        "rows 32768 to 65535 of the sweep are in no part, and those of another range",
+        "rows 32768 to 65535 of the sweep are in no part, and one more range is missing",
     );
     well(here, "sweep s.toml --shard 2/2 -o out/b.h5");
     refused(
         here,
         "sweep merge out -o all.h5",
         2,
-        "are in out/3.h5 and in out/b.h5",
+        "are both in out/3.h5 and in out/b.h5",
     );
     let status = json(here, "sweep status out --json");
     assert!(
@@ -404,15 +404,20 @@ fn chosen_columns_and_single_precision_are_kept_by_parts() {
         here,
         "sweep s.toml --shard 1/2 --skip-complete -o out/1.h5",
         1,
-        "other columns, or another precision",
+        "has other columns or another precision",
     );
     well(here, "sweep s.toml --shard 2/2 --force -o out/2.h5");
-    refused(here, "sweep merge out -o no.h5", 2, "other columns");
+    refused(
+        here,
+        "sweep merge out -o no.h5",
+        2,
+        "differ in their columns or precision",
+    );
     refused(
         here,
         "sweep s.toml --columns restitutions -o no.h5",
         2,
-        "the column = \"restitutions\" is not one of",
+        "columns = \"restitutions\" is not one of",
     );
 }
 

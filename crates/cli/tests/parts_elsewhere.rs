@@ -51,7 +51,7 @@ fn refused(folder: &Path, line: &str, code: i32, words: &str) {
 fn a_program_without_parquet_says_how_to_build_it_in() {
     let folder = folder();
     let here = folder.path();
-    let words = "which this program was built without: build it with `cargo build --release --package hertzlamb-cli --features parquet`";
+    let words = "but this program was built without that format: build it with `cargo build --release --package hertzlamb-cli --features parquet`";
     refused(here, "sweep s.toml -o rows.parquet", 2, words);
     refused(here, "sweep merge out -o all.parquet", 2, words);
     assert!(!here.join("rows.parquet.part").exists());
@@ -89,13 +89,13 @@ fn parts_in_parquet_are_listed_skipped_and_merged() {
         here,
         "sweep merge out -o v.h5 --virtual",
         2,
-        "it is no HDF5 file",
+        "it is not an HDF5 file",
     );
     // damage of the footer and of rows is seen when the part is looked at
     let part = bytes("out/4.parquet");
     std::fs::write(here.join("out/4.parquet"), &part[..part.len() - 1]).unwrap();
     assert_eq!(well(here, "sweep status out --missing"), "4\n");
-    refused(here, fourth, 1, "it was cut short");
+    refused(here, fourth, 1, "it was truncated");
     let mut damaged = part.clone();
     damaged[part.len() / 2] ^= 1;
     std::fs::write(here.join("out/4.parquet"), &damaged).unwrap();
@@ -132,7 +132,7 @@ fn a_merge_that_refers_to_its_parts_is_refused_as_a_copy_is_and_by_what_would_re
         here,
         line,
         2,
-        "rows 50000 to 50000 are in out/7-50001.h5 and in out/last.h5",
+        "rows 50000 to 50000 are both in out/7-50001.h5 and in out/last.h5",
     );
     well(
         here,
@@ -143,23 +143,18 @@ fn a_merge_that_refers_to_its_parts_is_refused_as_a_copy_is_and_by_what_would_re
         here,
         "sweep merge out -o all.parquet --virtual",
         2,
-        "is to be an HDF5 file",
+        "must be an HDF5 file",
     );
     well(here, line);
     assert!(std::fs::metadata(here.join("all.h5")).unwrap().len() < 2_000_000);
     // beside the parts too, and again
     well(here, "sweep merge out -o out/all.h5 --virtual");
     well(here, "sweep merge out -o out/all.h5 --virtual --force");
-    refused(
-        here,
-        "plot all.h5 -o all.svg",
-        2,
-        "has the places of its parts",
-    );
+    refused(here, "plot all.h5 -o all.svg", 2, "refers to its parts");
     refused(
         here,
         "sweep s.toml --skip-complete -o all.h5",
         1,
-        "has the places of its parts",
+        "refers to its parts",
     );
 }

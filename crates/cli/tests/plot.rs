@@ -63,7 +63,7 @@ fn results_become_svg_png_and_pdf() {
     let svg = std::fs::read_to_string(at.join("drop.svg")).unwrap();
     assert!(svg.contains("force [N]") && svg.contains("Hertz, without waves"));
     // an existing picture is kept, and the same input gives the same bytes
-    refused(at, &["plot", "drop.h5", "-o", "drop.svg"], "give --force");
+    refused(at, &["plot", "drop.h5", "-o", "drop.svg"], "pass --force");
     done(at, &["plot", "drop.h5", "-o", "drop.svg", "--force"]);
     assert_eq!(std::fs::read_to_string(at.join("drop.svg")).unwrap(), svg);
 }
@@ -86,7 +86,7 @@ fn what_is_no_picture_is_refused() {
     refused(
         at,
         &["plot", "none.h5", "-o", "a.jpg"],
-        "does not end in .svg, .png, .pdf or .gif",
+        "does not have the extension .svg, .png, .pdf or .gif",
     );
     refused(
         at,
@@ -96,7 +96,7 @@ fn what_is_no_picture_is_refused() {
     refused(
         at,
         &["plot", "none.h5", "-o", "a.svg", "--scale", "3"],
-        "a.svg does not use --scale",
+        "--scale does not apply to a.svg",
     );
     refused(
         at,

@@ -279,7 +279,7 @@ fn a_damaged_table_is_found_and_its_bad_nodes_are_named() {
         std::fs::write(here.join("broken.h5"), flipped).unwrap();
         let done = run(here, &["table", "verify", "broken.h5", "--sample", "1"]);
         let message = String::from_utf8(done.stderr).unwrap();
-        if message.contains("nodes that cannot be read: nu = ") {
+        if message.contains("unreadable nodes: nu = ") {
             assert_eq!(done.status.code(), Some(1), "{message}");
             named += 1;
         }

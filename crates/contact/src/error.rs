@@ -12,7 +12,7 @@ pub enum ContactError {
     March(#[from] MarchError),
     /// An approach that no wave of the surface outruns.
     #[error(
-        "the approach at velocity_m_s = {} is not below the {} m/s of the half-space's Rayleigh wave, and contact laws are for slower ones: check the velocity, or the height of the fall, and the target's constants",
+        "the approach at velocity_m_s = {} is not below the Rayleigh wave speed of the half-space, {} m/s, above which contact laws do not apply: check the velocity or the height of the fall, and the constants of the target",
         fault::rounded(*velocity_m_s),
         fault::rounded(*limit_m_s)
     )]
@@ -35,7 +35,7 @@ pub enum ContactError {
     Domain(#[from] DomainError),
     /// The deflection of the disc's centre feeds energy back.
     #[error(
-        "the disc gives way {coupling:.1} times as much as the contact, and the deflection of its centre, which is not conjugate to the pressure, feeds energy back{}; take the mean deflection or a larger disc",
+        "the disc is {coupling:.1} times as compliant as the contact, and the deflection of its centre, which is not conjugate to the pressure, feeds energy back{}; use the mean deflection or a larger disc",
         found.map_or_else(String::new, |(e, n)| format!(": restitution {e:.4}, {n} contacts"))
     )]
     EnergyFed {
@@ -46,7 +46,7 @@ pub enum ContactError {
     },
     /// The radiated loss is not small.
     #[error(
-        "model \"radiation\" is a first-order law: it gives a loss of {loss:.3} of the kinetic energy, outside [0, 0.5]; use model \"growing\" or \"wave\""
+        "model \"radiation\" is a first-order law: its loss of {loss:.3} of the kinetic energy is outside [0, 0.5]; use model \"growing\" or \"wave\""
     )]
     LossTooLarge {
         /// The loss 1 - e^2 of the law.
@@ -64,7 +64,7 @@ pub enum ContactError {
     },
     /// Nothing says when a body yields.
     #[error(
-        "plasticity = \"{law}\" needs a yield_strength_pa of the striker or the target{}", if *law == "jackson_green" { "" } else { ", or yield_pressure_pa" }
+        "plasticity = \"{law}\" requires a yield_strength_pa of the striker or the target{}", if *law == "jackson_green" { "" } else { ", or yield_pressure_pa" }
     )]
     NoStrength {
         /// Name of the law.
@@ -72,12 +72,12 @@ pub enum ContactError {
     },
     /// A yielding contact that could not be followed.
     #[error(
-        "the yielding contact could not be followed: its yield_pressure_pa or yield strength is too far from the pressure of the contact"
+        "the yielding contact could not be computed: its yield_pressure_pa or yield strength is too far from the contact pressure"
     )]
     NotFollowed,
     /// A fit that gives nothing back of so deep an indentation.
     #[error(
-        "velocity_m_s = {} leaves a dent as deep as the indentation by plasticity = \"jackson_green\", which is trusted up to {} m/s: use \"thornton\" or \"recovery\", a lower velocity or a higher yield strength",
+        "velocity_m_s = {} leaves a dent as deep as the indentation with plasticity = \"jackson_green\", which is valid up to {} m/s: use \"thornton\" or \"recovery\", a lower velocity or a higher yield strength",
         fault::rounded(*velocity_m_s),
         fault::rounded(*trusted_m_s)
     )]
@@ -89,7 +89,7 @@ pub enum ContactError {
     },
     /// A number that floating-point arithmetic does not hold.
     #[error(
-        "the {quantity} comes out as {value:e}: the numbers of the scene are beyond what floating-point arithmetic holds; check their units"
+        "the {quantity} is {value:e}: the numbers of the scene exceed the range of floating-point numbers; check their units"
     )]
     NotFinite {
         /// Name of the number.
@@ -110,7 +110,7 @@ pub enum ContactError {
     },
     /// An estimated error that is as large as the results.
     #[error(
-        "the estimated relative error of the results is {error:.2}, above 0.5: they say nothing; take {change}"
+        "the estimated relative error of the results is {error:.2}, above 0.5, so the results are meaningless; use {change}"
     )]
     Unreliable {
         /// The estimate.
@@ -126,7 +126,7 @@ pub enum ContactError {
 pub enum MarchError {
     /// The step is too coarse to see the contact.
     #[error(
-        "the contact lasts only {samples} steps (at least {needed} are needed): ask for a smaller step_s"
+        "the contact lasts only {samples} steps (at least {needed} are required): use a smaller step_s"
     )]
     StepTooLong {
         /// Samples in contact.
@@ -146,7 +146,7 @@ pub enum MarchError {
     },
     /// The march would need more work than allowed.
     #[error(
-        "the march needs more than {steps} steps of {cells} memory cells, more than allowed: the half-space remembers {ratio:.3e} collision times; ask for a larger tolerance or step_s, or for a smaller disc_radius_m if there is one"
+        "the solution needs more than {steps} time steps with {cells} memory cells, which exceeds the limit: the memory of the half-space is {ratio:.3e} collision times; use a larger tolerance or step_s, or a smaller disc_radius_m if there is one"
     )]
     TooLong {
         /// Steps taken.
@@ -158,7 +158,7 @@ pub enum MarchError {
     },
     /// The tolerance is not reached with the finest step allowed.
     #[error(
-        "relative tolerance {tolerance:e} is not reached: the last halving of the step still changed the result by {change:e}"
+        "relative tolerance {tolerance:e} is not reached: the last halving of the step changed the result by {change:.1e}"
     )]
     NotConverged {
         /// Required tolerance.
@@ -168,7 +168,7 @@ pub enum MarchError {
     },
     /// A scheme that has left the numbers.
     #[error(
-        "the {scheme} march is unstable: the force is {force:e} times Hertz's after {steps} steps; ask for a smaller step_s or the implicit scheme"
+        "the {scheme} scheme is unstable: the force is {force:.1e} times Hertz's after {steps} steps; use a smaller step_s or the implicit scheme"
     )]
     Unstable {
         /// Name of the scheme.
@@ -183,7 +183,7 @@ pub enum MarchError {
     Domain(#[from] DomainError),
     /// The contact could not be followed.
     #[error(
-        "the growing contact could not be followed beyond {time:.4} collision times at a tolerance of {tolerance:e} (target share {target_share}, wave time {wave_time})"
+        "the growing contact could not be computed beyond {time:.4} collision times at a tolerance of {tolerance:e} (target share {target_share}, wave time {wave_time})"
     )]
     NotFollowed {
         /// Time in collision units.
@@ -197,7 +197,7 @@ pub enum MarchError {
     },
     /// The results do not meet the tolerance by their estimates.
     #[error(
-        "relative tolerance {tolerance:e} is not reached: the error is estimated as {estimate:e}"
+        "relative tolerance {tolerance:e} is not reached: the estimated error is {estimate:.1e}"
     )]
     NotReached {
         /// Required tolerance.
@@ -207,7 +207,7 @@ pub enum MarchError {
     },
     /// The surface comes back and strikes the striker once more.
     #[error(
-        "the surface meets the striker again {time:.4} collision times after the touch, which is not followed: ask for model \"area_dashpot\", to which there is one contact"
+        "the surface meets the striker again {time:.4} collision times after the first touch, which this model does not support: use model \"area_dashpot\", which has a single contact"
     )]
     StrikesAgain {
         /// Time in collision units.
@@ -215,7 +215,7 @@ pub enum MarchError {
     },
     /// The contact shrinks faster than its waves.
     #[error(
-        "waves that left the contact at {time:.4} collision times are overtaken by later ones: the memory of the half-space is too long to be followed: ask for model \"area_dashpot\", which has none"
+        "waves that left the contact at {time:.4} collision times are overtaken by later ones: the memory of the half-space is too long for this model; use model \"area_dashpot\", which has no memory"
     )]
     Overtaken {
         /// Time in collision units.

@@ -63,29 +63,29 @@ impl Unknown {
 pub struct Inferred {
     /// The unknown.
     pub value: f64,
-    /// The unknown with the measure less and more its error, ascending; an end is missing where no contact that yields has
-    /// such a measure.
+    /// The unknown for the measured value minus and plus its error, ascending; an end is missing if no yielding contact
+    /// gives such a value.
     pub band: [Option<f64>; 2],
-    /// Whether the measure is that of an elastic contact, within its error or the tolerance of the results: any yield
-    /// pressure from the lower end on has it, and the interval has no upper end.
+    /// Whether the measured value is that of an elastic contact, within its error or the tolerance of the results: any
+    /// yield pressure above the lower end gives it, and the interval has no upper end.
     pub elastic: bool,
     /// Results with that value.
     pub results: Results,
 }
 
-/// Why nothing was found.
+/// Errors of [`infer`].
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum InferError {
     /// The contact failed.
     #[error(transparent)]
     Contact(#[from] ContactError),
-    /// Nothing that a rebound can be inferred from.
+    /// The input does not allow an inference.
     #[error("{0}")]
     Given(String),
-    /// No law of flow with that unknown.
+    /// The plasticity law does not determine the unknown.
     #[error(
-        "plasticity = \"{law}\" has no {unknown} to be found: use \"thornton\" or \"recovery\", for velocity_m_s also \"jackson_green\""
+        "plasticity = \"{law}\" does not determine {unknown}: use \"thornton\" or \"recovery\", for velocity_m_s also \"jackson_green\""
     )]
     NoLaw {
         /// Name of the law.
@@ -93,9 +93,9 @@ pub enum InferError {
         /// Name of the unknown.
         unknown: &'static str,
     },
-    /// A measure that no contact has that yields.
+    /// A measured value that is impossible for a yielding contact.
     #[error(
-        "{measure} = {} is outside [{:.4e}, {:.4e}], the range of contacts that yield by this law, {}", fault::number(*value), limits[0], limits[1], reach(*most)
+        "{measure} = {} is outside [{}, {}], the range possible for a yielding contact with this law, {}", fault::number(*value), fault::rounded(limits[0]), fault::rounded(limits[1]), reach(*most)
     )]
     Outside {
         /// Name of the measure.
@@ -112,7 +112,7 @@ pub enum InferError {
 /// The range of velocities over that of yield, in words.
 fn reach(most: f64) -> String {
     format!(
-        "from its yield velocity to {} times it: check the unit of the measure and the scene",
+        "from the velocity at the onset of yield to {} times it: check the unit of the measured value, and the scene",
         fault::rounded(most)
     )
 }

@@ -28,7 +28,7 @@ mod names;
 // Collision units and kernel units.
 mod units;
 
-// Materials, striker, half-space, what they bear.
+// Materials, striker, half-space, strengths.
 mod bodies;
 
 // Quadrature, linear systems, series, roots.
@@ -37,13 +37,13 @@ mod numeric;
 // Why a contact has no results.
 mod error;
 
-// What can be chosen about a contact.
+// Settings of a contact.
 mod settings;
 
 // Results in collision units.
 mod summary;
 
-// What results have to meet, and results with their error.
+// Accuracy of results, and results with their error.
 mod accuracy;
 
 // How a loaded surface answers.

@@ -1,8 +1,8 @@
-//! The revision of the numbers: which versions of the program compute the same ones.
+//! The revision of the numbers: versions of the program with the same revision compute the same numbers.
 
 /// Revision of the results of contacts.
 ///
-/// Sweeps carry it in what makes two of them the same, so that parts of two revisions are never merged and a finished
+/// It is part of the identity of a sweep, so that parts of two revisions are never merged and a finished
 /// output of another one is never taken for this one's. It is raised by hand with every change that alters a result by
 /// more than the rounding of double precision, in this crate or in `halfspace`; a test compares results of every model
 /// with those that were written down for it.

@@ -1,4 +1,4 @@
-//! The results of a contact in SI units: they are numbers, and estimates that say nothing are refused.
+//! The results of a contact in SI units: all are finite, and results with too large an error estimate are rejected.
 
 use crate::bodies::strength::Loading;
 use crate::collision::Collision;
@@ -9,7 +9,7 @@ use crate::solve::Solved;
 use crate::solve::choose::fixed_disc_m;
 use crate::units::INVERSE_MASS;
 
-/// Estimated relative error from which on results say nothing.
+/// Estimated relative error above which results are meaningless and rejected.
 pub const MOST_ERROR: f64 = 0.5;
 
 /// Scalar results of a contact in SI units.
@@ -117,8 +117,8 @@ impl Results {
             let disc_m = fixed_disc_m(solved.chosen.model, settings, collision).unwrap_or(radius_m);
             [radius_m, disc_m, disc_m]
         };
-        // by two routes that share nothing but the force: what the striker keeps follows from its momentum, what the
-        // half-space takes from the work on the deflection that lags behind
+        // two methods that share only the force: the striker's energy follows from its momentum, the energy of the
+        // half-space from the work on the deflection that lags behind
         let rebound = (1.0 - INVERSE_MASS * s.impulse).powi(2);
         let steps = |step: f64| (s.contact_time / step).ceil() as usize;
         Self {

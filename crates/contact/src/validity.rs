@@ -63,16 +63,27 @@ pub fn doubts(half_space: &HalfSpace, striker: &Striker) -> Vec<String> {
         let (_, [least, most], unit, name, size) = USUAL.into_iter().find(|row| row.0 == field)?;
         let value = value.filter(|value| !(least..=most).contains(value))?;
         let meant = if (least..=most).contains(&(value * size)) {
-            format!("did you mean {:e}, for {value} {name}?", value * size)
+            format!("did you mean {}, for {value} {name}?", plain(value * size))
         } else {
             format!("is it in {unit}?")
         };
         Some(format!(
-            "{body}.{field} = {} is outside the {least:e} to {most:e} {unit} of usual bodies: {meant}",
-            fault::number(value)
+            "{body}.{field} = {} is outside the usual range of {} to {} {unit}: {meant}",
+            fault::number(value),
+            plain(least),
+            plain(most)
         ))
     });
     unusual.chain(doubt(striker)).collect()
+}
+
+/// A number with four digits at most, with an exponent unless it is of a moderate size.
+fn plain(value: f64) -> String {
+    let rounded = fault::rounded(value);
+    match value.abs() {
+        1e-2..1e5 => rounded,
+        _ => format!("{:e}", rounded.parse().unwrap_or(value)),
+    }
 }
 
 /// A doubt about the mass: one that no body with such a tip has, or that of a ball of half the radius.
@@ -82,7 +93,7 @@ fn doubt(striker: &Striker) -> Option<String> {
     let share = mass_kg / ball_kg;
     if share < LIGHT {
         return Some(format!(
-            "tip_radius_m = {radius_m:.4e} m and mass_kg = {mass_kg:.4e} kg: a ball of that radius weighs {ball_kg:.4e} kg, {:.1e} times as much; is the radius in m and the mass in kg?",
+            "tip_radius_m = {radius_m:.4e} m and mass_kg = {mass_kg:.4e} kg: a ball of that radius has a mass of {ball_kg:.4e} kg, {:.1e} times as much; is the radius in m and the mass in kg?",
             1.0 / share
         ));
     }
@@ -111,17 +122,17 @@ pub fn warnings(
     let alpha = super_seismic(half_space, collision, radius);
     if alpha > 0.1 {
         found.push(format!(
-            "alpha_A = {alpha:.3} is not small against 1: the contact spreads faster than waves for a good part of the impact"
+            "alpha_A = {alpha:.3} is not small compared with 1: the contact spreads faster than waves during a large part of the impact"
         ));
     }
     let tip = striker.tip_radius_m;
     if hertz_radius > tip {
         found.push(format!(
-            "the contact radius reaches {hertz_radius:.3e} m, more than the limit tip_radius_m = {tip:.3e} m: a sphere is not so wide, and Hertz's law says nothing there"
+            "the contact radius reaches {hertz_radius:.3e} m, more than the limit tip_radius_m = {tip:.3e} m: the contact would be wider than the sphere, so Hertz's law does not apply"
         ));
     } else if hertz_radius > 0.5 * tip {
         found.push(format!(
-            "the contact radius reaches {hertz_radius:.3e} m, more than half of tip_radius_m = {tip:.3e} m: Hertz's law is for small contacts"
+            "the contact radius reaches {hertz_radius:.3e} m, more than half of tip_radius_m = {tip:.3e} m: Hertz's law applies to small contacts"
         ));
     }
     if let Some(disc) = disc_radius_m {
@@ -141,7 +152,7 @@ pub fn warnings(
         let ratio = contact_time_s / period;
         if ratio < 10.0 {
             found.push(format!(
-                "the contact lasts {contact_time_s:.3e} s, {ratio:.2} times the longest period of the striker's own vibrations, {period:.3e} s: below 10 times, waves in the striker matter, and they are not modelled"
+                "the contact lasts {contact_time_s:.3e} s, {ratio:.2} times the longest period of the striker's own vibrations, {period:.3e} s: below a ratio of 10 waves in the striker matter, which are not modelled"
             ));
         }
     }
@@ -152,7 +163,7 @@ pub fn warnings(
     let echo = nearest.map(|(_, size)| 2.0 * size / half_space.longitudinal_speed_m_s());
     if let (Some((key, size)), Some(echo)) = (nearest, echo.filter(|&echo| echo < contact_time_s)) {
         found.push(format!(
-            "the echo from {key} = {size:.3e} m returns after {echo:.3e} s, before the contact ends at {contact_time_s:.3e} s: the block is not a half-space"
+            "the echo from {key} = {size:.3e} m returns after {echo:.3e} s, before the contact ends at {contact_time_s:.3e} s: the block does not act as a half-space"
         ));
     }
     found.extend(doubts(half_space, striker));
@@ -173,7 +184,7 @@ fn of_the_materials(collision: &Collision, results: &Results, found: &mut Vec<St
                 onset / limit
             ));
         }
-        // what is brittle bears more pressure than tension, until it cracks
+        // a brittle body bears more pressure than tension, until it cracks
         let brittle = strength.fracture_toughness_pa_sqrt_m.is_some();
         let tensile = strength.tensile_strength_pa.filter(|_| !brittle);
         if let Some(limit) = tensile.filter(|&limit| stress > limit) {
@@ -187,15 +198,17 @@ fn of_the_materials(collision: &Collision, results: &Results, found: &mut Vec<St
         let crack = strength.cone_crack_force_n(contact);
         if let Some(crack_n) = crack.filter(|&crack_n| force_n > crack_n) {
             found.push(format!(
-                "the peak force {force_n:.4e} N is {:.2} times {crack_n:.4e} N, where a cone crack in the {body} is expected (Auerbach's law, good to the order and the first digit)",
-                force_n / crack_n
+                "the peak force {} N is {:.2} times {} N, at which a cone crack in the {body} is expected (Auerbach's law, accurate to about one significant digit)",
+                fault::rounded(force_n),
+                force_n / crack_n,
+                fault::rounded(crack_n)
             ));
         }
     }
-    // a law of flow says what happens beyond
+    // a plasticity law describes the contact beyond the onset
     if !borne.is_empty() && results.plastic.yield_pressure_pa.is_none() {
         found.push(format!(
-            "the mean contact stress {stress:.4e} Pa is {}: the impact is not elastic unless the strength under so short a load is that high",
+            "the mean contact stress {stress:.4e} Pa is {}: the impact is not elastic, unless the strength is higher under such a short load",
             borne.join("; ")
         ));
     }
@@ -211,7 +224,7 @@ fn of_the_flow(
     if let Some(over) = over.filter(|&over| over > 1.0) {
         let (velocity, law) = (collision.velocity_m_s, settings.plasticity.name());
         found.push(format!(
-            "velocity_m_s = {} is {over:.1} times the {} m/s up to which plasticity = \"{law}\" is trusted: restitution and indentation may be far off, which the error estimate does not contain; use \"thornton\" or \"recovery\", or a lower velocity",
+            "velocity_m_s = {} is {over:.1} times the {} m/s up to which plasticity = \"{law}\" is valid: restitution and indentation may have large errors, which the error estimate does not include; use \"thornton\" or \"recovery\", or a lower velocity",
             fault::rounded(velocity),
             fault::rounded(velocity / over)
         ));
@@ -224,18 +237,18 @@ fn of_the_model(settings: &Settings, chosen: &Chosen, results: &Results, found: 
     let centre = chosen.regime.coupling;
     if of_centre && centre > CENTRE_COUPLING {
         found.push(format!(
-            "the disc gives way {centre:.1} times as much as the contact, more than {CENTRE_COUPLING}: the deflection of its centre is not conjugate to the pressure and may feed energy back; set deflection = \"mean\""
+            "the disc is {centre:.1} times as compliant as the contact, more than {CENTRE_COUPLING}: the deflection of its centre is not conjugate to the pressure and may feed energy back; set deflection = \"mean\""
         ));
     }
     let (error, tolerance) = (results.relative_error_estimate, settings.tolerance);
     if error > tolerance && results.march_steps > 0 && settings.step_s.is_none() {
         found.push(format!(
-            "the tolerance {tolerance:.1e} is not reached: the error is estimated as {error:.1e}"
+            "the tolerance {tolerance:.1e} is not reached: the estimated error is {error:.1e}"
         ));
     }
     if results.contacts > 1 {
         found.push(format!(
-            "the surface strikes again: {} contacts; contact_time_s is that of the first",
+            "the surface strikes again: there are {} contacts, and contact_time_s is that of the first",
             results.contacts
         ));
     }
@@ -261,9 +274,9 @@ mod tests {
         assert!(doubts(&target(steel.clone()), &ball(3e-3)).is_empty());
         let found = doubts(&target(glass), &ball(3.0));
         let told = [
-            "striker.diameter_m = 3 is outside the 1e-8 to 1e0 m of usual bodies: did you mean 3e-3, for 3 mm?",
-            "target.youngs_modulus_pa = 70 is outside the 1e3 to 2e12 Pa of usual bodies: did you mean 7e10, for 70 GPa?",
-            "target.density_kg_m3 = 2.5 is outside the 1e1 to 3e4 kg/m3 of usual bodies: did you mean 2.5e3, for 2.5 g/cm3?",
+            "striker.diameter_m = 3 is outside the usual range of 1e-8 to 1 m: did you mean 3e-3, for 3 mm?",
+            "target.youngs_modulus_pa = 70 is outside the usual range of 1000 to 2e12 Pa: did you mean 7e10, for 70 GPa?",
+            "target.density_kg_m3 = 2.5 is outside the usual range of 10 to 30000 kg/m3: did you mean 2500, for 2.5 g/cm3?",
         ];
         assert_eq!(found, told);
     }

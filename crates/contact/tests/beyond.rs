@@ -53,7 +53,7 @@ fn the_fit_is_warned_of_where_it_leaves_its_authors_restitution() {
                 &solved.chosen,
                 &results,
             );
-            let warned = told.iter().any(|one| one.contains("is trusted"));
+            let warned = told.iter().any(|one| one.contains("is valid"));
             let off = results.restitution / of_the_authors(v, strain) - 1.0;
             (off, results.plastic.velocity_over_trusted.unwrap(), warned)
         };

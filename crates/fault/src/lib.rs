@@ -1,7 +1,7 @@
-//! The one face of every error: a sentence for people, a [`Culprit`] for programs.
+//! The common error interface: a sentence for people, and a [`Culprit`] for programs.
 //!
-//! Each error says itself what it is about, beside its sentence; exit codes of the command, its errors as JSON and the
-//! exceptions of Python follow from that.
+//! Each error describes its cause in addition to its sentence. The exit codes of the command, its JSON errors and the
+//! exceptions of the Python package follow from that description.
 //!
 //! ```
 //! use fault::{Class, Culprit, Fault, Remedy};
@@ -29,35 +29,35 @@ use std::borrow::Cow;
 use std::fmt::{Debug, Display};
 use std::path::Path;
 
-/// An error of which only the sentence is told.
+/// An error with a sentence only.
 pub type AnyError = Box<dyn std::error::Error + Send + Sync>;
 
-/// An error with one face.
+/// An error with a sentence and a [`Culprit`].
 pub trait Fault: Debug + Display {
-    /// What it is about.
+    /// Description of the cause, for programs.
     fn culprit(&self) -> Culprit<'_>;
 }
 
-/// Which kind of thing is at fault.
+/// Class of an error.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Class {
-    /// A scene, a sweep, a grid or an argument.
+    /// A scene, sweep or grid, or an argument or option of the command.
     Scene,
-    /// A number outside the physics.
+    /// A number outside its physical range.
     Domain,
-    /// A question outside a kernel table.
+    /// A query outside a kernel table.
     OutsideTable,
     /// The file of a kernel table.
     Table,
-    /// An impact that has no results.
+    /// An impact without results.
     Impact,
-    /// Memory that is not there.
+    /// Too little memory.
     Memory,
     /// An output that exists already.
     Exists,
     /// An output that cannot be written.
     Output,
-    /// Anything else that failed.
+    /// Any other failure.
     #[default]
     Work,
 }
@@ -79,40 +79,40 @@ impl Class {
     }
 }
 
-/// What can be done.
+/// Remedy for an error.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Remedy {
-    /// Change what was given.
+    /// Change the input.
     Change,
-    /// Nothing that is known: the work itself failed.
+    /// None known: the work itself failed.
     #[default]
     Unknown,
-    /// Try the same again later.
+    /// Retry later.
     Wait,
 }
 
-/// What a program can use of an error; none where it has no such thing.
+/// Description of an error for programs; fields that do not apply are none.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Culprit<'a> {
     pub class: Class,
     pub remedy: Remedy,
-    /// Full name of the key, the argument or the axis at fault.
+    /// Full name of the key, argument or axis at fault.
     pub key: Option<Cow<'a, str>>,
-    /// The number found.
+    /// The rejected number.
     pub number: Option<f64>,
-    /// The word found.
+    /// The rejected word.
     pub word: Option<Cow<'a, str>>,
-    /// What is allowed, in interval notation or as names.
+    /// The allowed range in interval notation, or the allowed names.
     pub range: Option<Cow<'a, str>>,
-    /// The same as two numbers.
+    /// The allowed range as two numbers.
     pub limits: Option<[f64; 2]>,
-    /// The nearest name that exists.
+    /// The nearest valid name.
     pub suggestion: Option<Cow<'a, str>>,
     pub file: Option<Cow<'a, Path>>,
 }
 
 impl<'a> Culprit<'a> {
-    /// One of whom no more is known: failed work has no remedy, everything else can be changed.
+    /// A description with only a class. Failed work has no known remedy; for all other classes the input can be changed.
     pub fn of(class: Class) -> Self {
         Self {
             class,
@@ -131,7 +131,7 @@ impl<'a> Culprit<'a> {
         }
     }
 
-    /// The same where nothing that is known helps.
+    /// Sets the remedy to unknown.
     pub fn unmendable(self) -> Self {
         let remedy = Remedy::Unknown;
         Self { remedy, ..self }
@@ -158,7 +158,7 @@ impl<'a> Culprit<'a> {
     }
 }
 
-/// A number as sentences have it: with an exponent where it would be a row of zeros.
+/// A number for sentences: with an exponent if it would otherwise contain many zeros.
 ///
 /// ```
 /// assert_eq!([-0.25, 1e300].map(fault::number), ["-0.25", "1e300"]);
@@ -170,7 +170,7 @@ pub fn number(value: f64) -> String {
     }
 }
 
-/// A number that was computed, with four digits.
+/// A computed number with four digits.
 ///
 /// ```
 /// assert_eq!([1.0, 0.022_414_4, 3.0e-9].map(fault::rounded), ["1", "0.02241", "3e-9"]);
@@ -184,7 +184,7 @@ pub fn rounded(value: f64) -> String {
     }
 }
 
-/// A sentence alone.
+/// A sentence without a description.
 impl<T: AsRef<str> + Debug + Display> Fault for T {
     fn culprit(&self) -> Culprit<'_> {
         Culprit::default()

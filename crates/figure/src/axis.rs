@@ -1,26 +1,26 @@
-//! Axes: what one shows, in which unit, over which values, and the places of these along it.
+//! Axes: quantity, unit, range of values, and positions along the axis.
 
-/// One axis, of a panel or of colours.
+/// One axis of a panel or of a colour scale.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Axis {
-    /// What it shows: "contact force".
+    /// Quantity on the axis, such as "contact force".
     pub quantity: String,
-    /// Its unit, such as `s`, `m/s`, `r_{0}/c_{1}`; empty for a number without one.
+    /// Unit, such as `s`, `m/s`, `r_{0}/c_{1}`; empty for a dimensionless number.
     pub unit: String,
-    /// Whether the unit takes SI prefixes; values are in the unit itself.
+    /// Whether the unit accepts SI prefixes; values are in the unit without a prefix.
     ///
-    /// A linear axis shows the prefix that suits its values: seconds of 1e-5 are shown as 10 µs.
+    /// A linear axis chooses the prefix that suits its values: times of 1e-5 s are shown as 10 µs.
     pub has_prefixes: bool,
-    /// How values are spread along it.
+    /// Linear or logarithmic.
     pub scale: Scale,
-    /// Values from and to; none: those of the panel's layers, with a little air.
+    /// Range of values. Default: the range of the panel's layers with a small margin.
     pub range: Option<(f64, f64)>,
-    /// Whether it grows to the left, or downward, as depths do.
+    /// Whether values increase to the left, or downward as for depths.
     pub is_reversed: bool,
 }
 
 impl Axis {
-    /// A linear axis of a number without unit, over the values of the panel's layers.
+    /// A linear axis of a dimensionless number, over the values of the panel's layers.
     pub fn linear(quantity: &str) -> Self {
         Self {
             quantity: quantity.to_owned(),
@@ -32,7 +32,7 @@ impl Axis {
         }
     }
 
-    /// The same, logarithmic.
+    /// A logarithmic axis of a dimensionless number, over the values of the panel's layers.
     pub fn logarithmic(quantity: &str) -> Self {
         Self {
             scale: Scale::Logarithmic,
@@ -40,7 +40,7 @@ impl Axis {
         }
     }
 
-    /// An axis of a given interval.
+    /// An axis over a given interval.
     pub fn over(interval: Interval, quantity: &str) -> Self {
         Self {
             scale: interval.scale,
@@ -49,48 +49,48 @@ impl Axis {
         }
     }
 
-    /// With a unit that takes SI prefixes.
+    /// Sets a unit that accepts SI prefixes.
     pub fn si(mut self, unit: &str) -> Self {
         self.has_prefixes = true;
         self.unit(unit)
     }
 
-    /// With a unit that is shown as it stands.
+    /// Sets a unit that is shown unchanged.
     pub fn unit(mut self, unit: &str) -> Self {
         unit.clone_into(&mut self.unit);
         self
     }
 
-    /// From and to given values.
+    /// Sets the range of values.
     pub fn range(mut self, low: f64, high: f64) -> Self {
         self.range = Some((low, high));
         self
     }
 
-    /// Growing downward or to the left.
+    /// Makes values increase downward or to the left.
     pub fn reversed(mut self) -> Self {
         self.is_reversed = true;
         self
     }
 
-    /// Its interval, where it is given.
+    /// The given interval, if any.
     pub fn interval(&self) -> Option<Interval> {
         let (low, high) = self.range?;
         Some(Interval::new(self.scale, low, high))
     }
 }
 
-/// How values are spread along an axis.
+/// Scale of an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Scale {
-    /// Equal differences are equally long.
+    /// Equal differences have equal lengths.
     Linear,
-    /// Equal ratios are equally long.
+    /// Equal ratios have equal lengths.
     Logarithmic,
 }
 
 impl Scale {
-    /// Whether a value has a place on such an axis: finite, and positive on a logarithmic one.
+    /// Whether the scale can show a value: finite, and positive on a logarithmic scale.
     pub fn shows(self, value: f64) -> bool {
         match self {
             Self::Linear => value.is_finite(),
@@ -99,10 +99,10 @@ impl Scale {
     }
 }
 
-/// The values from `low` to `high`, `low < high`; both positive where logarithmic.
+/// The values from `low` to `high`, `low < high`; both positive on a logarithmic scale.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Interval {
-    /// How values are spread over it.
+    /// Scale.
     pub scale: Scale,
     /// Lower end.
     pub low: f64,
@@ -111,7 +111,7 @@ pub struct Interval {
 }
 
 impl Interval {
-    /// From one value to another.
+    /// The interval between two values.
     pub fn new(scale: Scale, low: f64, high: f64) -> Self {
         Self { scale, low, high }
     }
@@ -126,7 +126,8 @@ impl Interval {
         Self::new(Scale::Logarithmic, low, high)
     }
 
-    /// Whether an axis can show it: ends finite, in order, and positive where logarithmic, and its length finite.
+    /// Whether an axis can show the interval: ends finite, in order, and positive on a logarithmic scale, and length
+    /// finite.
     pub fn is_valid(&self) -> bool {
         let is_long = match self.scale {
             Scale::Linear => (self.high - self.low).is_finite(),
@@ -136,7 +137,7 @@ impl Interval {
         is_shown && is_long && self.low < self.high
     }
 
-    /// Place of a value: 0 at the low end, 1 at the high one.
+    /// Position of a value: 0 at the low end, 1 at the high end.
     pub fn fraction(&self, value: f64) -> f64 {
         match self.scale {
             Scale::Linear => (value - self.low) / (self.high - self.low),
@@ -144,7 +145,7 @@ impl Interval {
         }
     }
 
-    /// The value at a place.
+    /// The value at a position.
     pub fn value(&self, fraction: f64) -> f64 {
         match self.scale {
             Scale::Linear => self.low + fraction * (self.high - self.low),
@@ -152,7 +153,7 @@ impl Interval {
         }
     }
 
-    /// Whether a value lies in it, up to a billionth of its length.
+    /// Whether a value lies in the interval, up to a billionth of its length.
     pub fn contains(&self, value: f64) -> bool {
         self.scale.shows(value) && (-1e-9..=1.0 + 1e-9).contains(&self.fraction(value))
     }
@@ -164,20 +165,21 @@ impl Interval {
             .collect()
     }
 
-    /// The smallest interval of a scale that holds all values that it can show; none for no such value.
+    /// The smallest interval of a scale with all values that it can show; none if there are none.
     pub(crate) fn around(scale: Scale, values: impl Iterator<Item = f64>) -> Option<Self> {
         let shown = values.filter(|&value| scale.shows(value));
         let each = shown.map(|value| Self::new(scale, value, value));
         each.reduce(Self::union)
     }
 
-    /// The smallest interval that holds both.
+    /// The smallest interval that contains both.
     pub(crate) fn union(self, other: Self) -> Self {
         let (low, high) = (self.low.min(other.low), self.high.max(other.high));
         Self::new(self.scale, low, high)
     }
 
-    /// The interval of a scale that shows values, [with air](Self::with_air); one decade, or up to one, without any.
+    /// The interval of a scale for some values, [with a margin](Self::with_air); without valid values, one decade or
+    /// the interval from 0 to 1.
     pub(crate) fn showing(scale: Scale, values: impl Iterator<Item = f64>, air: f64) -> Self {
         let usual = || match scale {
             Scale::Linear => Self::linear(0.0, 1.0),
@@ -187,9 +189,9 @@ impl Interval {
         found.unwrap_or_else(usual).with_air(air)
     }
 
-    /// Longer by a fraction of its length at both ends; a single value becomes an interval around it.
+    /// The interval extended by a fraction of its length at both ends; a single value becomes an interval around it.
     ///
-    /// A linear end at zero stays there: an axis of a force that begins at zero begins at zero.
+    /// A linear end at zero is kept, so that an axis of a force that begins at zero begins at zero.
     pub(crate) fn with_air(self, air: f64) -> Self {
         if self.low < self.high {
             let end = |end: f64, aired: f64| match self.scale {

@@ -1,4 +1,4 @@
-//! Colours, which are numbers 0xRRGGBB in sRGB, and the maps that turn a value into one.
+//! Colours, which are numbers 0xRRGGBB in sRGB, and colour maps.
 
 /// Red, green and blue of a colour, 0 to 255.
 pub(crate) fn rgb(colour: u32) -> [u8; 3] {
@@ -11,12 +11,12 @@ pub(crate) const WHITE: u32 = 0xff_ff_ff;
 pub(crate) const GRID: u32 = 0xe3_e3_e3;
 pub(crate) const MARK: u32 = 0x55_55_55;
 
-/// A colour for each number between two limits.
+/// A map from the values between two limits to colours.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ColourMap {
-    /// From dark blue to yellow, evenly lighter (viridis): for magnitudes.
+    /// From dark blue to yellow with uniformly increasing lightness (viridis): for magnitudes.
     Sequential,
-    /// From blue through white to red: for numbers with a sign. Zero is white.
+    /// From blue through white to red: for signed numbers. Zero is white.
     Diverging,
 }
 
@@ -33,7 +33,8 @@ const DIVERGING: [u32; 11] = [
 ];
 
 impl ColourMap {
-    /// The colour at a fraction of the way from the lower limit to the upper one; beyond them that of the end.
+    /// The colour at a fraction of the way from the lower to the upper limit; beyond the limits, the colour of the
+    /// nearer end.
     pub(crate) fn at(self, fraction: f64) -> u32 {
         let stations = match self {
             Self::Sequential => &SEQUENTIAL,
@@ -55,7 +56,7 @@ mod tests {
     impl ColourMap {
         /// Relative luminance after Rec. 709: 0 is black, 1 is white.
         ///
-        /// It is what a print in grey shows.
+        /// It corresponds to a print in grey.
         pub(crate) fn luminance(colour: u32) -> f64 {
             let linear = |channel: u8| {
                 let x = f64::from(channel) / 255.0;
@@ -75,7 +76,7 @@ mod tests {
         assert_eq!(ColourMap::Diverging.at(0.5), WHITE);
         let [low, high] = [0.1, 0.9].map(|at| rgb(ColourMap::Diverging.at(at)));
         assert!(low[2] > low[0] && high[0] > high[2]);
-        // beyond the limits the ends go on
+        // values beyond the limits have the colours of the ends
         assert_eq!(ColourMap::Diverging.at(7.0), ColourMap::Diverging.at(1.0));
     }
 

@@ -1,4 +1,4 @@
-//! What is drawn, as a list: shapes, pictures and texts with their places. Every format is written from it.
+//! A drawing as a list of shapes, pictures and texts with their positions. All formats are written from it.
 
 use crate::font;
 use crate::geometry::{Point, Rect};
@@ -9,17 +9,17 @@ use crate::text::{TextRun, runs, width};
 pub(crate) enum OutlinePart {
     Move(f64, f64),
     Line(f64, f64),
-    /// A cubic: two control points and the end.
+    /// A cubic Bezier curve: two control points and the end.
     Curve([f64; 6]),
     Close,
 }
 
-/// How an outline is drawn.
+/// Style of an outline.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Stroke {
     pub(crate) colour: u32,
     pub(crate) width: f64,
-    /// Lengths of dashes and gaps; empty for a whole line.
+    /// Lengths of dashes and gaps; empty for a solid line.
     pub(crate) dash: &'static [f64],
 }
 
@@ -37,14 +37,14 @@ impl Stroke {
     }
 }
 
-/// An outline, filled or drawn.
+/// An outline, filled or stroked.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct DrawnPath {
     pub(crate) segments: Vec<OutlinePart>,
-    /// With an opacity: 1 hides what is below.
+    /// Fill with an opacity: 1 is opaque.
     pub(crate) fill: Option<(u32, f64)>,
     pub(crate) stroke: Option<Stroke>,
-    /// Nothing is drawn outside.
+    /// Area to which drawing is restricted.
     pub(crate) clip: Option<Rect>,
 }
 
@@ -122,11 +122,11 @@ pub(crate) struct Bitmap {
     pub(crate) area: Rect,
     pub(crate) columns: u32,
     pub(crate) rows: u32,
-    /// None where nothing is to be seen.
+    /// None for transparent pixels.
     pub(crate) pixels: Vec<Option<u32>>,
 }
 
-/// Which point of a text is at its place, as a fraction of its width.
+/// Anchor of a text, as a fraction of its width.
 pub(crate) const START: f64 = 0.0;
 pub(crate) const MIDDLE: f64 = 0.5;
 pub(crate) const END: f64 = 1.0;
@@ -135,17 +135,17 @@ pub(crate) const END: f64 = 1.0;
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Text {
     runs: Vec<TextRun>,
-    /// Its start on the line on which letters stand.
+    /// Its start on the baseline.
     start: Point,
     size: f64,
     /// Whether it runs from the bottom to the top.
     pub(crate) is_upward: bool,
-    /// Whether it has a white rim, to be read over lines.
+    /// Whether it has a white rim, so that it is readable over lines.
     pub(crate) has_rim: bool,
 }
 
 impl Text {
-    /// A text at a place on the line on which letters stand.
+    /// A text at a position on the baseline.
     pub(crate) fn new(markup: &str, (x, y): Point, size: f64, anchor: f64) -> Self {
         Self {
             runs: runs(markup),
@@ -156,7 +156,7 @@ impl Text {
         }
     }
 
-    /// A text that runs upward, its middle at a place.
+    /// A text that runs upward, centred at a position.
     pub(crate) fn upward(markup: &str, (x, y): Point, size: f64) -> Self {
         let mut text = Self::new(markup, (x, y), size, START);
         text.start.1 += 0.5 * text.width();
@@ -168,7 +168,7 @@ impl Text {
         self.size * self.runs.iter().map(TextRun::width).sum::<f64>()
     }
 
-    /// Its parts with their sizes and starts; blanks around one are left out, its place says them.
+    /// Its parts with their sizes and starts. Blanks around a part are left out; its position includes them.
     pub(crate) fn parts<'a>(&'a self) -> Vec<(&'a str, f64, Point)> {
         let mut along = 0.0;
         let part = |run: &'a TextRun| {
@@ -204,13 +204,13 @@ impl Text {
         }
     }
 
-    /// What it says, without raising and lowering.
+    /// The text without superscripts and subscripts.
     pub(crate) fn plain(&self) -> String {
         self.runs.iter().map(|run| run.text.as_str()).collect()
     }
 }
 
-/// One thing that is drawn.
+/// One element of a drawing.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Item {
     DrawnPath(DrawnPath),
@@ -218,18 +218,18 @@ pub(crate) enum Item {
     Text(Text),
 }
 
-/// Everything that is drawn, later over earlier.
+/// All elements of a drawing, later ones over earlier ones.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Drawing {
     /// The canvas.
     pub canvas: Rect,
-    /// The plots of the panels, without what is written around them.
+    /// The plots of the panels, without the labels around them.
     pub plots: Vec<Rect>,
     pub(crate) items: Vec<Item>,
 }
 
 impl Drawing {
-    /// Every text with the rectangle that it covers; raised and lowered parts are written level.
+    /// All texts with the rectangles that they cover; superscripts and subscripts are written on the baseline.
     pub fn texts(&self) -> Vec<(String, Rect)> {
         let texts = self.items.iter().filter_map(|item| match item {
             Item::Text(text) => Some((text.plain(), text.bounds())),
@@ -271,7 +271,7 @@ mod tests {
         let end = |(text, size, start): (&str, f64, Point)| (start, size * font::width(text));
         let (start, length) = end(parts[0]);
         assert!((start.1 - length - parts[1].2.1).abs() < 1e-12);
-        // a blank after a raised part keeps its place
+        // a blank after a superscript keeps its position
         let text = Text::new("10^{6} s", (0.0, 0.0), 10.0, START);
         let parts = text.parts();
         assert_eq!(parts[2].0, "s");

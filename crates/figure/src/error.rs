@@ -1,8 +1,8 @@
-//! Why a figure cannot be drawn.
+//! Errors of figures.
 
 use thiserror::Error;
 
-/// What a figure says that cannot be drawn, in a sentence; panels are counted from 0.
+/// A figure that cannot be drawn; the message is one sentence, with panels counted from 0.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("{0}")]
 pub struct FigureError(pub(crate) String);

@@ -1,45 +1,45 @@
-//! A picture as data: panels in rows, each with two axes and layers.
+//! A figure as data: panels in rows, each with two axes and layers.
 
 use crate::axis::{Axis, Interval, Scale};
 use crate::error::FigureError;
 use crate::layers::{Layer, Line};
 use crate::look::Style;
 
-/// Whether panels have one axis in common.
+/// Sharing of axes between panels.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Sharing {
-    /// Each has its own.
+    /// Each panel has its own axes.
     Separate,
-    /// Those above one another have the same x axis, written below the last.
+    /// Panels in a column share their x axis, which is labelled below the last of them.
     X,
-    /// So have those above one another their x axis and those side by side their y axis, written at the first.
+    /// Panels in a column share their x axis and panels in a row their y axis, which is labelled at the first of them.
     Both,
 }
 
-/// A picture: panels in rows.
+/// A figure: panels in rows.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Figure {
     /// Title; may be empty.
     pub title: String,
-    /// A smaller line below it; may be empty.
+    /// Subtitle; may be empty.
     pub subtitle: String,
     /// Panels, row by row.
     pub panels: Vec<Panel>,
-    /// Panels in a row.
+    /// Number of panels in a row.
     pub columns: usize,
-    /// Whether panels have one axis in common.
+    /// Sharing of axes between panels.
     pub sharing: Sharing,
-    /// Whether colours of images are explained once, with limits from all images together, of which the first says what
-    /// is shown; at every panel with an image otherwise.
+    /// Whether all images share one colour bar. Its limits follow from all images, and its label from the first.
+    /// Otherwise each panel with an image has its own.
     pub has_common_bar: bool,
-    /// Width in pixels; it grows where labels need more. The height follows from the panels.
+    /// Width in pixels, which increases if labels need more. The height follows from the panels.
     pub width: f64,
-    /// Height of the text at the ticks in pixels; other text follows.
+    /// Size of the text at the ticks in pixels; the sizes of other texts follow.
     pub text: f64,
 }
 
 impl Figure {
-    /// A picture without panels.
+    /// A figure without panels.
     pub fn new(title: &str) -> Self {
         Self {
             title: title.to_owned(),
@@ -53,43 +53,43 @@ impl Figure {
         }
     }
 
-    /// With a line below the title.
+    /// Adds a subtitle.
     pub fn subtitle(mut self, subtitle: &str) -> Self {
         subtitle.clone_into(&mut self.subtitle);
         self
     }
 
-    /// With one more panel.
+    /// Adds a panel.
     pub fn panel(mut self, panel: Panel) -> Self {
         self.panels.push(panel);
         self
     }
 
-    /// With more panels.
+    /// Adds panels.
     pub fn panels(mut self, panels: impl IntoIterator<Item = Panel>) -> Self {
         self.panels.extend(panels);
         self
     }
 
-    /// With so many panels in a row.
+    /// Sets the number of panels in a row.
     pub fn columns(mut self, columns: usize) -> Self {
         self.columns = columns;
         self
     }
 
-    /// With axes in common.
+    /// Sets the sharing of axes.
     pub fn sharing(mut self, sharing: Sharing) -> Self {
         self.sharing = sharing;
         self
     }
 
-    /// With another width in pixels.
+    /// Sets the width in pixels.
     pub fn width(mut self, pixels: f64) -> Self {
         self.width = pixels;
         self
     }
 
-    /// Whether it can be drawn, or the first thing that cannot.
+    /// Checks that the figure can be drawn; returns the first defect.
     pub(crate) fn check(&self) -> Result<(), FigureError> {
         if self.panels.is_empty() || self.columns == 0 {
             return Err(FigureError("the figure has no panels".to_owned()));
@@ -100,35 +100,35 @@ impl Figure {
     }
 }
 
-/// Where a panel's legend is.
+/// Position of a panel's legend.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Legend {
-    /// In a corner that no curve enters; outside where there is none.
+    /// In a corner that no curve enters, or outside if there is none.
     Auto,
-    /// At the right of the panel, or below where that is too narrow.
+    /// At the right of the panel, or below it if the figure is too narrow.
     Outside,
-    /// Nowhere.
+    /// No legend.
     Off,
 }
 
 /// One panel.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Panel {
-    /// Written above it; may be empty.
+    /// Title above the panel; may be empty.
     pub title: String,
     /// Horizontal axis.
     pub x: Axis,
     /// Vertical axis.
     pub y: Axis,
-    /// What it shows, from the bottom to the top.
+    /// Layers, from the bottom to the top.
     pub layers: Vec<Layer>,
-    /// Whether one unit is equally long on both axes, as in a section through the body; both are linear then.
+    /// Whether both axes have the same scale, as in a section through the body; both are linear then.
     pub has_equal_lengths: bool,
-    /// Whether it shows its layers at -x as well: what does not depend on the angle, such as a pressure over r.
+    /// Whether the layers are also shown at -x, for functions of r alone.
     pub is_mirrored: bool,
-    /// Where the legend is.
+    /// Position of the legend.
     pub legend: Legend,
-    /// Height of the plot in pixels; of no effect where lengths are equal.
+    /// Height of the plot in pixels; without effect if both axes have the same scale.
     pub height: f64,
 }
 
@@ -147,42 +147,42 @@ impl Panel {
         }
     }
 
-    /// Whether a layer fills it, so that nothing can be written into an empty corner.
+    /// Whether a layer fills the plot, so that no corner is empty.
     pub(crate) fn is_filled(&self) -> bool {
         let mut layers = self.layers.iter();
         layers.any(|layer| matches!(layer, Layer::Image(_) | Layer::Classes(_)))
     }
 
-    /// With a title.
+    /// Sets the title.
     pub fn title(mut self, title: &str) -> Self {
         title.clone_into(&mut self.title);
         self
     }
 
-    /// With a plot of another height in pixels.
+    /// Sets the height of the plot in pixels.
     pub fn height(mut self, pixels: f64) -> Self {
         self.height = pixels;
         self
     }
 
-    /// With its legend elsewhere.
+    /// Sets the position of the legend.
     pub fn legend(mut self, legend: Legend) -> Self {
         self.legend = legend;
         self
     }
 
-    /// With one more layer, over the others.
+    /// Adds a layer over the others.
     pub fn layer(mut self, layer: Layer) -> Self {
         self.layers.push(layer);
         self
     }
 
-    /// With one more curve.
+    /// Adds a curve.
     pub fn line(self, name: &str, style: Style, points: Vec<(f64, f64)>) -> Self {
         self.layer(Layer::line(name, style, points))
     }
 
-    /// With one more curve within a band, such as of its error: place, and lower end of the band, value and upper end.
+    /// Adds a curve within a band, such as its error: x, and the lower end of the band, value and upper end.
     pub fn banded(self, name: &str, style: Style, points: &[(f64, [f64; 3])]) -> Self {
         let [lower, middle, upper] =
             [0, 1, 2].map(|i| points.iter().map(|(x, ys)| (*x, ys[i])).collect());
@@ -192,17 +192,17 @@ impl Panel {
         }))
     }
 
-    /// With one more vertical line.
+    /// Adds a vertical line.
     pub fn mark(self, x: f64, label: &str) -> Self {
         self.layer(Layer::mark(x, label))
     }
 }
 
-/// Largest side of a picture in pixels: a PNG of it at twice the size still has a size.
+/// Largest side of a figure in pixels: a PNG of twice the size is still possible.
 const LARGEST_PX: f64 = 16_384.0;
 
 fn check_size(name: &str, pixels: f64) -> Result<(), FigureError> {
-    let fault = || format!("{name} of {pixels} px: 1 to {LARGEST_PX} px can be drawn");
+    let fault = || format!("the {name} of {pixels} px is outside [1, {LARGEST_PX}] px");
     let is_size = (1.0..=LARGEST_PX).contains(&pixels);
     is_size.then_some(()).ok_or_else(|| FigureError(fault()))
 }

@@ -1,13 +1,13 @@
-//! The font that comes with the library: Ubuntu Light.
+//! The font of the library: Ubuntu Light.
 
 use std::sync::OnceLock;
 use tiny_skia::{Path, PathBuilder, Transform};
 use ttf_parser::{Face, GlyphId, OutlineBuilder};
 
-/// Top of the tallest letters above the line over the font's size.
+/// Ascent of the tallest letters, relative to the size of the font.
 pub(crate) const ASCENT: f64 = 0.78;
 
-/// Bottom of the deepest letters below the line over the font's size.
+/// Descent of the deepest letters, relative to the size of the font.
 pub(crate) const DESCENT: f64 = 0.20;
 
 /// The font file.
@@ -21,23 +21,23 @@ fn face() -> &'static Face<'static> {
     })
 }
 
-/// The glyph of a letter; glyph 0, an empty box, for one that the font does not have.
+/// The glyph of a letter; glyph 0, an empty box, for letters that are not in the font.
 pub(crate) fn glyph(letter: char) -> GlyphId {
     face().glyph_index(letter).unwrap_or_default()
 }
 
-/// Width of a glyph over the font's size.
+/// Width of a glyph, relative to the size of the font.
 pub(crate) fn glyph_width(glyph: GlyphId) -> f64 {
     let width = face().glyph_hor_advance(glyph).unwrap_or(0);
     f64::from(width) / f64::from(face().units_per_em())
 }
 
-/// Width of a text over the font's size, without kerning, which can only narrow it.
+/// Width of a text, relative to the size of the font, without kerning, which can only reduce it.
 pub(crate) fn width(text: &str) -> f64 {
     text.chars().map(|letter| glyph_width(glyph(letter))).sum()
 }
 
-/// The letters of a text as one outline, from the origin to the right and y downward; None if they are blanks.
+/// The letters of a text as one outline, from the origin to the right and y downward; none for blanks.
 pub(crate) fn outline(text: &str, size: f64) -> Option<Path> {
     let file = face();
     let mut pen = Pen {
@@ -45,7 +45,7 @@ pub(crate) fn outline(text: &str, size: f64) -> Option<Path> {
         along: 0.0,
     };
     for glyph in text.chars().map(glyph) {
-        // None for a blank
+        // none for a blank
         let _ = file.outline_glyph(glyph, &mut pen);
         pen.along += f32::from(file.glyph_hor_advance(glyph).unwrap_or(0));
     }
@@ -55,10 +55,10 @@ pub(crate) fn outline(text: &str, size: f64) -> Option<Path> {
         .transform(Transform::from_scale(unit, -unit))
 }
 
-/// Draws one letter after another, in the font's units.
+/// Draws letters one after another, in the font's units.
 struct Pen {
     path: PathBuilder,
-    /// Where the letter starts.
+    /// Start of the letter.
     along: f32,
 }
 
@@ -95,7 +95,7 @@ mod tests {
         assert!((width("0") - 0.564).abs() < 1e-9, "{}", width("0"));
         assert!(width("W") > 2.0 * width("i"));
         assert!((width("ab") - width("a") - width("b")).abs() < 1e-12);
-        // digits are equally wide, so that numbers line up
+        // digits have equal widths, so that numbers align
         assert!(('0'..='9').all(|d| width(&d.to_string()) == width("0")));
     }
 

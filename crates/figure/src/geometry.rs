@@ -1,4 +1,4 @@
-//! Places on the canvas, in pixels from its upper left corner; and from values to them.
+//! Positions on the canvas, in pixels from its upper left corner, and the map from values to positions.
 
 use crate::axis::Interval;
 
@@ -16,7 +16,7 @@ pub struct Rect {
 }
 
 impl Rect {
-    /// From its upper left corner and its size.
+    /// A rectangle from its upper left corner and its size.
     pub fn new(left: f64, top: f64, width: f64, height: f64) -> Self {
         Self {
             left,
@@ -36,23 +36,23 @@ impl Rect {
         self.bottom - self.top
     }
 
-    /// Whether both have a point in common.
+    /// Whether both rectangles have a point in common.
     pub fn overlaps(&self, other: &Self) -> bool {
         let across = self.left < other.right && other.left < self.right;
         across && self.top < other.bottom && other.top < self.bottom
     }
 
-    /// Whether the other one lies in it.
+    /// Whether the other rectangle lies inside.
     pub fn holds(&self, other: &Self) -> bool {
         self.has((other.left, other.top)) && self.has((other.right, other.bottom))
     }
 
-    /// Whether a point lies in it.
+    /// Whether a point lies inside.
     pub(crate) fn has(&self, (x, y): Point) -> bool {
         (self.left..=self.right).contains(&x) && (self.top..=self.bottom).contains(&y)
     }
 
-    /// Larger by a distance on every side.
+    /// The rectangle extended by a distance on every side.
     pub(crate) fn grown(&self, by: f64) -> Self {
         Self {
             left: self.left - by,
@@ -62,7 +62,7 @@ impl Rect {
         }
     }
 
-    /// The smallest one that holds both.
+    /// The smallest rectangle that contains both.
     pub(crate) fn union(self, other: Self) -> Self {
         Self {
             left: self.left.min(other.left),
@@ -82,14 +82,14 @@ impl Rect {
 /// x and y, of values or of pixels.
 pub(crate) type Point = (f64, f64);
 
-/// The area of a plot and the values that it shows.
+/// The area of a plot and its range of values.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Frame {
     pub(crate) area: Rect,
     pub(crate) x: Interval,
     pub(crate) y: Interval,
     pub(crate) reversed: [bool; 2],
-    /// Whether it shows everything at -x as well.
+    /// Whether everything is also shown at -x.
     pub(crate) is_mirrored: bool,
 }
 
@@ -106,9 +106,9 @@ impl Frame {
         self.area.top + fraction * self.area.height()
     }
 
-    /// Pixels of a point; none for one that the axes cannot show.
+    /// Pixels of a point; none if the axes cannot show it.
     ///
-    /// What is far outside is brought nearer, so that no format meets a number it cannot write.
+    /// Points far outside are moved closer, so that all formats can represent their coordinates.
     pub(crate) fn place(&self, (x, y): Point) -> Option<Point> {
         let near = |pixel: f64| pixel.clamp(-1e5, 1e5);
         let is_shown = self.x.scale.shows(x) && self.y.scale.shows(y);
@@ -123,7 +123,7 @@ impl Frame {
         (self.x.value(x), self.y.value(y))
     }
 
-    /// Runs of points that can be shown, in pixels: a curve breaks at the others.
+    /// Runs of points that can be shown, in pixels: a curve is interrupted at the others.
     pub(crate) fn runs(&self, points: &[Point]) -> Vec<Vec<Point>> {
         let places: Vec<_> = points.iter().map(|&point| self.place(point)).collect();
         let runs = places.split(Option::is_none);
@@ -131,7 +131,7 @@ impl Frame {
         runs.filter(|run: &Vec<Point>| !run.is_empty()).collect()
     }
 
-    /// A curve, and where the panel is mirrored also its other half.
+    /// A curve, and its other half in a mirrored panel.
     pub(crate) fn sides(&self, points: &[Point]) -> Vec<Vec<Point>> {
         let other = || points.iter().map(|&(x, y)| (-x, y)).collect();
         let other = self.is_mirrored.then(other);
@@ -139,7 +139,7 @@ impl Frame {
     }
 }
 
-/// A fraction of the way, told from the other end where the way is reversed.
+/// A fraction of the way, counted from the other end on a reversed axis.
 fn turned(is_reversed: bool, fraction: f64) -> f64 {
     if is_reversed {
         1.0 - fraction

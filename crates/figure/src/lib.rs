@@ -1,12 +1,12 @@
-//! Scientific figures as data, drawn as SVG, PNG and PDF.
+//! Scientific figures as data, drawn as SVG, PNG, PDF and GIF.
 //!
-//! A [`Figure`] holds [`Panel`]s in rows; a panel has two [`Axis`]es and [`Layer`]s; and that is all: there is no
-//! state, no canvas and no font of the system. Everything else follows:
+//! A [`Figure`] has [`Panel`]s in rows; a panel has two [`Axis`]es and [`Layer`]s. There is no state, no canvas and no
+//! system font. Everything else is automatic:
 //!
-//! - ranges from the data, ticks at round values whose labels fit, minor ticks, SI prefixes;
-//! - colour, dash and marker of a curve from its name, different in grey and for eyes that see few colours;
-//! - legends in a corner that no curve enters, or beside the panel;
-//! - margins from the size of every label, so that none is cut off and none lies over another.
+//! - ranges from the data, ticks at round values with labels that fit, minor ticks, SI prefixes;
+//! - colour, dash and marker of a curve from its name, distinguishable in grey and with colour-vision deficiency;
+//! - legends in a corner that no curve enters, or outside the panel;
+//! - margins from the size of all labels, so that none is cut off and none overlaps another.
 //!
 //! ```
 //! use figure::{Axis, Figure, Panel, Sharing, Style};
@@ -28,8 +28,8 @@
 //! # Ok::<(), figure::FigureError>(())
 //! ```
 //!
-//! Labels may hold raised and lowered parts: `Axis::linear("radius").unit("r_{0}")`. Lengths are in pixels of
-//! 1/96 inch from the upper left corner. The same figure gives the same bytes.
+//! Labels may contain superscripts and subscripts: `Axis::linear("radius").unit("r_{0}")`. Lengths are in pixels of
+//! 1/96 inch from the upper left corner. The same figure always produces the same bytes.
 #![cfg_attr(doctest, doc = include_str!("../README.md"))]
 
 // From the bottom up: a module uses only those above it.

@@ -1,37 +1,37 @@
-//! How curves and classes look: colours, dashes and markers that differ in more than hue.
+//! Looks of curves and classes: colours, dashes and markers that differ in more than hue.
 
 use crate::colour::{BLACK, WHITE};
 use crate::drawing::{Drawing, DrawnPath, Stroke};
 use crate::geometry::Point;
 
-/// How a curve is drawn.
+/// Style of a curve.
 ///
-/// Colour, dash and marker follow from the order in which names first appear in the figure: curves of the same
-/// name look the same in all panels, and curves of different names differ in more than colour.
+/// Colour, dash and marker follow from the order in which names first appear in the figure: curves with the same name
+/// look the same in all panels, and curves with different names differ in more than colour.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Style {
     /// Line with markers, coloured.
     Marked,
-    /// Line, coloured and dashed by turns.
+    /// Line; colours and dashes alternate.
     Plain,
-    /// Markers alone.
+    /// Markers only.
     Points,
-    /// Heavy black line: a boundary given by theory.
+    /// Heavy black line: a theoretical boundary.
     Heavy,
     /// Heavy black dashed line.
     HeavyDashed,
     /// Black dotted line.
     Dotted,
-    /// Small black dots: a region given by theory.
+    /// Small black dots: a theoretical region.
     Dots,
     /// Black dashed line with a white rim, readable over an image: a wave front.
     Rimmed,
-    /// Line around a lightly filled area, coloured and dashed by turns: the bars of a histogram.
+    /// Line around a lightly filled area; colours and dashes alternate: the bars of a histogram.
     Bars,
 }
 
 impl Style {
-    /// Whether a curve has a colour by its name.
+    /// Whether the colour of a curve follows from its name.
     pub(crate) fn is_coloured(self) -> bool {
         matches!(self, Self::Marked | Self::Plain | Self::Points | Self::Bars)
     }
@@ -60,12 +60,12 @@ const FILLS: [&[u32]; 5] = [
     &[0xf7_f8_f9, 0xd3_dc_e4, 0xa9_ba_c9, 0x70_89_a0, 0x3d_52_65],
 ];
 
-/// Fills of so many classes.
+/// Fills for `count` classes.
 pub(crate) fn fills(classes: usize) -> &'static [u32] {
     FILLS[classes.clamp(1, FILLS.len()) - 1]
 }
 
-/// What a curve is drawn with.
+/// Colours, dash and marker of a curve.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Look {
     pub(crate) style: Style,
@@ -74,7 +74,8 @@ pub(crate) struct Look {
 }
 
 impl Look {
-    /// The look of a name in a style, from its number in the figure and the one that no other name has beside it.
+    /// The look of a name in a style, from its number in the figure and its number among the names that appear together
+    /// with it.
     pub(crate) fn new([number, beside]: [usize; 2], style: Style) -> Self {
         let own = COLOURS[number % COLOURS.len()];
         let dashed = DASHES[beside % DASHES.len()];
@@ -93,7 +94,7 @@ impl Look {
         }
     }
 
-    /// Whether there is a line between its points.
+    /// Whether its points are connected by a line.
     pub(crate) fn has_line(&self) -> bool {
         !matches!(self.style, Style::Points | Style::Dots)
     }
@@ -119,15 +120,15 @@ impl Look {
     }
 }
 
-/// Symbols before they come again, filled; the last is a star.
+/// Number of filled symbols before they repeat; the last is a star.
 const SYMBOLS: usize = 7;
 
-/// Draws a star of half a width.
+/// Draws a star of a given half width.
 pub(crate) fn star(drawing: &mut Drawing, at: Point, size: f64) {
     symbol(drawing, SYMBOLS - 1, at, size, [BLACK, WHITE]);
 }
 
-/// Draws a symbol of half a width, with the colours of its outline and of its inside.
+/// Draws a symbol of a given half width, with the colours of its outline and of its inside.
 fn symbol(drawing: &mut Drawing, index: usize, (x, y): Point, size: f64, [edge, fill]: [u32; 2]) {
     let at = |(dx, dy): Point| (x + dx * size, y + dy * size);
     let polygon = |corners: &[Point]| {
@@ -171,7 +172,7 @@ mod tests {
                 assert_ne!(nth(i, Style::Marked).symbol, nth(k, Style::Marked).symbol);
             }
         }
-        // classes grow darker
+        // classes become darker
         for classes in 1..=FILLS.len() {
             let fills = fills(classes).iter().copied();
             let light: Vec<f64> = fills.map(ColourMap::luminance).collect();

@@ -1,24 +1,24 @@
-//! Text whose size is known before it is drawn: lines with raised and lowered parts, numbers, sizes.
+//! Text whose size is known before it is drawn: lines with superscripts and subscripts, numbers, sizes.
 //!
-//! Labels may hold raised and lowered parts: `10^{-6}`, `r_{0}/c_{1}`. Everything else stands for itself.
+//! Labels may contain superscripts and subscripts: `10^{-6}`, `r_{0}/c_{1}`. All other characters are literal.
 
 use crate::font;
 
-/// Height of a line of text over the height of its letters.
+/// Height of a line of text relative to the size of its letters.
 pub(crate) const LINE: f64 = 1.25;
 
-/// A part of a line, at one size and height.
+/// A part of a line with the same size and height.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct TextRun {
     pub(crate) text: String,
-    /// Size over that of the line.
+    /// Size relative to the line.
     pub(crate) size: f64,
-    /// How far it is raised over the line's size; lowered where negative.
+    /// Vertical shift relative to the size of the line; negative for subscripts.
     pub(crate) rise: f64,
 }
 
 impl TextRun {
-    /// Width over the size of the line.
+    /// Width relative to the size of the line.
     pub(crate) fn width(&self) -> f64 {
         self.size * font::width(&self.text)
     }
@@ -28,7 +28,7 @@ const RAISED_SIZE: f64 = 0.72;
 const RAISED: f64 = 0.38;
 const LOWERED: f64 = -0.16;
 
-/// The parts of a line: `^{...}` is raised and `_{...}` lowered; a brace that is not closed stands for itself.
+/// The parts of a line: `^{...}` is a superscript and `_{...}` a subscript; an unclosed brace is literal.
 pub(crate) fn runs(markup: &str) -> Vec<TextRun> {
     let mut runs: Vec<TextRun> = Vec::new();
     let mut push = |text: &str, size: f64, rise: f64| {
@@ -64,7 +64,7 @@ pub(crate) fn width(markup: &str, size: f64) -> f64 {
     size * runs(markup).iter().map(TextRun::width).sum::<f64>()
 }
 
-/// Words of a text, a number together with the word after it, which may be its unit.
+/// Words of a text; a number is joined with the next word, which may be its unit.
 fn words(text: &str) -> Vec<String> {
     let mut words: Vec<String> = Vec::new();
     let mut is_number = false;
@@ -78,8 +78,8 @@ fn words(text: &str) -> Vec<String> {
     words
 }
 
-/// Lines no wider than `width` pixels at a size, broken between words, but not between a number and its unit; a word that is
-/// too wide alone is broken between letters, unless parts of it are raised or lowered.
+/// Lines of at most `width` pixels at a size, broken between words, but not between a number and its unit. A single
+/// word that is too wide is broken between letters, unless it has superscripts or subscripts.
 pub(crate) fn wrap(text: &str, size: f64, width: f64) -> Vec<String> {
     let fits = |line: &str| self::width(line, size) <= width;
     let mut lines = Vec::new();
@@ -118,14 +118,14 @@ pub(crate) fn wrap(text: &str, size: f64, width: f64) -> Vec<String> {
     lines
 }
 
-/// A sign that is as wide as a plus.
+/// A minus sign that is as wide as a plus sign.
 const MINUS: &str = "\u{2212}";
 
-/// A number with so many decimal places.
+/// A number with a given number of decimal places.
 pub(crate) fn decimal(value: f64, places: usize) -> String {
     let text = format!("{value:.places$}");
     match text.strip_prefix('-') {
-        // no minus zero
+        // no negative zero
         Some(digits) if digits.chars().all(|c| c == '0' || c == '.') => digits.to_owned(),
         Some(digits) => format!("{MINUS}{digits}"),
         None => text,
@@ -142,7 +142,7 @@ pub(crate) fn power_of_ten(factor: u32, exponent: i32) -> String {
     }
 }
 
-/// Sizes of all texts, from that at the ticks.
+/// Sizes of all texts, derived from the size at the ticks.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Typeface {
     pub(crate) tick: f64,
@@ -165,7 +165,7 @@ impl Typeface {
         }
     }
 
-    /// Height of so many lines of a size.
+    /// Height of `count` lines of a size.
     pub(crate) fn lines(size: f64, count: usize) -> f64 {
         LINE * size * count as f64
     }

@@ -1,4 +1,4 @@
-//! Ticks: round values whose labels fit beside one another, in a suitable multiple of the unit.
+//! Ticks: round values with labels that fit next to one another, in a suitable multiple of the unit.
 
 use crate::axis::{Axis, Interval, Scale};
 use crate::text::{decimal, power_of_ten};
@@ -6,35 +6,35 @@ use crate::text::{decimal, power_of_ten};
 /// Ticks of an axis.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Ticks {
-    /// Those with labels, as markup.
+    /// Ticks with labels, as markup.
     pub(crate) major: Vec<(f64, String)>,
-    /// Shorter ones between them.
+    /// Minor ticks between them.
     pub(crate) minor: Vec<f64>,
 }
 
-/// Ticks over an interval whose labels are values over `factor`.
+/// Ticks over an interval whose labels are values divided by `factor`.
 pub(crate) fn ticks(interval: &Interval, factor: f64, room: &Room<'_>) -> Ticks {
     let (low, high) = (interval.low / factor, interval.high / factor);
     let decades = (high / low).log10();
     match interval.scale {
         Scale::Logarithmic if decades >= 0.5 => logarithmic(interval, factor, decades, room),
-        // a logarithmic axis that is hardly bent has equal differences
+        // on a nearly linear logarithmic axis equal differences are suitable
         Scale::Linear | Scale::Logarithmic => linear(interval, factor, room),
     }
 }
 
-/// How much room ticks have.
+/// Space for ticks.
 pub(crate) struct Room<'a> {
     /// Length of the axis in pixels.
     pub(crate) length: f64,
-    /// Wished distance of two labels in pixels.
+    /// Desired distance of two labels in pixels.
     pub(crate) distance: f64,
-    /// Pixels that a label needs along the axis, with a gap.
+    /// Length of a label along the axis in pixels, with a gap.
     pub(crate) needs: &'a dyn Fn(&str) -> f64,
 }
 
 impl Room<'_> {
-    /// The first candidate whose labels fit beside one another; without one the coarsest with a single label.
+    /// The first candidate whose labels fit; if none fits, the coarsest one with a single label.
     fn first_that_fits(
         &self,
         interval: &Interval,
@@ -59,9 +59,9 @@ impl Room<'_> {
     }
 }
 
-/// Ticks at multiples of 1, 2 or 5 times a power of ten: the finest that fit at about the wished distance.
+/// Ticks at multiples of 1, 2 or 5 times a power of ten: the finest that fit, at about the desired distance.
 fn linear(interval: &Interval, factor: f64, room: &Room<'_>) -> Ticks {
-    /// Steps tried, from a tenth of the wished distance on, which is never wanted.
+    /// Number of tried steps, from a tenth of the desired distance on, which is never needed.
     const TRIED: usize = 24;
     let (low, high) = (interval.low / factor, interval.high / factor);
     let wished = (high - low) * room.distance / room.length;
@@ -86,7 +86,7 @@ fn linear(interval: &Interval, factor: f64, room: &Room<'_>) -> Ticks {
     room.first_that_fits(interval, candidates)
 }
 
-/// Multiples of a step from `low` to `high`, the ends included up to rounding.
+/// Multiples of a step from `low` to `high`, including the ends up to rounding.
 fn multiples(low: f64, high: f64, step: f64) -> impl Iterator<Item = f64> {
     let first = (low / step - 1e-9).ceil();
     let count = (high / step + 1e-9).floor() - first;
@@ -101,7 +101,7 @@ fn minor(low: f64, high: f64, step: f64, parts: u32) -> impl Iterator<Item = f64
     })
 }
 
-/// Ticks at powers of ten, and at multiples of them where there are few.
+/// Ticks at powers of ten, and at multiples of them if there are few.
 fn logarithmic(interval: &Interval, factor: f64, decades: f64, room: &Room<'_>) -> Ticks {
     let (low, high) = (interval.low / factor, interval.high / factor);
     let first = (low.log10() - 1e-9).floor() as i32;
@@ -123,7 +123,7 @@ fn logarithmic(interval: &Interval, factor: f64, decades: f64, room: &Room<'_>) 
             .filter(|t| inside(t.0 / factor))
             .collect();
         let labelled = |value: f64| major.iter().any(|t| (t.0 / value - 1.0).abs() < 1e-6);
-        // multiples where a decade is long enough, the decades themselves where labels skip some
+        // multiples if a decade is long enough, the decades themselves if labels skip some
         let fine = room.length / decades >= 40.0 && stride == 1;
         let digits = if fine { 1..=9 } else { 1..=1 };
         let minor = (first..=last)
@@ -143,26 +143,27 @@ fn logarithmic(interval: &Interval, factor: f64, decades: f64, room: &Room<'_>) 
     room.first_that_fits(interval, candidates)
 }
 
-/// Whether numbers on a logarithmic axis are written as they are: all of them are short.
+/// Whether numbers on a logarithmic axis are written without powers of ten: all of them are short.
 fn is_plain(low: f64, high: f64) -> bool {
     low > 0.9e-3 && high < 1.1e4
 }
 
-/// A power of ten to the last bit.
+/// An exactly rounded power of ten.
 fn ten(exponent: i32) -> f64 {
     format!("1e{exponent}").parse().unwrap_or(f64::NAN)
 }
 
-/// SI prefixes from 1e-24 to 1e24, a thousand apart.
+/// SI prefixes from 1e-24 to 1e24 in steps of a thousand.
 const PREFIXES: [&str; 17] = [
     "y", "z", "a", "f", "p", "n", "\u{b5}", "m", "", "k", "M", "G", "T", "P", "E", "Z", "Y",
 ];
 
-/// Label and factor of the multiple of a unit that suits the values of an interval: values are shown over the factor.
+/// Label and factor of the multiple of a unit that suits the values of an interval: shown numbers are values divided by
+/// the factor.
 ///
-/// A unit of the SI takes a prefix and any other one a power of ten, so that the largest value has one to three
-/// digits before the point; values from 0.1 on keep the unit itself unless they are lengths. A logarithmic axis keeps it
-/// unless a prefix makes short numbers of all powers of ten.
+/// An SI unit gets a prefix and any other unit a power of ten, so that the largest value has one to three digits before
+/// the point. Values from 0.1 to 1 keep the unit itself, lengths excepted. A logarithmic axis keeps it unless a prefix
+/// makes all numbers short.
 pub(crate) fn shown(axis: &Axis, interval: &Interval) -> (String, f64) {
     let largest = interval.low.abs().max(interval.high.abs());
     let exponent = match interval.scale {
@@ -173,7 +174,7 @@ pub(crate) fn shown(axis: &Axis, interval: &Interval) -> (String, f64) {
     let thousands = 3 * exponent.div_euclid(3);
     let unit = axis.unit.as_str();
     let (exponent, unit) = match axis.has_prefixes {
-        // tenths are read as they are, but for lengths: 120 mm
+        // values from 0.1 to 1 are readable without a prefix, lengths excepted: 120 mm
         true if exponent == -1 && unit != "m" && interval.scale == Scale::Linear => {
             (0, unit.to_owned())
         }
@@ -197,8 +198,8 @@ pub(crate) fn shown(axis: &Axis, interval: &Interval) -> (String, f64) {
     (label, 10.0_f64.powi(exponent))
 }
 
-/// The power of ten, zero or of a prefix, over which all numbers of a logarithmic axis are short; none where it has too many
-/// decades.
+/// The power of ten, zero or that of a prefix, by which all numbers of a logarithmic axis become short; none if it has
+/// too many decades.
 fn short_numbers(interval: &Interval) -> Option<i32> {
     let first = 3 * (interval.low.log10().floor() as i32).div_euclid(3);
     let mut powers = [0].into_iter().chain((0..3).map(|i| first + 3 * i));
@@ -303,7 +304,7 @@ mod tests {
         let ticks = found(&Interval::logarithmic(1e-3, 1e3), 1.0, 400.0);
         assert_eq!(ticks.major.len(), 7);
         assert_eq!(ticks.minor.len(), 48);
-        // too narrow for them: at least the decades without label
+        // too narrow for labels: at least the decades without labels
         let narrow = found(&Interval::logarithmic(1e-16, 1e4), 1.0, 200.0);
         assert_eq!(narrow.major.len() + narrow.minor.len(), 21);
     }
@@ -319,7 +320,7 @@ mod tests {
         assert_eq!(si("m", 0.12).0, "x [mm]");
         assert_eq!(si("Pa", 2.1e11).1, 1e9);
         assert_eq!(si("Pa", 0.0).1, 1.0);
-        // a logarithmic axis too, unless it has so many decades that its numbers are powers of ten
+        // also a logarithmic axis, unless its many decades require powers of ten
         for (low, high, label) in [
             (5e-6, 8e-5, "t [\u{b5}s]"),
             (2e-7, 4e-6, "t [ns]"),

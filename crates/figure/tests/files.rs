@@ -172,11 +172,11 @@ fn what_cannot_be_drawn_is_refused_with_its_place() {
         image.values.pop();
     }
     let message = refused(&figure).to_string();
-    assert_eq!(message, "panel 0: 8 values of an image, and 9 are needed");
+    assert_eq!(message, "panel 0: 8 values of an image, but 9 are required");
     let wide = refused(&curve().width(1e9));
     assert_eq!(
         wide.to_string(),
-        "width of 1000000000 px: 1 to 16384 px can be drawn"
+        "the width of 1000000000 px is outside [1, 16384] px"
     );
     let mut figure = classes();
     figure.panels[0].has_equal_lengths = true;

@@ -1,4 +1,4 @@
-//! What can be wrong with a scene, or with a file that is read back.
+//! Errors of scenes, and of the program's own files when they are read back.
 
 use contact::{UnknownMaterial, nearest};
 use fault::{Class, Culprit, Fault, number};
@@ -7,23 +7,23 @@ use std::borrow::Cow;
 use std::path::Path;
 use thiserror::Error;
 
-/// A scene that cannot be run, told in one sentence with the key, the value and what is allowed; or a file of the program that
-/// cannot be read back.
+/// A scene that cannot be computed, or a file of the program that cannot be read back. The message is one sentence with
+/// the key, the value and the allowed values.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error("{}", .0.sentence)]
 pub struct SceneError(Box<About>);
 
-/// The sentence, and what is in it.
+/// The sentence and its parts.
 #[derive(Debug, Clone, PartialEq)]
 struct About {
     sentence: String,
-    /// Of numbers that other rows of a sweep may not have.
+    /// Whether the error concerns numbers, so that other rows of a sweep may be valid.
     of_numbers: bool,
     culprit: Culprit<'static>,
 }
 
 impl SceneError {
-    /// One of which no more is known.
+    /// An error with a sentence only.
     pub(crate) fn told(sentence: String) -> Self {
         Self(Box::new(About {
             sentence,
@@ -32,14 +32,14 @@ impl SceneError {
         }))
     }
 
-    /// One of a key.
+    /// An error of a key.
     pub(crate) fn of(sentence: String, key: impl Into<String>) -> Self {
         let mut error = Self::told(sentence);
         error.0.culprit.key = Some(Cow::Owned(key.into()));
         error
     }
 
-    /// One that is in a file and names it.
+    /// An error in a file that the sentence names.
     pub(crate) fn in_sentence(path: &Path, sentence: String) -> Self {
         let mut error = Self::told(sentence);
         error.0.culprit.file = Some(path.to_owned().into());
@@ -51,17 +51,17 @@ impl SceneError {
         Self::in_sentence(path, format!("cannot read {}: {reason}", path.display()))
     }
 
-    /// The file is not what it should be: a sentence that its name begins.
+    /// The file has the wrong kind or content; the sentence begins with its name.
     pub(crate) fn is(path: &Path, what: impl std::fmt::Display) -> Self {
         Self::in_sentence(path, format!("{} {what}", path.display()))
     }
 
-    /// Something that every such file has is missing or wrong.
+    /// The file is damaged: a required part is missing or wrong.
     pub(crate) fn damaged(path: &Path, what: impl std::fmt::Display) -> Self {
         Self::in_sentence(path, format!("{}: {what}", path.display()))
     }
 
-    /// A key that does not exist, with the nearest that does, or what is said otherwise.
+    /// An unknown key, with the nearest known key, or else the hint `otherwise`.
     pub(crate) fn unknown_key(key: String, suggestion: Option<String>, otherwise: &str) -> Self {
         let near = suggestion.as_deref().map(|near| near_key(&key, near));
         let near = near.unwrap_or_else(|| format!(" ({otherwise})"));
@@ -70,19 +70,19 @@ impl SceneError {
         error
     }
 
-    /// A key that must be given.
+    /// A required key is missing.
     pub(crate) fn missing(key: impl Into<String>, hint: &str) -> Self {
         let key = key.into();
         Self::of(format!("{key} is missing: {hint}"), key)
     }
 
-    /// A key beside another that it follows from, or that excludes it.
+    /// A key that follows from another key or excludes it.
     pub(crate) fn superfluous(key: String, beside: &str, reason: &str) -> Self {
-        let sentence = format!("{key} cannot be given beside {beside}: {reason}");
+        let sentence = format!("{key} cannot be combined with {beside}: {reason}");
         Self::of(sentence, key)
     }
 
-    /// A value of the wrong kind.
+    /// A value of the wrong type.
     pub fn wrong_kind(key: String, value: String, expected: &str) -> Self {
         let mut error = Self::of(format!("{key} = {value} is not {expected}"), key);
         error.0.culprit.word = Some(value.into());
@@ -98,17 +98,17 @@ impl SceneError {
         error
     }
 
-    /// A number that is wrong beside others.
+    /// A number that contradicts other numbers.
     pub(crate) fn of_number(key: impl Into<String>, value: f64, sentence: String) -> Self {
         let mut error = Self::of(sentence, key);
         (error.0.of_numbers, error.0.culprit.number) = (true, Some(value));
         error
     }
 
-    /// A place outside the block, which a key ends.
+    /// A place outside the block, whose size `limit_key` sets.
     pub(crate) fn outside_block(key: String, value: f64, limit_key: &str, limit: f64) -> Self {
         let sentence = format!(
-            "{key} = {} is outside [0, {limit}], where {limit_key} ends the block",
+            "{key} = {} is outside [0, {limit}]: the block ends at {limit_key}",
             number(value)
         );
         let mut error = Self::of_number(key, value, sentence);
@@ -116,7 +116,7 @@ impl SceneError {
         error
     }
 
-    /// A word that is not one of the choices, which commas divide.
+    /// A word that is not one of the choices, which are separated by commas.
     pub(crate) fn unknown_choice(key: String, value: &str, allowed: &str) -> Self {
         let suggestion = nearest(value, allowed.split(", "));
         let near = suggestion.as_deref().map_or_else(String::new, near);
@@ -147,14 +147,14 @@ impl SceneError {
     ) -> Self {
         let first = first.into();
         let sentence = format!("{first} cannot be combined with {second}: {reason}");
-        // the first of them may stand there with its value
+        // the first may include its value
         let key = first.split_once(" = ").map_or(&*first, |(key, _)| key);
         let mut error = Self::of(sentence, key);
         error.0.of_numbers = true;
         error
     }
 
-    /// The same with the path of the file that it is in, unless it names a file already.
+    /// Adds the path of the file to the sentence, unless the error has a path already.
     #[must_use]
     pub fn in_file(mut self, path: &Path) -> Self {
         if self.0.culprit.file.is_none() {
@@ -164,18 +164,18 @@ impl SceneError {
         self
     }
 
-    /// Whether it is of numbers that other rows of a sweep may not have.
+    /// Whether the error concerns numbers, so that other rows of a sweep may be valid.
     pub(crate) fn is_of_numbers(&self) -> bool {
         self.0.of_numbers
     }
 
-    /// Whether it is of a word that is not known.
+    /// Whether the error is an unknown word.
     pub(crate) fn is_of_words(&self) -> bool {
         self.0.culprit.word.is_some()
     }
 }
 
-/// A treatment that the force record cannot have.
+/// A treatment that is impossible for the force record.
 impl From<TreatmentError> for SceneError {
     fn from(error: TreatmentError) -> Self {
         let key = format!("force.{}", error.key);
@@ -195,7 +195,7 @@ fn near(suggestion: &str) -> String {
     format!("; did you mean {suggestion}?")
 }
 
-/// The nearest key, with its unit where that is all that differs.
+/// The nearest key, with its unit if only the unit differs.
 fn near_key(key: &str, suggestion: &str) -> String {
     let own = key.rsplit('.').next().and_then(|own| own.rsplit_once('_'));
     match suggestion.rsplit_once('_') {

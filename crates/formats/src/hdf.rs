@@ -1,4 +1,4 @@
-//! What the HDF5 library is asked to do: described datasets, texts, dimension scales.
+//! Helpers for the HDF5 library: datasets with units and descriptions, texts, dimension scales.
 
 use crate::quantities::Labels;
 use hdf5::dataset::{AllocTime, FillTime};
@@ -17,7 +17,7 @@ pub(crate) fn vector<T: H5Type>(
     numbers(group, described, &[samples.len()], samples)
 }
 
-/// A dataset of any shape; `described` is its name, unit and meaning.
+/// A dataset of any shape; `described` has its name, unit and meaning.
 pub(crate) fn numbers<T: H5Type>(
     group: &Group,
     described: &Labels<'_>,
@@ -45,10 +45,10 @@ fn filled<T: H5Type>(
     Ok(dataset)
 }
 
-/// Numbers of a list that are made and written together.
+/// Numbers of a list that are computed and written together.
 const AT_A_TIME: usize = 1 << 20;
 
-/// A list of numbers that need not be in memory together, by their places.
+/// Writes a list of numbers in blocks; `of` returns the number at an index.
 pub(crate) fn some_at_a_time<T: H5Type>(
     group: &Group,
     described: &Labels<'_>,
@@ -64,7 +64,8 @@ pub(crate) fn some_at_a_time<T: H5Type>(
     })
 }
 
-/// A described dataset whose numbers are written later, and where in the file they stand; nowhere without any.
+/// Creates a described dataset for numbers that are written later; returns their offset in the file, none for an empty
+/// dataset.
 pub(crate) fn reserve(
     group: &Group,
     described: &Labels<'_>,
@@ -82,7 +83,7 @@ pub(crate) fn reserve(
     describe(&dataset, described)?;
     let place = dataset.offset();
     if place.is_none() && dataset.size() > 0 {
-        return Err(hdf5::Error::from("the library reserves no space"));
+        return Err(hdf5::Error::from("the HDF5 library reserved no space"));
     }
     Ok((dataset, place))
 }

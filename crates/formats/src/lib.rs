@@ -1,8 +1,9 @@
 //! Files of hertzlamb: readers and writers as functions over typed values.
 //!
-//! Scenes, materials and force records come in, results, sections and sweeps go out; `data-schema/` describes each.
+//! It reads scenes, materials and force records and writes results, sections and sweeps; `data-schema/` describes each
+//! format.
 //!
-//! Results and sweeps need the default feature `hdf5`; without it the crate reads scenes and needs no C library.
+//! Results and sweeps require the default feature `hdf5`. Without it the crate reads scenes and needs no C library.
 //!
 //! ```
 //! let text = "[target]\nmaterial = \"granite\"\n[striker]\nmaterial = \"steel\"\nmass_kg = 4e-6\n\
@@ -23,7 +24,7 @@
 )]
 #![cfg_attr(doctest, doc = include_str!("../README.md"))]
 
-// From the bottom up: a module uses only those above it. Those with a feature write HDF5 files, or read them back.
+// From the bottom up: a module uses only those above it. Modules with a feature write or read HDF5 files.
 mod error;
 pub mod quantities;
 pub mod schema;

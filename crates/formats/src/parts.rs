@@ -1,4 +1,4 @@
-//! Rows of a sweep in several files: what a folder has of them, what it lacks, and all of them in one.
+//! Parts of a sweep in several files: present and missing rows of a folder, and their merge into one file.
 
 use crate::error::SceneError;
 use crate::stored::{FileKind, Part, StoredPart, file_kind, whole_sweep};
@@ -10,31 +10,31 @@ use output::{HDF5, Output, OutputFault, ROWS, Staged, folder, is_hidden};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-/// What rows are of that do not belong to a sweep.
-const OTHER: &str = "another sweep, or of this one before its files or the program changed";
+/// Description of a file that does not belong to the sweep.
+const OTHER: &str = "another sweep, or of this sweep before its files or the program changed";
 
 /// The parts of one sweep in a folder.
 #[derive(Debug)]
 pub struct Parts {
-    /// Which sweep.
+    /// SHA-256 that identifies the sweep.
     pub sha256: String,
-    /// Its rows.
+    /// Number of rows of the sweep.
     pub sweep_rows: usize,
-    /// Rows that shards do not divide.
+    /// Number of rows that a shard never splits.
     grain: usize,
-    /// The parts, by their first rows.
+    /// The parts in the order of their first rows.
     pub parts: Vec<Part>,
-    /// Files with the ending of HDF5 or Parquet that are none of them, each with a sentence that says what it is.
+    /// Other files with the extension of HDF5 or Parquet, each with a sentence about it.
     pub foreign: Vec<(PathBuf, String)>,
-    /// Journals of runs that are at work, or were interrupted.
+    /// Journals of runs that are in progress or were interrupted.
     pub unfinished: Vec<Unfinished>,
 }
 
 impl Parts {
-    /// Opens the parts in a folder: of the sweep `wanted`, or of that of most of them.
+    /// Opens the parts in a folder: of the sweep `wanted`, or else of the sweep of most parts.
     ///
     /// # Errors
-    /// [`SweepError`] for a folder that cannot be read or, where no sweep is wanted, has no parts.
+    /// [`SweepError`] for a folder that cannot be read, or has no parts while no sweep is wanted.
     pub fn in_folder(folder: &Path, wanted: Option<&Spec>) -> Result<Self, SweepError> {
         let (mut all, mut foreign) = (Vec::new(), Vec::new());
         for path in files(folder, |path| ROWS.is_of(path))? {
@@ -73,13 +73,13 @@ impl Parts {
         })
     }
 
-    /// Rows of the sweep that no part has.
+    /// Rows of the sweep that are in no part.
     pub fn missing(&self) -> Vec<Range<usize>> {
         let held = self.full().map(|part| part.selection.rows.clone());
         gaps(&held.collect::<Vec<_>>(), &(0..self.sweep_rows))
     }
 
-    /// Into how many shards the sweep was divided, where the parts agree on it.
+    /// Number of shards of the sweep, if the parts agree on it.
     pub fn shards(&self) -> Option<usize> {
         let parts = self.parts.iter();
         let mut counts = parts.map(|part| Some(part.selection.shard?.count));
@@ -87,7 +87,7 @@ impl Parts {
         counts.all(|count| count == Some(first)).then_some(first)
     }
 
-    /// The shards, of so many, some rows of which no part has.
+    /// The shards, out of `count`, with rows that are in no part.
     pub fn missing_shards(&self, count: usize) -> Vec<usize> {
         let missing = self.missing();
         let lacks = |&index: &usize| {
@@ -98,7 +98,7 @@ impl Parts {
         (1..=count).filter(lacks).collect()
     }
 
-    /// The first rows that two parts have, if there are any.
+    /// The first rows that are in two parts, if any.
     pub fn overlap(&self) -> Option<SceneError> {
         let full: Vec<&Part> = self.full().collect();
         full.windows(2).find_map(|pair| {
@@ -108,18 +108,20 @@ impl Parts {
                 let (from, to) = (rows.start, rows.end.min(before.end) - 1);
                 let [one, two] = [first, second].map(|part| part.path.display());
                 let sentence =
-                    format!("rows {from} to {to} are in {one} and in {two}: remove one of the two");
+                    format!("rows {from} to {to} are both in {one} and in {two}: remove one of the two files");
                 SceneError::in_sentence(&first.path, sentence)
             })
         })
     }
 
-    /// Writes the whole sweep, byte by byte as one run would have, in the format that the name says, into an output that was claimed before.
+    /// Writes the whole sweep into an output that was claimed before; byte for byte as one run would have written it,
+    /// in the format of the output's name.
     ///
-    /// Where it `refers`, it is an HDF5 file whose results lie in the parts, which are to stay where they are, seen from it.
+    /// With `refers` the output is an HDF5 file whose results remain in the parts; these must not move relative to it.
     ///
     /// # Errors
-    /// [`SweepError`] where rows are missing, or twice there, or a file is none of the sweep's parts, or none to refer to.
+    /// [`SweepError`] if rows are missing or duplicate, if a file is not a part of the sweep, or if it cannot be
+    /// referred to.
     pub fn merge<'a>(&self, output: &'a Output, refers: bool) -> Result<Staged<'a>, SweepError> {
         if refers {
             HDF5.check(&output.path)?;
@@ -139,19 +141,19 @@ impl Parts {
             };
             let named_so = HDF5.check(&part.path).is_ok();
             if !named_so || StoredPart::open(&part.path)?.failures().is_none() {
-                return Err(unreferred("it is no HDF5 file"));
+                return Err(unreferred("it is not an HDF5 file"));
             }
             let path = seen_from(&output.real, &part.path);
-            let path = path.ok_or_else(|| unreferred("its path is no text"))?;
+            let path = path.ok_or_else(|| unreferred("its path is not valid text"))?;
             Ok((path, part.selection.rows.clone()))
         });
         let sources = sources.collect::<Result<Vec<_>, SceneError>>()?;
         Ok(stage_hdf5(output, &spec, Some(&sources), &rows)?)
     }
 
-    /// The sweep, where all its rows are there, once.
+    /// The sweep, if each of its rows is present exactly once.
     fn whole(&self, output: &Output) -> Result<Spec, SweepError> {
-        // what was merged before may lie beside the parts
+        // an earlier merged sweep may lie next to the parts
         let merged = |path: &Path| file_kind(path) == Ok(FileKind::Sweep);
         if let Some((path, reason)) = self.foreign.iter().find(|(path, _)| !merged(path)) {
             return Err(SceneError::in_sentence(path, reason.clone()).into());
@@ -171,20 +173,20 @@ impl Parts {
         spec.fields = first.fields.clone();
         if let Some(other) = self.parts.iter().find(|part| part.fields != spec.fields) {
             let other = other.path.display();
-            let sentence = format!("and {other} have other columns, or another precision");
+            let sentence = format!("and {other} differ in their columns or precision");
             return Err(SceneError::is(&first.path, sentence).into());
         }
         Ok(spec)
     }
 
-    /// Those that have rows.
+    /// The parts that have rows.
     fn full(&self) -> impl Iterator<Item = &Part> {
         let parts = self.parts.iter();
         parts.filter(|part| !part.selection.rows.is_empty())
     }
 }
 
-/// The rows of the parts, with the keys of their sweep: all of them, or without their results.
+/// The rows of the parts, with the keys of their sweep; all rows, or failures only.
 struct Checked<'a> {
     parts: &'a Parts,
     spec: &'a Spec,
@@ -192,7 +194,7 @@ struct Checked<'a> {
 }
 
 impl Blocks for Checked<'_> {
-    /// One part is open at a time: there may be more than files that a process may open.
+    /// Only one part is open at a time: a process may open fewer files than there are parts.
     fn each(
         &self,
         visit: &mut dyn FnMut(&Block) -> Result<(), OutputFault>,
@@ -215,7 +217,7 @@ impl Blocks for Checked<'_> {
     }
 }
 
-/// The path of one file from the folder of another, where it is a text.
+/// The path of one file relative to the folder of another, if it is valid text.
 fn seen_from(file: &Path, other: &Path) -> Option<String> {
     let (folder, other) = (
         folder(file).canonicalize().ok()?,
@@ -228,16 +230,16 @@ fn seen_from(file: &Path, other: &Path) -> Option<String> {
     path.to_str().map(str::to_owned)
 }
 
-/// What a part says of itself, where its bytes are those that were written.
+/// The description of a part whose checksums are correct.
 fn undamaged(path: &Path) -> Result<Part, SceneError> {
     let open = StoredPart::open(path)?;
     open.check().map(|()| open.part)
 }
 
-/// Why the file at `path` is not the whole result of a sweep or, where some are selected, of these rows.
+/// Checks that the file at `path` is the complete result of a sweep or of its selected rows.
 ///
 /// # Errors
-/// One sentence.
+/// One sentence with the reason.
 pub fn check_complete(path: &Path, spec: &Spec) -> Result<(), String> {
     let found = match spec.selection {
         None => whole_sweep(path).map(|(sha256, fields)| (sha256, fields, 0..spec.rows())),
@@ -253,19 +255,19 @@ pub fn check_complete(path: &Path, spec: &Spec) -> Result<(), String> {
         let [[a, b], [c, d]] = [rows, asked].map(|rows| [rows.start, rows.end]);
         format!("has the rows {a}:{b}, not {c}:{d}")
     } else if fields != spec.fields {
-        "has other columns, or another precision".to_owned()
+        "has other columns or another precision".to_owned()
     } else {
         return Ok(());
     };
     Err(format!("{} {wrong}", path.display()))
 }
 
-/// What is said of a place without parts.
+/// The error for a folder without parts.
 fn none(path: &Path) -> SceneError {
-    SceneError::is(path, "has no part of a sweep")
+    SceneError::is(path, "contains no part of a sweep")
 }
 
-/// Files of a folder with some names, by name; those that begin with a dot belong to runs.
+/// Files of a folder with some names, sorted; names that begin with a dot belong to runs.
 fn files(folder: &Path, named: impl Fn(&Path) -> bool) -> Result<Vec<PathBuf>, SceneError> {
     let paths = || -> std::io::Result<Vec<PathBuf>> {
         let entries = std::fs::read_dir(folder)?;
@@ -277,7 +279,7 @@ fn files(folder: &Path, named: impl Fn(&Path) -> bool) -> Result<Vec<PathBuf>, S
     Ok(found)
 }
 
-/// The sweep that most parts, or else journals, are of, with its rows; the first of several.
+/// The sweep of most parts, or else of most journals, with its number of rows; the first of several.
 fn most(parts: &[Part], unfinished: &[Unfinished]) -> Option<(String, usize)> {
     let of_parts = parts.iter().map(|part| (&part.sha256, part.sweep_rows));
     let of_runs = unfinished.iter().map(|run| (&run.sha256, run.sweep_rows));

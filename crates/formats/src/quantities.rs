@@ -1,9 +1,9 @@
-//! Scalar results and fields: one table of each, from which every file, report and document takes them.
+//! Scalar results and fields: one table each, the source for all files, reports and documents.
 
 use contact::{Choice, Results};
 use impact::{Cause, Outcome, Quantity as FieldQuantity, RecordResults};
 
-/// What a number is, for files that tell whole numbers from others.
+/// Type of a number, for files that distinguish integers from real numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
     /// A real number.
@@ -12,26 +12,26 @@ pub enum Kind {
     Count,
 }
 
-/// A scalar result: its name, unit and meaning, and where it is.
+/// A scalar result: name, unit, meaning and source.
 pub struct Quantity {
-    /// Name in JSON, HDF5 and CSV; it ends with the unit.
+    /// Name in JSON, HDF5 and CSV; the last part is the unit.
     pub name: &'static str,
-    /// Unit as files state it.
+    /// Unit as written in files.
     pub unit: &'static str,
-    /// What it is, in a few words.
+    /// Meaning in a few words.
     pub meaning: &'static str,
-    /// Whether it is a count.
+    /// Real number or count.
     pub kind: Kind,
-    /// Whether only contacts that yield have it.
+    /// Whether only contacts that yield have this result.
     pub is_of_flow: bool,
-    /// Of a contact; NaN where a strength that it needs is not known.
+    /// Value for a contact; NaN if a required strength is unknown.
     pub of_contact: fn(&Results) -> f64,
-    /// Of a record, which has no striker.
+    /// Value for a force record, which has no striker; none if it does not apply.
     pub of_record: Option<fn(&RecordResults) -> f64>,
 }
 
 impl Quantity {
-    /// Its value in all that a scene gives; none where it does not exist.
+    /// The value in the results of a scene; none if it does not exist.
     pub fn of(&self, outcome: &Outcome) -> Option<f64> {
         match &outcome.cause {
             Cause::Contact { results, .. } => {
@@ -62,18 +62,18 @@ macro_rules! quantities {
     (@record $field:ident) => { Some(|r| r.$field) };
 }
 
-/// All of them, in the order of files and reports: name, kind, unit, field of a contact's results and, where it has
-/// one, of a record's, and meaning.
+/// All scalar results in the order of files and reports. Each row: name, kind, unit, field in the results of a contact,
+/// field in the results of a record if it exists, meaning.
 pub const QUANTITIES: [Quantity; 31] = quantities! {
     peak_force_n: Real "N" of peak_force_n, peak_force_n => "largest contact force";
-    peak_force_time_s: Real "s" of peak_force_time_s, peak_force_time_s => "when it is reached";
-    contact_time_s: Real "s" of contact_time_s, duration_s => "duration of the first contact; of a force record, from its onset to where the force ends";
+    peak_force_time_s: Real "s" of peak_force_time_s, peak_force_time_s => "time of the largest contact force";
+    contact_time_s: Real "s" of contact_time_s, duration_s => "duration of the first contact; for a force record, from its onset to its end";
     rebound_velocity_m_s: Real "m/s" of rebound_velocity_m_s => "velocity of departure, positive away from the half-space";
     restitution: Real "1" of restitution => "velocity of departure over velocity of approach";
     loss: Real "1" of loss => "kinetic energy lost over kinetic energy before, 1 - restitution^2";
     peak_displacement_m: Real "m" of peak_displacement_m => "largest displacement of the striker";
     peak_deflection_m: Real "m" of peak_deflection_m, peak_deflection_m => "largest deflection of the half-space in the contact law";
-    impulse_n_s: Real "N s" of impulse_n_s, impulse_n_s => "momentum given to the striker, integral of the force; integral of the record";
+    impulse_n_s: Real "N s" of impulse_n_s, impulse_n_s => "integral of the force over time, the momentum given to the striker";
     initial_energy_j: Real "J" of initial_energy_j => "kinetic energy before";
     radiated_energy_j: Real "J" of radiated_energy_j, radiated_energy_j => "work that the force leaves in the half-space as waves";
     energy_residual: Real "1" of energy_residual => "(initial - rebound - radiated)/initial energy, the rebound by the impulse";
@@ -84,17 +84,17 @@ pub const QUANTITIES: [Quantity; 31] = quantities! {
     pressure_over_yield: Real "1" of loading.pressure_over_yield => "mean_pressure_pa over the lower of both yield strengths";
     pressure_over_tensile: Real "1" of loading.pressure_over_tensile => "mean_pressure_pa over the lower of both tensile strengths, Kmax of the paper";
     cone_crack_onset: Real "1" of loading.cone_crack_onset => "largest force over that at which a cone crack is expected in the first body, by Auerbach's law";
-    yield_pressure_pa: Real "Pa" of plastic.yield_pressure_pa => "mean pressure that the yielding contact does not exceed; of jackson_green the one at which it yields under the surface";
-    yield_velocity_m_s: Real "m/s" of plastic.yield_velocity_m_s => "velocity of approach from which the law of flow differs from elasticity";
-    velocity_over_yield: Real "1" of plastic.velocity_over_yield => "velocity of approach over the one from which the law of flow differs from elasticity";
-    velocity_over_trusted: Real "1" of plastic.velocity_over_trusted => "velocity of approach over the largest one for which the law of flow is trusted; none of laws without such a limit";
-    plastic_work_j: Real "J" of plastic.plastic_work_j => "work of the plastic flow";
+    yield_pressure_pa: Real "Pa" of plastic.yield_pressure_pa => "largest mean pressure of the yielding contact; for jackson_green, mean pressure at the onset of yield under the surface";
+    yield_velocity_m_s: Real "m/s" of plastic.yield_velocity_m_s => "velocity of approach at the onset of yield in the plasticity law";
+    velocity_over_yield: Real "1" of plastic.velocity_over_yield => "velocity of approach over the velocity at the onset of yield in the plasticity law";
+    velocity_over_trusted: Real "1" of plastic.velocity_over_trusted => "velocity of approach over the largest velocity at which the plasticity law is valid; absent for laws without such a limit";
+    plastic_work_j: Real "J" of plastic.plastic_work_j => "work of plastic flow";
     peak_indentation_m: Real "m" of plastic.peak_indentation_m => "largest indentation";
-    residual_indentation_m: Real "m" of plastic.residual_indentation_m => "indentation that stays";
-    dent_radius_m: Real "m" of plastic.dent_radius_m => "radius of the sphere that meets a plane as the striker meets its dent";
+    residual_indentation_m: Real "m" of plastic.residual_indentation_m => "permanent indentation";
+    dent_radius_m: Real "m" of plastic.dent_radius_m => "effective radius of the striker in its dent: of the sphere that touches a plane in the same way";
     contacts: Count "1" of contacts => "number of contacts";
-    march_steps: Count "1" of march_steps => "steps of the march over the contact, 0 where no uniform step is taken";
-    march_step_s: Real "s" of march_step_s => "step of the march, 0 where no uniform step is taken";
+    march_steps: Count "1" of march_steps => "number of time steps over the contact, 0 if they are not uniform";
+    march_step_s: Real "s" of march_step_s => "time step over the contact, 0 if it is not uniform";
     relative_error_estimate: Real "1" of relative_error_estimate, relative_error_estimate => "estimated relative error of peak force, contact time, restitution and displacement";
 };
 
@@ -113,7 +113,7 @@ pub const FIELDS: [(&str, &str, &str); 6] = labels! {
     "stress_rz", "Pa", "shear stress";
 };
 
-/// Quantities that a scene may ask for beside them, with unit and meaning; a quantity has its name.
+/// Further field quantities that a scene may request, with unit and meaning; the quantity has its own name.
 pub const FIELD_QUANTITIES: [(FieldQuantity, &str, &str); 14] = labels! {
     FieldQuantity::VelocityR, "m/s", "radial velocity of the particles, positive outwards";
     FieldQuantity::VelocityZ, "m/s", "axial velocity of the particles, positive into the half-space";
@@ -134,7 +134,7 @@ pub const FIELD_QUANTITIES: [(FieldQuantity, &str, &str); 14] = labels! {
 /// Name, unit and meaning.
 pub type Labels<'a> = (&'a str, &'a str, &'a str);
 
-/// Those of the six fields and then of some quantities beside them, as results have them.
+/// Labels of the six fields, followed by those of further quantities, in the order of the results.
 pub fn labels_of(quantities: &[FieldQuantity]) -> impl Iterator<Item = Labels<'static>> {
     let more = quantities.iter().filter_map(|quantity| {
         let row = FIELD_QUANTITIES.iter().find(|row| row.0 == *quantity)?;
@@ -143,14 +143,14 @@ pub fn labels_of(quantities: &[FieldQuantity]) -> impl Iterator<Item = Labels<'s
     FIELDS.into_iter().chain(more)
 }
 
-/// A column of a file: its name, its unit and what it is.
+/// A column of a file: name, unit and meaning.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Described {
     /// Name in the file.
     pub name: String,
-    /// Unit; `1` for none.
+    /// Unit; `1` if dimensionless.
     pub unit: String,
-    /// What it is, in a few words.
+    /// Meaning in a few words.
     pub meaning: String,
 }
 

@@ -1,4 +1,4 @@
-//! The results of an impact for people and for machines.
+//! The results of an impact as JSON.
 
 use crate::quantities::{Kind, QUANTITIES};
 use crate::schema::results::TREATMENT;
@@ -10,11 +10,11 @@ use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// Name of the scheme where nothing is marched.
+/// Name of the scheme if no time stepping is needed.
 const CLOSED_FORM: &str = "closed form";
 
-/// What a scene was computed with, by name: the model, never "auto", but "prescribed" for a force that was given; the scheme,
-/// "closed form" where nothing was marched; the static share; the deflection; and why this model.
+/// The choices in a computed scene, by name: model (never "auto"; "prescribed" for a given force), scheme ("closed
+/// form" without time steps), static share, deflection, and the reason for the model.
 pub fn choices<'a>(scene: &Scene, outcome: &'a Outcome) -> [&'a str; 5] {
     let settings = &scene.settings;
     let deflection = settings.deflection.name();
@@ -41,7 +41,7 @@ pub fn choices<'a>(scene: &Scene, outcome: &'a Outcome) -> [&'a str; 5] {
     }
 }
 
-/// What was done to a force record, by the names of files: empty where nothing was.
+/// Treatment of a force record, by the names of files; empty if there was none.
 pub(crate) fn treatment(scene: &Scene) -> Vec<(&'static str, Option<f64>)> {
     let Some(done) = scene.record().and_then(|record| record.treated) else {
         return Vec::new();
@@ -63,8 +63,8 @@ pub fn kernel_name(outcome: &Outcome) -> &'static str {
     used.map_or("none", |used| used.kernel())
 }
 
-/// What is sought of a scene from a rebound, with its report: from what was measured by name, one number of a [`Measure`] or
-/// two of `bounces`, the times in s between three of them, with their absolute error.
+/// Infers `unknown` of a scene from a measured rebound and returns it with its report. `name` and `values` are one
+/// number of a [`Measure`], or `bounces` with two times in s between three bounces; `error` is their absolute error.
 ///
 /// # Errors
 /// [`InferError`].
@@ -76,12 +76,14 @@ pub fn infer(
 ) -> Result<(Inferred, Value), InferError> {
     let refused = |what: String| Err(InferError::Given(what));
     let Some(strike) = scene.strike() else {
-        return refused("a force record has no rebound: give the scene a [striker]".to_owned());
+        return refused(
+            "a force record has no rebound: replace [force] by a [striker] in the scene".to_owned(),
+        );
     };
     let mut velocity_m_s = strike.velocity_m_s;
     let (measure, value) = match (Measure::named(name), values) {
         (Some(measure), &[value]) => (measure, value),
-        // the second time over the first is the restitution of the bounce between, whose velocity follows from the first
+        // the ratio of the times is the restitution of the middle bounce, whose velocity follows from the first time
         (None, &[first, second]) => {
             if let Some(doubt) = doubt_of_bounces(first, second) {
                 return refused(doubt);
@@ -90,7 +92,12 @@ pub fn infer(
             error *= (1.0 + (second / first).powi(2)).sqrt() / first;
             (Measure::Restitution, second / first)
         }
-        _ => return refused(format!("{name} has {} times, not two", values.len())),
+        _ => {
+            return refused(format!(
+                "{name} has {} times, but two are required",
+                values.len()
+            ));
+        }
     };
     let positive = |x: f64| x > 0.0 && x.is_finite();
     if !(positive(value) && positive(velocity_m_s) && error >= 0.0 && error.is_finite()) {
@@ -125,17 +132,17 @@ pub fn infer(
     Ok((found, report))
 }
 
-/// Time between two bounces in s at most: 10 s are a fall from 123 m.
+/// Longest accepted time between two bounces in s: 10 s correspond to a fall from 123 m.
 const LONGEST_BOUNCE_S: f64 = 10.0;
 
-/// A sentence about times between bounces that no ball has, as those given in ms.
+/// A sentence about implausible times between bounces, such as times in ms.
 fn doubt_of_bounces(first: f64, second: f64) -> Option<String> {
     let written = |per_s: f64| {
         let times = [first, second].map(|time| fault::number(time / per_s));
         times.join(",")
     };
     let change = match first <= 1e3 * LONGEST_BOUNCE_S {
-        true => format!("; if they are in ms, give {}", written(1e3)),
+        true => format!("; if they are in ms, use {}", written(1e3)),
         false => String::new(),
     };
     (first > LONGEST_BOUNCE_S && first.is_finite()).then(|| {
@@ -147,7 +154,7 @@ fn doubt_of_bounces(first: f64, second: f64) -> Option<String> {
     })
 }
 
-/// All that is reported of a scene, with the time that it took in s.
+/// The full report of a scene, with its computing time in s.
 pub fn json_report(scene: &Scene, outcome: &Outcome, wall_s: f64) -> Value {
     let [model, scheme, static_share, deflection, reason] = choices(scene, outcome);
     let used = outcome.used.as_ref();
@@ -204,7 +211,7 @@ pub fn material_report(m: &Material) -> Value {
     })
 }
 
-/// What the table of a file covers, how it was made and how exact it is.
+/// Range, origin and accuracy of a kernel table.
 pub fn table_report(path: &Path, table: &Table) -> Value {
     let content = table.content();
     let origin = &content.origin;
@@ -233,7 +240,7 @@ pub fn table_report(path: &Path, table: &Table) -> Value {
     })
 }
 
-/// Relative errors of a table measured off its grid, by length of the pulse, region and field.
+/// Relative errors of a table between its grid points, by pulse length, region and field.
 pub fn accuracy_report(accuracy: &[Accuracy]) -> Value {
     let fields = |errors: &[Quantiles; 6]| {
         let of = |&Quantiles { p50, p99, max }: &Quantiles| json!({ "p50": p50, "p99": p99, "max": max });

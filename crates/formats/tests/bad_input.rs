@@ -325,9 +325,9 @@ fn each_refusal_of_a_record_says_the_way_out() {
             "",
             "such as force.columns = [\"F [kN]\", \"Time [us]\"]",
         ),
-        (OSCILLOSCOPE, NAMED, "give force.start_s"),
+        (OSCILLOSCOPE, NAMED, "set force.start_s"),
         (BARE, "", "force.columns = [1, 2] with force.units"),
-        (BARE, "columns = [1, 2]\n", "names no unit"),
+        (BARE, "columns = [1, 2]\n", "has no unit"),
         (
             BARE,
             "columns = [1, 2]\nunits = [\"us\", \"V\"]\n",
@@ -336,17 +336,17 @@ fn each_refusal_of_a_record_says_the_way_out() {
         (
             BARE,
             "columns = [1, 3]\n",
-            "force.columns has 3, and the rows have 2 columns",
+            "force.columns has 3, but the rows have 2 columns",
         ),
         (
             BARE,
             "columns = [1, 2]\nunits = [\"s\", \"mV\"]\n",
-            "give force.sensitivity_v_per_n",
+            "set force.sensitivity_v_per_n",
         ),
         (
             "time_s,force_n\n0,1\n1,2\n",
             "sensitivity_v_per_n = 0.1\n",
-            "has the unit \"N\", and force.sensitivity_v_per_n is for a signal",
+            "has the unit \"N\", but force.sensitivity_v_per_n applies to a signal",
         ),
         (
             "time_s,force_n\n0,1\n1,2\n",
@@ -419,7 +419,7 @@ fn no_line_of_a_file_without_numbers_is_shown() {
         "key = abc\nsecret, secret\n",
     ] {
         let message = record(secret, "").unwrap_err();
-        assert!(message.contains("no row of two numbers"), "{message}");
+        assert!(message.contains("no row with two numbers"), "{message}");
         let shown = ["root", "hash", "abc", "secret"]
             .iter()
             .any(|part| message.contains(part));
@@ -438,7 +438,7 @@ fn words_say_what_was_meant() {
         (
             "velocity_m_s = 100.0",
             "velocity_m_s = 0,5",
-            "numbers have a decimal point, no comma",
+            "numbers need a decimal point, not a comma",
         ),
         (
             "[striker]",

@@ -38,7 +38,7 @@ fn a_force_that_jumps_loads_the_surface_with_its_pressure_at_once() {
         found
             .warnings
             .iter()
-            .any(|w| w.contains("cells miss the force")),
+            .any(|w| w.contains("the force is approximated to")),
         "{:?}",
         found.warnings
     );
@@ -94,7 +94,7 @@ fn unusable_files_are_refused_with_their_name() {
     }
     file.close().unwrap();
     for (name, part) in [
-        ("none.h5", "no such file"),
+        ("none.h5", "does not exist"),
         ("text.h5", "not an HDF5 file"),
         ("short.h5", "2 samples"),
         ("empty.csv", "empty"),

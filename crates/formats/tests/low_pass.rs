@@ -205,7 +205,7 @@ fn what_a_low_pass_loses_before_the_time_zero_is_a_warning() {
         let found = outcome
             .warnings
             .iter()
-            .any(|w| w.contains("before the time zero"));
+            .any(|w| w.contains("times before zero"));
         assert_eq!(found, warned, "{:?}", outcome.warnings);
     }
 }

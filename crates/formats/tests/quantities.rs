@@ -156,7 +156,7 @@ fn quantities_that_do_not_exist_or_stand_twice_are_refused() {
             "[\"speed\"]",
             ["output.quantities = \"speed\"", "von_mises"],
         ),
-        ("[\"tresca\", \"tresca\"]", ["tresca", "stands once"]),
+        ("[\"tresca\", \"tresca\"]", ["tresca", "may occur once"]),
         ("\"tresca\"", ["output.quantities", "a list of words"]),
         ("[1]", ["output.quantities", "a word"]),
     ] {

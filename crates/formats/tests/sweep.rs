@@ -351,7 +351,7 @@ fn a_scene_and_numbers_out_of_range_are_refused_at_once() {
         "{SCENE}[product.striker]\nvelocity_m_s = {{ from = -1.0, to = 2.0, count = 3 }}\n"
     );
     for (text, expected) in [
-        (scene, "this is a scene; a sweep names its file"),
+        (scene, "this is a scene; a sweep contains"),
         (outside, "striker.velocity_m_s = -1 is outside (0, inf)"),
     ] {
         let error = Spec::from_toml(&text, Path::new(".")).unwrap_err();

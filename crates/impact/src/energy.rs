@@ -1,4 +1,4 @@
-//! Where the energy is over time.
+//! Energy over time.
 //!
 //! ```text
 //! kinetic   m v^2/2, v by the momentum of the force
@@ -6,10 +6,10 @@
 //! radiated  int P dw_d, w_d the part of the deflection that lags behind the force
 //! ```
 //!
-//! They come by different routes, so that their sum, the energy before, can fail.
-//! w_d is the contact's own; on a disc whose memory is followed S and w_d belong to the pressure-weighted mean of the
-//! disc's deflection, which does the work of the pressure, whatever deflection is in the contact law.
-//! Before the end of a contact the last term holds energy of the field near the contact that comes back.
+//! They are computed by different methods, so that their sum, the initial energy, is a real check.
+//! w_d is the contact's own. On a disc with memory, S and w_d belong to the pressure-weighted mean of the disc's
+//! deflection, which does the work of the pressure, whichever deflection is in the contact law.
+//! Until the end of a contact the last term includes energy of the near field that returns.
 //!
 //! Theory: `docs/theory.md` (T56).
 
@@ -24,23 +24,23 @@ use halfspace::{Deflection, SurfaceResponse, lagrange};
 pub struct EnergySeries {
     /// Kinetic energy of the striker; none for a record.
     pub kinetic_j: Option<Vec<f64>>,
-    /// Work of a record on the half-space since its first sample; none for a striker, whose spring is shared.
+    /// Work of a record on the half-space since its first sample; none for a striker, which shares the spring.
     pub work_j: Option<Vec<f64>>,
-    /// Elastic energy that is given back: of Hertz's spring and of the disc's static field.
+    /// Recoverable elastic energy: of Hertz's spring and of the disc's static field.
     pub stored_j: Vec<f64>,
-    /// Work on the deflection that lags; after the contact the energy that is radiated.
+    /// Work on the deflection that lags behind the force; after the contact, the radiated energy.
     pub radiated_j: Vec<f64>,
-    /// Work of the plastic flow, where a contact yields.
+    /// Work of plastic flow, for a yielding contact.
     pub plastic_j: Option<Vec<f64>>,
 }
 
-/// Samples over the contacts for the work.
+/// Number of samples over the contacts for the work.
 const SAMPLES: f64 = 1024.0;
 
 impl EnergySeries {
-    /// Of a striker whose contact has this model, at times in s; none for a record.
+    /// Energies of a striker whose contact has this model, at times in s; none for a record.
     ///
-    /// The work is within 1e-4 of itself beside the error of the force.
+    /// The relative error of the work is 1e-4 in addition to the error of the force.
     pub(crate) fn of_striker(
         excitation: &Excitation,
         chosen: &Chosen,
@@ -81,7 +81,7 @@ impl EnergySeries {
             let share = StaticShare::Dynamic;
             excitation.deflection_m(Deflection::Mean, share, step_s, 0.0, &force_n)
         } else {
-            // the contact law's own deflection but for its static part
+            // the deflection in the contact law without its static part
             let static_m_per_n = chosen.coupling() * units.length_m / units.force_n;
             let law_m = |t| excitation.motion(t).map_or(0.0, |m| m.deflection_m);
             let samples = times.zip(&force_n);
@@ -91,7 +91,7 @@ impl EnergySeries {
         let work_j = work_until_j(&force_n, &lag_m);
         let static_m_per_n = match physics {
             Physics::Disc(StaticShare::Full) => static_mean_m_per_n(excitation),
-            // Hertz's law holds all of it
+            // Hertz's law includes all of it
             Physics::Growing | Physics::Disc(StaticShare::Dynamic) | Physics::Yielding => 0.0,
         };
         let stored = |&t: &f64| {
@@ -107,7 +107,7 @@ impl EnergySeries {
         })
     }
 
-    /// Of a record whose force is sampled at the output's times.
+    /// Energies of a record whose force is sampled at the output's times.
     pub(crate) fn of_record(grid: &Grid<'_>, force_n: &[f64]) -> Self {
         let excitation = grid.excitation;
         let static_m_per_n = static_mean_m_per_n(excitation);
@@ -119,7 +119,7 @@ impl EnergySeries {
             let mut lag = Lag {
                 excitation,
                 static_m_per_n,
-                // between the rest before the run and the run before nothing is done
+                // no work is done between the rest before the run and the run before
                 work_j: radiated_j.last().copied().unwrap_or(0.0),
                 last: [run.base_n, 0.0],
                 slope_m: 0.0,
@@ -144,7 +144,7 @@ impl EnergySeries {
     }
 }
 
-/// The work of a record on the deflection that lags, along a run.
+/// The work of a record on the lagging deflection, along a run.
 struct Lag<'a> {
     excitation: &'a Excitation,
     static_m_per_n: f64,
@@ -152,12 +152,12 @@ struct Lag<'a> {
     work_j: f64,
     /// Force in N and deflection in m so far.
     last: [f64; 2],
-    /// What the deflection rose over the last whole step.
+    /// Rise of the deflection over the last whole step.
     slope_m: f64,
 }
 
 impl Lag<'_> {
-    /// Adds the work until each sample of a run; between jumps of the force it is that of smooth samples.
+    /// Adds the work until each sample of a run; between jumps of the force the samples are smooth.
     fn add_run(
         &mut self,
         run: &Run,
@@ -209,8 +209,8 @@ impl Lag<'_> {
         }
     }
 
-    /// Goes over a jump that is a part of a step after the last sample: the lag jumps with the force, as the static
-    /// deflection does, and no work is done.
+    /// Passes a jump at a fraction of a step after the last sample: the lag jumps with the force, like the static
+    /// deflection, and no work is done.
     fn jump(&mut self, jump: &Jump, part: f64) {
         let after_n = self.excitation.force_n(jump.time_s);
         let before_m = self.last[1] + part * self.slope_m;

@@ -1,4 +1,4 @@
-//! Why an impact, or its fields, could not be computed.
+//! Errors of an impact and of its fields.
 
 use contact::ContactError;
 use fault::{AnyError, Class, Culprit, Fault};
@@ -6,26 +6,29 @@ use halfspace::DomainError;
 use lookup::LookupError;
 use thiserror::Error;
 
-/// Why a scene could not be computed.
+/// Errors of a scene.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum ImpactError {
     /// The contact failed.
     #[error(transparent)]
     Contact(#[from] ContactError),
-    /// The contact failed, between bodies whose numbers hint at slips.
+    /// The contact failed, and the numbers of the bodies look implausible.
     #[error("{error}; {}", doubts.join("; "))]
     Doubtful {
-        /// Why the contact failed.
+        /// Error of the contact.
         error: ContactError,
-        /// What hints at slips.
+        /// Implausible numbers.
         doubts: Vec<String>,
     },
     /// The table could not be loaded.
     #[error("{0}")]
     Table(AnyError),
     /// A point is outside the table.
-    #[error("probe r = {r_m} m, z = {z_m} m with disc radius {disc_radius_m} m: {source}")]
+    #[error(
+        "probe r = {} m, z = {} m with disc radius {} m: {source}",
+        fault::rounded(*r_m), fault::rounded(*z_m), fault::rounded(*disc_radius_m)
+    )]
     OutsideTable {
         /// Distance from the axis in m.
         r_m: f64,
@@ -33,22 +36,25 @@ pub enum ImpactError {
         z_m: f64,
         /// Unit of length in m.
         disc_radius_m: f64,
-        /// What the table says.
+        /// Error of the table.
         source: LookupError,
     },
     /// A point is outside the half-space.
-    #[error("probe r = {r_m} m, z = {z_m} m: {source}")]
+    #[error(
+        "probe r = {} m, z = {} m: {source}",
+        fault::rounded(*r_m), fault::rounded(*z_m)
+    )]
     OutsideBlock {
         /// Distance from the axis in m.
         r_m: f64,
         /// Depth in m.
         z_m: f64,
-        /// What the kernel says.
+        /// Error of the kernel.
         source: DomainError,
     },
-    /// More samples than memory should hold.
+    /// Too many samples.
     #[error(
-        "the output needs {samples:.3e} samples of {step_s:.3e} s, more than {limit}: give a larger step_s or a smaller duration_s"
+        "the output needs {samples:.3e} samples of {step_s:.3e} s, more than {limit}: use a larger step_s or a smaller duration_s"
     )]
     TooManySamples {
         /// Samples needed.
@@ -58,9 +64,9 @@ pub enum ImpactError {
         /// Samples allowed.
         limit: usize,
     },
-    /// More memory than there is.
+    /// Too little memory.
     #[error(
-        "the scene needs about {needed_gb:.3} GB of memory, more than the {limit_gb:.3} GB allowed ({points} points, {} samples, {frames} frames): ask for {change}",
+        "the scene needs about {needed_gb:.3} GB of memory, more than the {limit_gb:.3} GB allowed ({points} points, {} samples, {frames} frames): use {change}",
         fault::number(*samples)
     )]
     TooMuchMemory {
@@ -68,18 +74,18 @@ pub enum ImpactError {
         needed_gb: f64,
         /// Allowed in GB.
         limit_gb: f64,
-        /// Points at which fields are asked for.
+        /// Points with fields.
         points: usize,
         /// Samples of the output in time.
         samples: f64,
         /// Frames of the section.
         frames: usize,
-        /// What to change.
+        /// Advice on the settings to change.
         change: &'static str,
     },
-    /// A frame of the section after the output.
+    /// A frame of the section later than the output.
     #[error(
-        "map.times_s = {} is outside [0, {}], the times of the output: give output.duration_s",
+        "map.times_s = {} is outside [0, {}], the times of the output: set output.duration_s",
         fault::number(*wanted_s),
         fault::number(*end_s)
     )]
@@ -89,31 +95,31 @@ pub enum ImpactError {
         /// Last time of the output in s.
         end_s: f64,
     },
-    /// Whoever asked for the scene has seen the forecast and does not want it.
-    #[error("the scene was given up before it was begun: it takes about {seconds:.1e} s")]
+    /// The caller has cancelled the scene after its forecast.
+    #[error("the scene was cancelled before it began: it would take about {seconds:.1e} s")]
     GivenUp {
         /// Time in s.
         seconds: f64,
     },
-    /// A result that is no number.
+    /// A result that is not finite.
     #[error(
-        "{quantity} comes out as {value}: the numbers of the scene are beyond what floating-point arithmetic holds; check their units"
+        "{quantity} is {value}: the numbers of the scene exceed the range of floating-point numbers; check their units"
     )]
     NotFinite {
-        /// Which result.
+        /// Name of the result.
         quantity: String,
-        /// What it is.
+        /// Its value.
         value: f64,
     },
-    /// A number is outside the physics.
+    /// A number outside its physical range.
     #[error(transparent)]
     Domain(#[from] DomainError),
     /// A record without the disc that it loads.
-    #[error("a force record needs the radius of the disc that it loads: set disc_radius_m")]
+    #[error("a force record requires the radius of the loaded disc: set disc_radius_m")]
     NoDisc,
-    /// A disc so large beside the record that only rounding would be left.
+    /// A disc so large for the record that rounding errors would dominate.
     #[error(
-        "disc_radius_m = {} is outside (0, {largest_m:.3e}]: waves cross too little of a larger disc while the record lasts",
+        "disc_radius_m = {} is outside (0, {largest_m:.3e}]: in a larger disc waves would cross only a tiny part during the record",
         fault::number(*radius_m)
     )]
     TooWide {
@@ -124,7 +130,7 @@ pub enum ImpactError {
     },
 }
 
-/// Refuses numbers that are not finite.
+/// Rejects numbers that are not finite.
 pub(crate) fn finite(
     quantity: impl Fn() -> String,
     numbers: impl IntoIterator<Item = f64>,
@@ -176,7 +182,7 @@ fn of_contact(error: &ContactError) -> Culprit<'_> {
             culprit.key("velocity_m_s").number(*velocity_m_s)
         }
         ContactError::OutOfRange { quantity, value } => {
-            // what follows from several keys is told in words
+            // combinations of several keys are described in words
             let is_key = !quantity.contains(' ');
             let culprit = culprit.number(*value).range("[1e-30, 1e30]");
             if is_key {
@@ -189,7 +195,7 @@ fn of_contact(error: &ContactError) -> Culprit<'_> {
     }
 }
 
-/// A table that could not be loaded is something to change, whatever is wrong with it.
+/// A table that could not be loaded is always an input that can be changed.
 #[cfg_attr(not(feature = "hdf5"), allow(unused_variables))]
 fn of_table(fault: &AnyError) -> Culprit<'_> {
     let culprit = Culprit::of(Class::Table);

@@ -1,7 +1,7 @@
-//! What loads the half-space: a force history with the radius of its pressure and its error.
+//! Load on the half-space: a force history with the radius of its pressure and its error.
 //!
-//! A solved contact, a closed form and a record all become an [`Excitation`]; fields, sections and energy follow from
-//! it in one way.
+//! A solved contact, a closed form and a record all become an [`Excitation`], from which fields, sections and energy
+//! are computed in the same way.
 //!
 //! Theory: `docs/theory.md` (T55).
 
@@ -23,7 +23,7 @@ pub struct Run {
     pub start_s: f64,
     /// Force long before it in N.
     pub base_n: f64,
-    /// How many.
+    /// Number of samples.
     pub count: usize,
 }
 
@@ -43,9 +43,9 @@ pub struct Excitation {
 /// Radius of Hertz's pressure under a force.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum PressureRadius {
-    /// The same throughout, in m: the paper's disc, a record's disc.
+    /// Constant, in m: the paper's disc, a record's disc.
     Fixed(f64),
-    /// Hertz's at every instant, proportional to the cube root of the force.
+    /// Hertz's radius at each time, proportional to the cube root of the force.
     Following {
         /// Under the largest force, in m.
         largest_m: f64,
@@ -62,19 +62,19 @@ impl PressureRadius {
     }
 }
 
-/// One of Hertz's pressures that together stand for the one of an instant.
+/// One of the Hertz pressures whose sum is the pressure at a time.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Pressed {
     /// The force in N and its rate in N/s.
     pub(crate) force_n: f64,
     pub(crate) rate: f64,
-    /// Square of the radius over that of the largest, and its rate in 1/s.
+    /// Square of the radius relative to the largest, and its rate in 1/s.
     pub(crate) square: f64,
     pub(crate) square_rate: f64,
 }
 
 impl Pressed {
-    /// The rate of something, by its difference over a part of the force or of the square of the radius.
+    /// The rate of a function, from its difference over a fraction of the force or of the squared radius.
     pub(crate) fn rate_of<const N: usize, E>(
         self,
         part: f64,
@@ -103,23 +103,23 @@ impl Pressed {
     }
 }
 
-/// A force history, and the motion that goes with it where a striker has made it.
+/// A force history, and the motion of its striker if there is one.
 #[derive(Debug, Clone)]
 enum Force {
     Contact(Box<Contact>),
     Record(ForceRecord),
 }
 
-/// A force history that a striker has made.
+/// The force history of a striker.
 #[derive(Debug, Clone)]
 pub(crate) struct Contact {
     pub(crate) samples: Resampler,
     pub(crate) units: CollisionUnits,
     /// Duration of the first contact in s.
     duration_s: f64,
-    /// When each contact begins and ends, in s.
+    /// Begin and end of each contact, in s.
     contacts_s: Vec<[f64; 2]>,
-    /// When its rate jumps within one, in s.
+    /// Times in s at which its rate jumps within a contact.
     kinks_s: Vec<f64>,
 }
 
@@ -135,10 +135,11 @@ pub struct Motion {
 }
 
 impl Excitation {
-    /// Of a contact: its history in collision units, and its duration in s; `radius` is that of the pressure.
+    /// The excitation of a contact: its history in collision units, and its duration in s; `radius` is that of the
+    /// pressure.
     ///
     /// # Errors
-    /// [`DomainError`] for a Poisson's ratio outside the physics.
+    /// [`DomainError`] for an impossible Poisson's ratio.
     pub fn of_contact(
         half_space: &HalfSpace,
         radius: PressureRadius,
@@ -161,10 +162,10 @@ impl Excitation {
         Self::new(half_space, radius, force, relative_error)
     }
 
-    /// Of a record on a disc of a radius in m.
+    /// The excitation of a record on a disc of a radius in m.
     ///
     /// # Errors
-    /// [`DomainError`] for a Poisson's ratio outside the physics.
+    /// [`DomainError`] for an impossible Poisson's ratio.
     pub fn of_record(
         half_space: &HalfSpace,
         radius_m: f64,
@@ -195,7 +196,7 @@ impl Excitation {
         })
     }
 
-    /// The half-space's Poisson ratio and what follows from it.
+    /// The half-space's Poisson ratio and derived quantities.
     pub fn medium(&self) -> &Medium {
         &self.medium
     }
@@ -219,7 +220,7 @@ impl Excitation {
         &self.units
     }
 
-    /// The contact that has made it; none of a record.
+    /// Its contact; none for a record.
     pub(crate) fn contact(&self) -> Option<&Contact> {
         match &self.force {
             Force::Contact(contact) => Some(contact),
@@ -227,7 +228,7 @@ impl Excitation {
         }
     }
 
-    /// The record that it is, if it is one.
+    /// Its record, if it has one.
     pub fn record(&self) -> Option<&ForceRecord> {
         match &self.force {
             Force::Contact(_) => None,
@@ -235,13 +236,13 @@ impl Excitation {
         }
     }
 
-    /// The contact in collision units where it has yielded.
+    /// The contact in collision units if it has yielded.
     pub(crate) fn yielded(&self) -> Option<&SolvedContact> {
         let pieces = self.contact()?.samples.history.pieces.as_deref();
         pieces.filter(|one| one.flow.is_some())
     }
 
-    /// The force at a time, in N; at a jump that after it.
+    /// The force at a time, in N; the later value at a jump.
     pub fn force_n(&self, time_s: f64) -> f64 {
         match &self.force {
             Force::Contact(_) => self.force_and_rate(time_s)[0],
@@ -249,18 +250,18 @@ impl Excitation {
         }
     }
 
-    /// Jumps of the force, which the sums of its continuous part do not hold; none of a contact.
+    /// Jumps of the force, which the sums over its continuous part do not include; none for a contact.
     pub(crate) fn jumps(&self) -> &[Jump] {
         self.record().map_or(&[], ForceRecord::jumps)
     }
 
-    /// What has jumped of the force in N until a time, itself among it.
+    /// Sum of the jumps of the force in N until a time, including a jump at that time.
     pub(crate) fn jumped_n(&self, time_s: f64) -> f64 {
         self.record().map_or(0.0, |record| record.jumped_n(time_s))
     }
 
-    /// Hertz's pressures that together stand for the one at a time: two under a contact that yields and whose pressure is
-    /// known, elsewhere one.
+    /// Hertz pressures whose sum is the pressure at a time: two for a yielding contact with known pressure, one
+    /// otherwise.
     pub(crate) fn pressures(&self, time_s: f64) -> [Pressed; 2] {
         let [force_n, rate] = self.force_and_rate(time_s);
         let one = |square: f64, square_rate: f64| Pressed {
@@ -292,7 +293,7 @@ impl Excitation {
         ]
     }
 
-    /// Static field in SI units under the pressures of an instant.
+    /// Static field in SI units under the pressures at a time.
     pub(crate) fn static_si(
         &self,
         [r_m, z_m]: [f64; 2],
@@ -323,7 +324,7 @@ impl Excitation {
         [displacement, displacement, stress, stress, stress, stress]
     }
 
-    /// When each contact begins and ends, in s; none of a record.
+    /// Begin and end of each contact, in s; empty for a record.
     pub(crate) fn contacts_s(&self) -> &[[f64; 2]] {
         self.contact().map_or(&[], |contact| &contact.contacts_s)
     }
@@ -341,7 +342,7 @@ impl Excitation {
         self.contacts_s().iter().flat_map(cut).collect()
     }
 
-    /// When the rate of a contact's force jumps between its beginning and its end, in s.
+    /// Times in s at which the rate of a contact's force jumps between its beginning and end.
     pub(crate) fn kinks_s(&self) -> &[f64] {
         self.contact().map_or(&[], |contact| &contact.kinks_s)
     }
@@ -355,8 +356,8 @@ impl Excitation {
         run.base_n - earlier.map(|jump| jump.rise_n).sum::<f64>()
     }
 
-    /// The force in N without its jumps, and its rate in N/s at a time; NaN for that of a record, which changes at once where
-    /// lines meet.
+    /// The force in N without its jumps, and its rate in N/s at a time; NaN for the rate of a record, which changes
+    /// abruptly at its rows.
     #[inline(always)]
     pub(crate) fn force_and_rate(&self, time_s: f64) -> [f64; 2] {
         match &self.force {
@@ -369,7 +370,7 @@ impl Excitation {
         }
     }
 
-    /// Places in the cells between the samples of a run where the force is read, with weights that integrate it.
+    /// Nodes in the cells between the samples of a run at which the force is read, with weights that integrate it.
     pub(crate) fn cell_nodes(&self, run: &Run, step_s: f64) -> CellNodes {
         let start_s = |cell: usize| run.start_s + cell as f64 * step_s;
         CellNodes::new(run.count.saturating_sub(1), |cell, nodes| {
@@ -380,9 +381,9 @@ impl Excitation {
         })
     }
 
-    /// Nodes of one cell: graded toward a touch or an end of contact, where the force has the power 3/2.
+    /// Nodes of one cell: graded toward the begin or end of a contact, where the force has the power 3/2.
     fn contact_nodes(&self, from_s: f64, step_s: f64, nodes: &mut Vec<Node>) {
-        /// A force that changes by more than this over a cell is near an end of contact.
+        /// A force that changes by more than this over a cell is near the end of a contact.
         const STEEP: f64 = 0.5;
         const PLAIN: usize = 4;
         const GRADED: usize = 12;
@@ -401,7 +402,7 @@ impl Excitation {
             nodes.extend(gauss::rule(PLAIN).on(-0.5, 0.5).map(node));
             return;
         }
-        // from where the force is zero, or from the lower end
+        // from the zero of the force, or from the lower end
         let rising = ends[0] < ends[1];
         let [mut zero, end] = if rising { [-0.5, 0.5] } else { [0.5, -0.5] };
         if low <= 0.0 {
@@ -427,7 +428,7 @@ impl Excitation {
         })
     }
 
-    /// When the blow begins, in s: zero for a contact.
+    /// Onset of the main pulse in s: zero for a contact.
     pub(crate) fn start_s(&self) -> f64 {
         self.record().map_or(0.0, ForceRecord::start_s)
     }
@@ -437,7 +438,7 @@ impl Excitation {
         WaveSpeeds::new(&self.medium, self.units.longitudinal_speed_m_s)
     }
 
-    /// Deflection of the disc in m a time in s after the force has jumped by 1 N, with a share of its static part.
+    /// Deflection of the disc in m at a time in s after a jump of the force by 1 N, with a share of its static part.
     pub(crate) fn deflection_after_jump_m(
         &self,
         deflection: Deflection,
@@ -449,19 +450,18 @@ impl Excitation {
         move |time_s| static_m_per_n * (factor - 1.0 + response.step(time_s / unit_s))
     }
 
-    /// When a force begins, in s, however small.
+    /// Begin of the force in s, however small.
     pub(crate) fn first_s(&self) -> f64 {
         self.record().map_or(0.0, ForceRecord::leaves_zero_s)
     }
 
-    /// First arrivals in s of the P, S and Rayleigh wave at a place in m; infinite for a Rayleigh wave where there is
-    /// none.
+    /// First arrivals in s of the P, S and Rayleigh wave at a point in m; infinite if there is no Rayleigh wave.
     pub fn arrivals_s(&self, [r_m, z_m]: [f64; 2]) -> [f64; 3] {
         let first = self.speeds().arrivals_s(r_m, z_m, self.units.disc_radius_m);
         first.map(|t| self.start_s() + t)
     }
 
-    /// When the force ends, in s.
+    /// End of the force in s.
     pub fn end_s(&self) -> f64 {
         match &self.force {
             Force::Contact(contact) => contact.duration_s,
@@ -469,7 +469,7 @@ impl Excitation {
         }
     }
 
-    /// What a table's error depends on, with times in r0/c1 of discs of a radius `over` the largest.
+    /// Properties that determine a table's error, with times in r0/c1 of discs of a radius `over` the largest.
     pub(crate) fn pulse(&self, over: f64) -> Pulse {
         let unit_s = over * self.units.time_s();
         match &self.force {
@@ -481,8 +481,8 @@ impl Excitation {
         }
     }
 
-    /// Deflection of the disc in m under a continuous force sampled a step apart, with a share of its static part; `base_n`
-    /// is the force long before.
+    /// Deflection of the disc in m under a continuous force at equidistant samples, with a share of its static part;
+    /// `base_n` is the force long before.
     pub(crate) fn deflection_m(
         &self,
         deflection: Deflection,

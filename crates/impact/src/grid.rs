@@ -8,26 +8,26 @@ use contact::law::hertz::CONTACT_TIME;
 use contact::{Collision, StaticShare};
 use halfspace::Deflection;
 
-/// Samples of the output at most.
+/// Largest number of samples of the output.
 const MOST_SAMPLES: usize = 4_000_000;
 
-/// What the times of the output depend on beside the excitation.
+/// Requirements on the times of the output in addition to the excitation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Wanted {
     /// Relative tolerance on the results.
     pub(crate) tolerance: f64,
-    /// Largest step in s, if one is asked for.
+    /// Largest step in s, if requested.
     pub(crate) step_s: Option<f64>,
-    /// Time in s to be covered, if one is asked for.
+    /// Duration in s, if requested.
     pub(crate) duration_s: Option<f64>,
     /// Frames of a section, at least one sample each.
     pub(crate) frames: Option<usize>,
-    /// Distance in m of the farthest point from the load's centre, where there are points.
+    /// Distance in m of the farthest point from the load's centre, if there are points.
     pub(crate) farthest_m: Option<f64>,
 }
 
 impl Wanted {
-    /// What a scene asks.
+    /// The requirements of a scene.
     pub(crate) fn of(scene: &Scene) -> Self {
         Self {
             tolerance: scene.settings.tolerance,
@@ -38,9 +38,9 @@ impl Wanted {
         }
     }
 
-    /// Refuses a step of the output that is too fine for whatever comes of a contact, before that is solved.
+    /// Rejects, before the contact is solved, an output step that is too fine for any possible contact.
     ///
-    /// A contact lasts longer than half of Hertz's, and waves travel no faster to the farthest point than Rayleigh's.
+    /// The output lasts at least half of Hertz's contact time and the travel time of a Rayleigh wave to the farthest point.
     ///
     /// # Errors
     /// [`ImpactError::TooManySamples`].
@@ -77,8 +77,8 @@ impl Wanted {
         (duration_s, step_s)
     }
 
-    /// A step in s that the tolerance asks for: over a contact the force is followed to third order between samples, but for
-    /// its ends, where the power 3/2 is integrated.
+    /// Step in s that the tolerance requires: over a contact the force is approximated to third order between samples,
+    /// except at its ends, where the power 3/2 is integrated.
     fn fitting_step_s(&self, excitation: &Excitation) -> f64 {
         match excitation.record() {
             None => {
@@ -100,21 +100,21 @@ impl Wanted {
         1.05 * self.farthest_m.map_or(0.0, travel)
     }
 
-    /// Time in s after which the fields of a force that has come to rest are taken as static.
+    /// Time in s after which the fields of a constant force count as static.
     ///
-    /// What is left of the remainder then is left out: up to 2e-4 of the peak was seen after a lasting change of force,
-    /// far less after a pulse. The errors of the fields count it.
+    /// The remainder at later times is omitted: up to 2e-4 of the peak was observed after a lasting change of force,
+    /// far less after a pulse. The errors of the fields include it.
     fn settling_s(&self, excitation: &Excitation) -> f64 {
         let crossing_s = excitation.units().disc_radius_m / excitation.speeds().rayleigh;
         SETTLED * (self.passing_s(excitation) + crossing_s)
     }
 
-    /// The runs of samples: where a record is quiet for long there are none.
+    /// The runs of samples: there are none while a record is constant for a long time.
     fn runs(&self, excitation: &Excitation, duration_s: f64, step_s: f64) -> Vec<Run> {
         let run = |from_s: f64, to_s: f64, base_n: f64| Run {
             start_s: from_s,
             base_n,
-            // far beyond what any memory holds: refused by its number
+            // more than any memory: rejected by its number
             count: ((to_s - from_s) / step_s).ceil().min(1e15) as usize + 1,
         };
         let settling_s = self.settling_s(excitation);
@@ -146,16 +146,16 @@ impl Wanted {
     }
 }
 
-/// Samples of a record at most when the step is chosen: jumps could take any number.
+/// Largest number of samples of a record when the step is chosen; jumps alone would have no limit.
 const MOST_RECORD: f64 = 262_144.0;
 
-/// How many times longer than the passing of the waves the fields are followed before they count as static.
+/// Time for which the fields are computed before they count as static, relative to the passing of the waves.
 const SETTLED: f64 = 20.0;
 
-/// Times of the output: samples a step apart, in one run from 0 or, where a record is quiet for long, in several.
+/// Times of the output: equidistant samples, in one run from 0, or in several for a record with long constant parts.
 #[derive(Debug, Clone)]
 pub(crate) struct Grid<'a> {
-    /// What is sampled.
+    /// The excitation.
     pub(crate) excitation: &'a Excitation,
     /// Relative tolerance on the results.
     pub(crate) tolerance: f64,
@@ -163,14 +163,14 @@ pub(crate) struct Grid<'a> {
     pub(crate) step_s: f64,
     /// Consecutive samples, in the order of time.
     pub(crate) runs: Vec<Run>,
-    /// Largest step in s that was wanted.
+    /// Largest requested step in s.
     pub(crate) wanted_s: f64,
     /// Time in s after which fields are taken as static between runs.
     settling_s: f64,
 }
 
 impl<'a> Grid<'a> {
-    /// The times for what is wanted of an excitation, on steps that the source of the kernels can give.
+    /// The times for the requirements, on steps that the source of the kernels supports.
     pub(crate) fn new(
         wanted: &Wanted,
         excitation: &'a Excitation,
@@ -206,7 +206,7 @@ impl<'a> Grid<'a> {
         self.runs.iter().map(|run| run.count).sum()
     }
 
-    /// The cell from which on runs leave out what an earlier one has changed for good, and the sum of these changes in N.
+    /// The cell from which on runs omit the permanent changes of an earlier run, and the sum of these changes in N.
     pub(crate) fn left_out(&self) -> (usize, f64) {
         let cell = (self.settling_s / self.step_s) as usize;
         let pairs = self.runs.windows(2);
@@ -252,7 +252,7 @@ impl<'a> Grid<'a> {
         found
     }
 
-    /// The samples of each run without the jumps of the force, which was the base of the run long before.
+    /// The samples of each run without the jumps of the force, relative to the base of the run long before.
     pub(crate) fn continuous(&self, force_n: &[f64]) -> Vec<(Run, Vec<f64>)> {
         let of = |(run, force_n): (Run, &[f64])| {
             let time_s = |i: usize| run.start_s + i as f64 * self.step_s;
@@ -264,7 +264,7 @@ impl<'a> Grid<'a> {
         self.split(force_n).into_iter().map(of).collect()
     }
 
-    /// The samples of each run, of samples of all.
+    /// The samples of each run, out of all samples.
     pub(crate) fn split<'s>(&self, mut samples: &'s [f64]) -> Vec<(Run, &'s [f64])> {
         let cut = |&run: &Run| {
             let (own, rest) = samples.split_at(run.count);

@@ -7,13 +7,13 @@ use contact::{
 };
 use std::ops::Deref;
 
-/// Relative change of the peak force from which the cost of the full static share is told.
+/// Relative change of the peak force above which the effect of the full static share causes a warning.
 const NOTABLE: f64 = 0.01;
 
-/// Difference of two restitutions that is shown, by the last of their three digits.
+/// Smallest visible difference of two restitutions with three digits.
 const TOLD: f64 = 1e-3;
 
-/// A striker that meets a half-space.
+/// A striker that hits a half-space.
 ///
 /// ```
 /// use impact::{HalfSpace, Impact, Material, Striker};
@@ -27,22 +27,22 @@ const TOLD: f64 = 1e-3;
 pub struct Impact {
     /// The half-space.
     pub half_space: HalfSpace,
-    /// The body that strikes.
+    /// The striker.
     pub striker: Striker,
     /// Velocity of approach in m/s.
     pub velocity_m_s: f64,
-    /// How the contact is computed.
+    /// Settings of the contact.
     pub settings: Settings,
 }
 
-/// An impact solved: its [`Results`], and the excitation that it is for the half-space.
+/// A solved impact: its [`Results`], and the excitation of the half-space.
 #[derive(Debug, Clone)]
 pub struct Run {
     /// Model, scheme and results in collision units.
     pub solved: Solved,
     /// Results in SI units.
     pub results: Results,
-    /// What the user should know.
+    /// Warnings for the user.
     pub warnings: Vec<String>,
     excitation: Excitation,
 }
@@ -62,7 +62,7 @@ impl Run {
     }
 }
 
-/// Solves a contact with a solver's responses, and looks no further.
+/// Solves a contact with a solver's responses, without warnings.
 pub(crate) fn solve<S: Responses>(
     solver: &mut Solver<'_, S>,
     half_space: &HalfSpace,
@@ -90,7 +90,7 @@ pub(crate) fn solve<S: Responses>(
 }
 
 impl Impact {
-    /// With the default settings: model `auto` at a tolerance of 1e-4.
+    /// An impact with the default settings: model `auto` at a tolerance of 1e-4.
     pub fn new(half_space: HalfSpace, striker: Striker, velocity_m_s: f64) -> Self {
         Self {
             half_space,
@@ -100,23 +100,23 @@ impl Impact {
         }
     }
 
-    /// With a relative tolerance on the results.
+    /// Sets the relative tolerance of the results.
     #[must_use]
     pub fn to_tolerance(mut self, tolerance: f64) -> Self {
         self.settings.tolerance = tolerance;
         self
     }
 
-    /// What its contact follows from.
+    /// The collision that determines the contact.
     pub fn collision(&self) -> Collision {
         Collision::new(&self.half_space, &self.striker, self.velocity_m_s)
     }
 
-    /// Solves the contact, with the force at every instant and the warnings.
+    /// Solves the contact; returns the force over time and the warnings as well.
     ///
-    /// The history takes most of the time where the model has a closed form.
-    /// For the results alone use [`Solver::solve`](contact::Solver::solve), for many impacts
-    /// [`sweep::collide`](crate::sweep::collide), which shares what they have in common.
+    /// The history takes most of the time if the model has a closed form. For the results alone use
+    /// [`Solver::solve`](contact::Solver::solve), for many impacts [`sweep::collide`](crate::sweep::collide), which
+    /// shares their common parts.
     ///
     /// # Errors
     /// [`ContactError`].
@@ -134,7 +134,7 @@ impl Impact {
         Ok(run)
     }
 
-    /// What Thornton's law would make of a contact that is taken as elastic beyond its yield.
+    /// A warning with the restitution by Thornton's law, if an elastic contact exceeds the onset of yield.
     fn would_yield(
         &self,
         solver: &mut Solver<'_, Exact>,
@@ -154,16 +154,16 @@ impl Impact {
         let elastic = results.restitution;
         ((elastic - restitution).abs() >= TOLD).then(|| {
             format!(
-                "the contact yields, which plasticity = \"none\" ignores: restitution {elastic:.3}, but {restitution:.3} with \"{}\"",
+                "the contact yields, which plasticity = \"none\" ignores: its restitution is {elastic:.3}, but {restitution:.3} with \"{}\"",
                 plasticity.name()
             )
         })
     }
 
-    /// What the full static share of a fixed disc costs against a contact that follows the load, where it is more than
-    /// [`NOTABLE`] of the force.
+    /// A warning if the full static share of a fixed disc changes the force by more than [`NOTABLE`], compared with a
+    /// contact radius that follows the load.
     ///
-    /// Hertz's law holds the static compliance of the half-space already; the paper's disc adds it once more.
+    /// Hertz's law includes the static compliance of the half-space already; the paper's disc adds it again.
     fn counted_twice(
         &self,
         solver: &mut Solver<'_, Exact>,
@@ -182,8 +182,9 @@ impl Impact {
         let change = run.peak_force_n / force_n - 1.0;
         (change.abs() > NOTABLE).then(|| {
             format!(
-                "the full static share counts the static deflection of the half-space twice, in Hertz's law and in the disc: the peak force is {:+.0} % off that of a contact that follows the load, {force_n:.4e} N",
-                100.0 * change
+                "the full static share includes the static deflection of the half-space twice, in Hertz's law and in the disc: the peak force deviates by {:+.0} % from {} N, that of a contact radius that follows the load",
+                100.0 * change,
+                fault::rounded(force_n)
             )
         })
     }

@@ -6,7 +6,7 @@ use lookup::{LookupError, Moments, Table};
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-/// Where the cell averages come from.
+/// Source of the cell averages.
 #[derive(Debug, Clone)]
 pub enum KernelSource {
     /// Computed for each point: any step, no table.
@@ -15,27 +15,27 @@ pub enum KernelSource {
     Table(Arc<Table>),
 }
 
-/// Cells at one point with what goes with them.
+/// Cells at one point with their errors.
 #[derive(Debug, Clone)]
 pub struct Cells {
     /// Static field under unit force.
     pub static_part: Six,
     /// Averages and moments of the remainder over the cells wanted and [`lookup::BEYOND`] more.
     pub moments: Moments,
-    /// The cells wanted, with what their moments are worth under a smooth force.
+    /// The requested cells, with the weights of their moments under a smooth force.
     pub smooth: Vec<Six>,
     /// Error of the response to a force of unit peak.
     pub error: Six,
-    /// Averages over parts of the first cells, as many as [`CellPlan::parts`] says, where they were looked up.
+    /// Averages over parts of the first cells, as many as [`CellPlan::parts`], if they were looked up.
     pub fine: Vec<Six>,
-    /// The remainder at any instant, where it was computed.
+    /// The remainder at any time, if it was computed.
     pub trace: Option<Trace>,
 }
 
 impl Cells {
-    /// The response to a force that jumps from zero to one, so long after it, in cells of `step` in the same unit of time.
+    /// The response at a time after a jump of the force from zero to one, in cells of `step` in the same unit of time.
     ///
-    /// At an arrival it is that after it. Cells alone are read as in [`Self::error_at_instants`].
+    /// At an arrival it is the later value. Cells alone are read as in [`Self::error_at_instants`].
     pub(crate) fn step_response(&self, time: f64, step: f64) -> Six {
         let rest = match &self.trace {
             Some(trace) => trace.at(time),
@@ -50,11 +50,11 @@ impl Cells {
         std::array::from_fn(|f| self.static_part[f] + rest[f])
     }
 
-    /// How far the remainder may be off at an instant beside the error of the kernels: not at all of a trace; of cells, each
-    /// of which is followed by the parabola of its moments, as far as a front that passes within one departs from it.
+    /// Error of the remainder at a single time in addition to the error of the kernels: zero for a trace; for cells,
+    /// whose moments define parabolas, the deviation of a front within the cell from its parabola.
     ///
-    /// Where the parabolas of neighbours do not meet, or have another slope or bend than the averages around, the kernel is
-    /// not smooth. `looked_up_jumps_are_within_their_estimates` fails without it.
+    /// The kernel is not smooth where neighbouring parabolas do not meet, or their slope or bend differs from that of
+    /// the averages. `looked_up_jumps_are_within_their_estimates` fails without it.
     pub(crate) fn error_at_instants(&self) -> Six {
         let mut most = Six::default();
         if self.trace.is_some() {
@@ -81,8 +81,8 @@ impl Cells {
         most
     }
 
-    /// Of each field's step response the total variation, which is the largest response to a force that is nowhere above
-    /// one, and the largest change from one cell to the next.
+    /// Total variation of each field's step response, which is the largest response to a force with values up to one,
+    /// and the largest change between neighbouring cells.
     pub(crate) fn steps(&self) -> [[f64; 2]; 6] {
         let averages = &self.moments.averages;
         std::array::from_fn(|f| {
@@ -95,19 +95,20 @@ impl Cells {
     }
 }
 
-/// The remainder within a cell by its moments, s from -1/2 to 1/2.
+/// The remainder within a cell from its moments, s from -1/2 to 1/2.
 fn parabola(moments: &Moments, cell: usize, s: f64) -> Six {
     let [average, first, second] =
         [&moments.averages, &moments.first, &moments.second].map(|own| &own[cell]);
     std::array::from_fn(|f| average[f] + 12.0 * s * first[f] + (180.0 * s * s - 15.0) * second[f])
 }
 
-/// Part of the tolerance that a trace has for a force that jumps, which shows it as it is.
+/// Fraction of the tolerance for a trace under a force that jumps, which shows the trace itself.
 ///
 /// `fields_under_jumps_are_those_of_steps_within_their_estimates` fails without it.
 const AT_INSTANTS: f64 = 0.1;
 
-/// Part of the tolerance that a trace has for rates, those of the displacements: with the power 1/2 a force begins steeper.
+/// Fraction of the tolerance for a trace of rates of the displacements: a force begins more steeply, with the power
+/// 1/2.
 const RATES: f64 = 0.01;
 
 impl KernelSource {
@@ -120,9 +121,9 @@ impl KernelSource {
         Ok(Self::Direct(Arc::new(kernel)))
     }
 
-    /// Step in r0/c1 not longer than `wanted`, unless the table has none so short.
+    /// Step in r0/c1 of at most `wanted`, unless the table has no step so short.
     ///
-    /// Powers of two also without a table, so that both sources give the same samples.
+    /// Powers of two even without a table, so that both sources have the same samples.
     pub(crate) fn step(&self, poisson_ratio: f64, wanted: f64) -> f64 {
         match self {
             Self::Direct(_) => wanted.log2().floor().exp2(),
@@ -135,7 +136,7 @@ impl KernelSource {
         }
     }
 
-    /// Parts of a cell of a width in r0/c1 that the cells of a table tell apart; 1 of kernels that are computed.
+    /// Number of parts of a cell of a width in r0/c1 that the cells of a table resolve; 1 for computed kernels.
     pub(crate) fn parts(&self, poisson_ratio: f64, step: f64) -> usize {
         match self {
             Self::Direct(_) => 1,
@@ -146,7 +147,7 @@ impl KernelSource {
         }
     }
 
-    /// Largest r and z in radii of a table; none of kernels that are computed.
+    /// Largest r and z in radii of a table; none for computed kernels.
     pub(crate) fn table_reach(&self) -> Option<[f64; 2]> {
         match self {
             Self::Direct(_) => None,
@@ -154,7 +155,7 @@ impl KernelSource {
         }
     }
 
-    /// The cells at (r, z) in radii of a disc, whose radius in m is for messages.
+    /// The cells at (r, z) in radii of a disc; its radius in m is used in messages.
     ///
     /// # Errors
     /// [`ImpactError`] for a point outside the half-space or the table.
@@ -223,41 +224,41 @@ impl KernelSource {
     }
 }
 
-/// Which cells a convolution needs; lengths of time in r0/c1.
+/// Cells that a convolution needs; lengths of time in r0/c1.
 #[derive(Debug, Clone, Copy)]
 pub struct CellPlan {
     /// Width of a cell.
     pub step: f64,
-    /// How many cells, [`lookup::BEYOND`] among them.
+    /// Number of cells, including [`lookup::BEYOND`].
     pub count: usize,
-    /// Parts of each cell whose averages are looked up, too, and the number of cells of which they are.
+    /// Number of parts of each cell with looked-up averages, and number of cells that are divided.
     pub parts: [usize; 2],
     /// Of the force.
     pub pulse: Pulse,
-    /// Whether rates of the fields are asked for, too.
+    /// Whether rates of the fields are requested as well.
     pub rates: bool,
     /// Relative tolerance on the fields.
     pub tolerance: f64,
 }
 
-/// What a table's error depends on of a force; lengths in r0/c1.
+/// Properties of a force that determine a table's error; lengths in r0/c1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Pulse {
     /// As smooth as sin^4(pi t/T) of this length.
     Smooth(f64),
-    /// Of lines as steep as such a pulse, and of jumps, each up to this part of its peak.
+    /// Piecewise linear, as steep as such a pulse, with jumps of at most a fraction of its peak.
     Lines {
         /// Length of the pulse.
         length: f64,
-        /// Largest jump over the peak.
+        /// Largest jump relative to the peak.
         jump: f64,
     },
-    /// Of a contact of this duration, which begins and ends with the power 3/2.
+    /// A contact of this duration, which begins and ends with the power 3/2.
     Contact(f64),
 }
 
 impl Pulse {
-    /// Largest jump over the peak.
+    /// Largest jump relative to the peak.
     fn jump(self) -> f64 {
         match self {
             Self::Smooth(_) | Self::Contact(_) => 0.0,
@@ -265,17 +266,17 @@ impl Pulse {
         }
     }
 
-    /// The most by which the force, and its rate where `rates`, may change within a time, over its peak.
+    /// Largest change of the force, and of its rate if `rates`, within a time, relative to its peak.
     fn rise(self, length: f64, rates: bool) -> f64 {
         let part = match self {
-            // what is left of R is of either sign, so that the slope in the middle counts for a part
+            // the remainder of R has either sign, so that the slope in the middle counts only in part
             Self::Contact(duration) => {
                 const LINE: f64 = 0.6;
                 let power = if rates { 0.5 } else { 1.5 };
                 let part = PI * length / duration;
                 part.powf(power).max(LINE * part)
             }
-            // lines have rates that jump
+            // the rates of lines jump
             Self::Smooth(_) | Self::Lines { .. } if rates => 1.0,
             Self::Smooth(duration) => 1.3 * PI * length / duration,
             Self::Lines {
@@ -289,8 +290,8 @@ impl Pulse {
 
 /// Estimated absolute error of each field looked up, for a force of unit peak.
 ///
-/// Tables are measured with pulses sin^4. Within a time L of its ends a contact of duration T reaches (pi L/T)^(3/2) of its
-/// largest force, as a pulse of that length would: the errors of the shorter pulses count by that fraction.
+/// Tables are measured with pulses sin^4. Within a time L of its ends a contact of duration T reaches (pi L/T)^(3/2) of
+/// its largest force, like a pulse of that length, so the errors of the shorter pulses are weighted by that fraction.
 ///
 /// # Errors
 /// [`LookupError`] outside the table.
@@ -306,7 +307,7 @@ pub(crate) fn table_error(
         Pulse::Lines { length, jump } => {
             let mut error = errors.under(length);
             if jump > 0.0 {
-                // as sharp as the shortest pulse that was measured, at least
+                // at least as sharp as the shortest measured pulse
                 let sharp = errors.under(table.content().pulse_lengths[0]);
                 for (all, own) in error.iter_mut().zip(sharp) {
                     *all += jump * own;

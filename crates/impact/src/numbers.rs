@@ -1,8 +1,8 @@
-//! The revision of the numbers of fields: which versions of the program compute the same ones.
+//! The revision of the numbers of fields: versions of the program with the same revision compute the same numbers.
 
 /// Revision of the fields at points.
 ///
-/// Sweeps with probes carry it, beside [`contact::NUMBERS_REVISION`], in what makes two of them the same. It is
+/// It is part of the identity of sweeps with probes, in addition to [`contact::NUMBERS_REVISION`]. It is
 /// raised by hand with every change that alters a field by more than the rounding of double precision, in this crate, in
 /// `lookup` or in `halfspace`; a test compares fields with those that were written down for it.
 pub const FIELDS_REVISION: u32 = 19;

@@ -1,4 +1,4 @@
-//! All that a scene gives: numbers, none of which is not finite.
+//! Results of a scene; all numbers are finite.
 
 use crate::energy::EnergySeries;
 use crate::error::{ImpactError, finite};
@@ -8,7 +8,7 @@ use crate::sampled::convolve::Method;
 use contact::{Choice, Model, Results, Scheme};
 use lookup::schema::FIELD_NAMES;
 
-/// What loaded the half-space, with the results that go with it.
+/// Load on the half-space, with its results.
 #[derive(Debug, Clone, PartialEq)]
 #[allow(clippy::large_enum_variant, reason = "a scene has one")]
 pub enum Cause {
@@ -16,9 +16,9 @@ pub enum Cause {
     Contact {
         /// Model, never [`Model::Auto`].
         model: Model,
-        /// Scheme; none where nothing was marched.
+        /// Scheme; none for a closed form.
         scheme: Option<Scheme>,
-        /// Why this model.
+        /// Reason for this model.
         reason: String,
         /// Results.
         results: Results,
@@ -27,35 +27,35 @@ pub enum Cause {
     Record(RecordResults),
 }
 
-/// Scalar results of a force that was given, in SI units.
+/// Scalar results of a prescribed force, in SI units.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct RecordResults {
     /// Largest force in N.
     pub peak_force_n: f64,
-    /// When it is reached in s.
+    /// Time of the largest force in s.
     pub peak_force_time_s: f64,
-    /// Time in s that the blow lasts, from its onset to the end of the force.
+    /// Duration of the main pulse in s, from its onset to the end of the force.
     pub duration_s: f64,
     /// int P dt in N s.
     pub impulse_n_s: f64,
     /// Largest deflection of the disc in m.
     pub peak_deflection_m: f64,
-    /// Radius of the disc that it loads in m.
+    /// Radius of the loaded disc in m.
     pub disc_radius_m: f64,
-    /// The most that the samples leave of the force between them, over the largest force.
+    /// Largest deviation of the force from its samples, relative to the largest force.
     pub relative_error_estimate: f64,
-    /// Work on the part of the mean deflection that lags behind the force, in J.
+    /// Work on the mean deflection that lags behind the force, in J.
     pub radiated_energy_j: f64,
 }
 
-/// How the fields were computed.
+/// Method of computing the fields.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct FieldsUsed {
-    /// Id of the table of their kernels and version of its file's format; none of kernels that were computed.
+    /// Id of the table of their kernels and version of its file format; none for computed kernels.
     pub table: Option<[String; 2]>,
-    /// Why these kernels.
+    /// Reason for these kernels.
     pub reason: String,
-    /// How the force was convolved with them.
+    /// Method of convolution with the force.
     pub convolution: Method,
 }
 
@@ -75,9 +75,9 @@ pub struct Series {
     pub force_n: Vec<f64>,
     /// Deflection that enters the contact law in m; that of the disc for a record.
     pub deflection_m: Vec<f64>,
-    /// The striker, where there is one.
+    /// The striker, if there is one.
     pub striker: Option<StrikerSeries>,
-    /// Where the energy is.
+    /// Energy over time.
     pub energy: Option<EnergySeries>,
 }
 
@@ -90,12 +90,12 @@ pub struct StrikerSeries {
     pub velocity_m_s: Vec<f64>,
 }
 
-/// All that a scene gives.
+/// Results of a scene.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Outcome {
-    /// What loaded the half-space, and its results.
+    /// Load on the half-space, with its results.
     pub cause: Cause,
-    /// How the fields were computed; none without fields.
+    /// Method of computing the fields; none without fields.
     pub used: Option<FieldsUsed>,
     /// Time series.
     pub series: Series,
@@ -103,12 +103,12 @@ pub struct Outcome {
     pub probes: Option<ProbeFields>,
     /// Fields on the section.
     pub section: Option<SectionFields>,
-    /// What the user should know.
+    /// Warnings for the user.
     pub warnings: Vec<String>,
 }
 
 impl Outcome {
-    /// Step of the output in s; a record that is quiet for long begins with a gap.
+    /// Step of the output in s; the first gap may be longer for a record with long constant parts.
     pub fn step_s(&self) -> f64 {
         let time_s = &self.series.time_s;
         let first = time_s.get(1).map_or(0.0, |second| second - time_s[0]);
@@ -125,7 +125,7 @@ impl Outcome {
     }
 }
 
-/// Passes on an outcome all numbers of which are finite; those of a contact are checked where it is solved.
+/// Returns the outcome if all its numbers are finite; those of a contact are checked where it is solved.
 pub(crate) fn checked(outcome: Outcome) -> Result<Outcome, ImpactError> {
     if let Cause::Record(results) = &outcome.cause {
         for (name, value) in [
@@ -177,7 +177,7 @@ pub(crate) fn checked(outcome: Outcome) -> Result<Outcome, ImpactError> {
     Ok(outcome)
 }
 
-/// The six fields and the quantities beside them, with their errors, somewhere.
+/// The six fields and further quantities at some places, with their errors.
 fn fields<V: IntoIterator<Item = f64>>(
     place: &str,
     quantities: &[Quantity],

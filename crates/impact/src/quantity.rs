@@ -2,9 +2,9 @@
 //!
 //! Strains are those of Hooke's law, principal stresses the eigenvalues of the stress tensor, equivalent stresses those of
 //! von Mises and Tresca.
-//! Their errors are bounds: each is at most what the errors of the four stresses can move it by, whatever their signs.
+//! Their errors are bounds: the largest change that the errors of the four stresses can cause, whatever their signs.
 
-/// Which derivative in time of the fields is meant.
+/// Derivative in time of the fields.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Derivative {
     /// The six fields.
@@ -16,7 +16,7 @@ pub(crate) enum Derivative {
 }
 
 contact::choice! {
-    /// A quantity beside the six fields that every result has.
+    /// A quantity in addition to the six fields that every result has.
     #[derive(Debug, Clone, Copy, PartialEq, Eq)]
     pub enum Quantity {
         /// Radial velocity of the particles.
@@ -51,8 +51,8 @@ contact::choice! {
 }
 
 impl Quantity {
-    /// Of a velocity or an acceleration which derivative it is, and its component; none of what follows from the stresses of
-    /// the same instant.
+    /// Derivative and component of a velocity or an acceleration; none for quantities that follow from the stresses at
+    /// the same time.
     pub(crate) fn rate(self) -> Option<(Derivative, usize)> {
         match self {
             Self::VelocityR => Some((Derivative::First, 0)),

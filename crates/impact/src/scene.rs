@@ -1,10 +1,10 @@
-//! A scene: what loads which half-space, and what is asked.
+//! A scene: load, half-space, and requested output.
 
 use crate::quantity::{Derivative, Quantity};
 use crate::record::ForceRecord;
 use contact::{HalfSpace, Settings, Striker};
 
-/// What loads the half-space.
+/// Load on the half-space.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Load {
     /// A striker with its velocity of approach.
@@ -38,11 +38,11 @@ pub struct Section {
     pub r_max_m: f64,
     /// Largest depth in m.
     pub z_max_m: f64,
-    /// Points along r and z.
+    /// Number of points along r and z.
     pub points: [usize; 2],
-    /// Frames in time, at most.
+    /// Largest number of frames in time.
     pub frames: usize,
-    /// Their times in s, each rising and not negative; empty: evenly over the output.
+    /// Their times in s, ascending and not negative; empty for uniform frames over the output.
     pub times_s: Vec<f64>,
 }
 
@@ -51,24 +51,24 @@ pub struct Section {
 pub struct Scene {
     /// The half-space.
     pub target: HalfSpace,
-    /// What loads it.
+    /// Load.
     pub load: Load,
-    /// How the contact is computed; its disc is what a record loads.
+    /// Settings of the contact; a record loads their disc.
     pub settings: Settings,
-    /// Where fields are asked for.
+    /// Points of the requested fields.
     pub probes: Vec<Probe>,
-    /// Section of the field asked for.
+    /// Requested section of the fields.
     pub section: Option<Section>,
-    /// Quantities asked for beside the fields, at probes and on the section.
+    /// Requested quantities in addition to the fields, at probes and on the section.
     pub quantities: Vec<Quantity>,
-    /// Whether the largest values over time are asked for on the section, with their instants.
+    /// Whether the largest values over time and their times are requested on the section.
     pub peaks: bool,
-    /// Time in s that the output covers, if the scene says so.
+    /// Duration of the output in s, if the scene sets it.
     pub duration_s: Option<f64>,
 }
 
 impl Scene {
-    /// The striker with its velocity; none of a force record.
+    /// The striker with its velocity; none for a force record.
     pub fn strike(&self) -> Option<&Strike> {
         match &self.load {
             Load::Strike(strike) => Some(strike),
@@ -76,7 +76,7 @@ impl Scene {
         }
     }
 
-    /// The force record; none of a striker.
+    /// The force record; none for a striker.
     pub fn record(&self) -> Option<&ForceRecord> {
         match &self.load {
             Load::Strike(_) => None,
@@ -84,14 +84,14 @@ impl Scene {
         }
     }
 
-    /// Distance in m from the centre of the load to the farthest point that is asked for; zero without one.
+    /// Distance in m from the centre of the load to the farthest requested point; zero without points.
     pub(crate) fn farthest_m(&self) -> f64 {
         let probes = self.probes.iter().map(|probe| probe.r_m.hypot(probe.z_m));
         let corner = self.section.iter().map(|s| s.r_max_m.hypot(s.z_max_m));
         probes.chain(corner).fold(0.0, f64::max)
     }
 
-    /// A sentence where points that are asked for lie within a distance of the contact of a yielding block.
+    /// A warning if requested points lie within a distance of the contact of a yielding block.
     pub(crate) fn beside(&self, near_m: f64) -> Option<String> {
         let near = |probe: &&Probe| probe.r_m.hypot(probe.z_m) < near_m;
         let probes = self.probes.iter().filter(near).count();
@@ -103,13 +103,13 @@ impl Scene {
         let found: Vec<String> = probes.into_iter().chain(section).collect();
         (!found.is_empty()).then(|| {
             format!(
-                "within {near_m:.3e} m, two contact radii, stresses are not those of a yielding block: {}",
+                "within {near_m:.3e} m of the contact (two contact radii) the stresses ignore the yielding of the block: {}",
                 found.join(" and ")
             )
         })
     }
 
-    /// Rates of the displacement that are asked for: velocity, acceleration.
+    /// Number of requested rates of the displacement: velocity, acceleration.
     pub(crate) fn rates(&self) -> usize {
         let own = || self.quantities.iter().filter_map(|one| one.rate());
         let asked = |derivative: &Derivative| own().any(|(own, _)| own == *derivative);
@@ -117,7 +117,7 @@ impl Scene {
         rates.iter().filter(|rate| asked(rate)).count()
     }
 
-    /// Points at which fields are asked for.
+    /// Number of points with fields.
     pub fn points(&self) -> usize {
         let section = self
             .section

@@ -108,8 +108,8 @@ fn of_strike(
     Ok(outcome)
 }
 
-/// What longitudinal waves have to cross of a disc while a record lasts, over its radius: less of it is lost in rounding,
-/// by 2e-4 at this and by 4e-2 at a tenth of it.
+/// Distance that longitudinal waves travel during a record, relative to the radius of its disc. Below this ratio
+/// rounding errors are too large: 2e-4 at this ratio and 4e-2 at a tenth of it.
 const CROSSED: f64 = 1e-5;
 
 fn of_record(
@@ -128,7 +128,7 @@ fn of_record(
             largest_m,
         });
     }
-    // what it comes to follows from the series
+    // the results follow from the series
     let cause = Cause::Record(RecordResults::default());
     let (grid, mut outcome) = begin(scene, kernels, allowance, &excitation, (cause, Vec::new()))?;
     let (series, warnings) = (&mut outcome.series, &mut outcome.warnings);
@@ -140,8 +140,9 @@ fn of_record(
     let relative_error = left_n / record.largest_n().max(f64::MIN_POSITIVE);
     if relative_error > scene.settings.tolerance {
         warnings.push(format!(
-            "on the output's step of {:.3e} s, the cells miss the force by up to {left_n:.3e} N, {relative_error:.1e} of its largest: the errors of the fields count it, a smaller step_s lowers it",
-            grid.step_s
+            "with the output step of {:.3e} s the force is approximated to {} N, a relative error of {relative_error:.1e}, which the errors of the fields include: use a smaller step_s to reduce it",
+            grid.step_s,
+            fault::rounded(left_n)
         ));
     }
     warnings.extend(record.lost_before_zero());
@@ -167,12 +168,13 @@ fn rates_of_jumps(scene: &Scene, record: &ForceRecord, step_s: f64) -> Option<St
     let counts = scene.rates() > 0 && jump_n > scene.settings.tolerance * record.largest_n();
     counts.then(|| {
         format!(
-            "the force jumps by up to {jump_n} N: velocities and accelerations are means over the output's step of {step_s:.3e} s, and where fronts of the jump pass they grow without limit as the step falls"
+            "the force jumps by up to {} N: velocities and accelerations are means over the output step of {step_s:.3e} s, and at the wave fronts of the jump they grow without limit as the step decreases",
+            fault::rounded(jump_n)
         )
     })
 }
 
-/// What follows from an excitation, whatever has caused it: the times of the output, and times, force and fields there.
+/// Output times, force and fields of any excitation.
 fn begin<'e>(
     scene: &Scene,
     kernels: &KernelChoice,
@@ -196,7 +198,7 @@ fn begin<'e>(
     let time_s: Vec<f64> = grid.times_s().collect();
     if grid.step_s > grid.wanted_s {
         warnings.push(format!(
-                "the output's step is {:.3e} s, that of the table's cells, where {:.3e} s or less was wanted",
+                "the output step is {:.3e} s, the width of the table's time cells, although at most {:.3e} s was requested",
                 grid.step_s, grid.wanted_s
             ));
     }

@@ -1,4 +1,4 @@
-//! Where the kernels of the fields come from: computed, or looked up.
+//! Source of the kernels of the fields: computed or looked up.
 
 use crate::convolution::plan::Sets;
 use crate::convolution::tuning;
@@ -16,21 +16,21 @@ use std::f64::consts::PI;
 use std::fmt;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// Something that has kernel tables: one in memory, or a file of which the part that is needed is loaded.
+/// Source of kernel tables: a table in memory, or a file from which the required part is loaded.
 pub trait Tables: fmt::Debug + Send + Sync {
-    /// A table for a Poisson's ratio that serves places (r, z) in disc radii from the first to the last of `span`.
+    /// A table for a Poisson's ratio that covers places (r, z) in disc radii from the first to the last of `span`.
     ///
     /// # Errors
-    /// Why it cannot be loaded.
+    /// The reason why it cannot be loaded.
     fn part(&self, poisson_ratio: f64, span: [[f64; 2]; 2]) -> Result<Arc<Table>, AnyError>;
 
     /// Largest r and z in disc radii.
     fn reach(&self) -> [f64; 2];
 
-    /// Why there is no such table, as far as that is known without loading one.
+    /// The reason why there is no such table, as far as it is known without loading one.
     ///
     /// # Errors
-    /// Why that cannot be told.
+    /// The reason why that is unknown.
     fn refusal(&self, _ratio: f64, _farthest: [f64; 2]) -> Result<Option<LookupError>, AnyError> {
         Ok(None)
     }
@@ -61,37 +61,37 @@ impl Tables for lookup::TableFile {
     }
 }
 
-/// Tables a part of which is loaded for each Poisson's ratio, and a larger one when a place lies beyond it.
+/// Tables of which a part is loaded for each Poisson's ratio, and a larger part when a place lies outside.
 ///
-/// What it gives does not depend on who asked before: a part answers as the whole does.
-/// A ratio may take the memory of a slice, so that it is for a few of them; [`Arc<Table>`] serves any number.
+/// The results do not depend on earlier calls: a part returns the same numbers as the whole table. Each ratio may need
+/// the memory of a slice, so use it for few ratios; [`Arc<Table>`] serves any number.
 #[derive(Debug)]
 pub struct Shared {
     tables: Arc<dyn Tables>,
-    /// What is known of each ratio, and why a part could not be read.
+    /// Known facts about each ratio, and the reason why a part could not be read.
     seen: Mutex<(HashMap<u64, Known>, Option<String>)>,
 }
 
-/// What is known of a ratio: why there is no table, and the part that was loaded with the places that it was loaded for.
+/// Known facts about a ratio: the reason why there is no table, and the loaded part with its places.
 type Known = (Option<LookupError>, Option<([[f64; 2]; 2], Arc<Table>)>);
 
-/// Ratio of the places that a part serves to those asked for, outwards and inwards: places of a sweep wander.
+/// Ratio of the places of a loaded part to the requested ones, outwards and inwards: the places of a sweep vary.
 const FARTHER: f64 = 1.5;
 
 impl Shared {
-    /// Of some tables; nothing is loaded yet.
+    /// A source that has loaded nothing yet.
     pub fn new(tables: Arc<dyn Tables>) -> Self {
         let seen = Mutex::default();
         Self { tables, seen }
     }
 
-    /// Why a part could not be read, where that has happened: what was computed since may lack it.
+    /// The reason why a part could not be read, if that has happened; results computed since then may lack the table.
     pub fn fault(&self) -> Option<String> {
         let seen = self.seen.lock().unwrap_or_else(PoisonError::into_inner);
         seen.1.clone()
     }
 
-    /// What `read` finds with what is known of a ratio; where that fails, the reason is kept.
+    /// The result of `read` with the known facts about a ratio; if it fails, the reason is kept.
     fn with<T>(
         &self,
         poisson_ratio: f64,
@@ -144,29 +144,29 @@ impl Tables for Shared {
     }
 }
 
-/// Which kernels the fields shall have.
+/// Choice of the kernels for the fields.
 #[derive(Debug, Clone)]
 pub enum KernelChoice {
-    /// Computed for each probe.
+    /// Kernels computed for each probe.
     Direct,
-    /// A table's.
+    /// Kernels from a table.
     Table(Arc<dyn Tables>),
-    /// A table's or computed, by the estimated cost and error of both.
+    /// Kernels from a table or computed, by the estimated cost and error of both.
     Auto(Arc<dyn Tables>),
-    /// A table's where its estimated error is within the tolerance, else computed: what a row of a sweep has depends on
-    /// the row alone, not on the threads that share the work.
+    /// Kernels from a table if its estimated error is within the tolerance, computed otherwise. The choice for a row of
+    /// a sweep depends on the row only, not on the threads that share the work.
     Within(Arc<dyn Tables>),
 }
 
-/// Computed fields that cost less are not worth a table's error.
+/// Below this cost, fields are computed rather than looked up, which avoids the table's error.
 const CHEAP_S: f64 = 0.2;
 
-/// Computed fields that cost more are not worth waiting for, whatever a table's error.
+/// Above this cost, fields are looked up whatever the table's error.
 const DEAR_S: f64 = 10.0;
 
-/// The source of the fields of a scene and why it is this one; none when it asks for none.
+/// The source of the fields of a scene and the reason for it; none for a scene without fields.
 ///
-/// Whether a table serves is known before anything is looked up, by [`looked_up_error`].
+/// [`looked_up_error`] decides, before the lookup, whether a table is accurate enough.
 pub(crate) fn choose_source(
     scene: &Scene,
     kernels: &KernelChoice,
@@ -185,7 +185,7 @@ pub(crate) fn choose_source(
     let radius_m = excitation.units().disc_radius_m;
     let [nearest, farthest] = span(points.iter().map(|place_m| place_m.map(|x| x / radius_m)));
     let load = |tables: &Arc<dyn Tables>| {
-        // as far as the smallest disc of each place sees it
+        // in radii of the smallest disc
         let sets = Sets::new(excitation, tolerance, Some(tables.reach()), (1, false));
         let seen = points.iter().map(|place_m| {
             let place = place_m.map(|x| x / radius_m);
@@ -197,15 +197,15 @@ pub(crate) fn choose_source(
         table.map(KernelSource::Table).map_err(ImpactError::Table)
     };
     let (tables, cost_s, before) = match kernels {
-        KernelChoice::Direct => return direct("asked for, or no table is given".to_owned()),
-        KernelChoice::Table(tables) => return Ok(Some((load(tables)?, "asked for".to_owned()))),
+        KernelChoice::Direct => return direct("requested, or no table given".to_owned()),
+        KernelChoice::Table(tables) => return Ok(Some((load(tables)?, "requested".to_owned()))),
         KernelChoice::Within(tables) => (tables, 0.0, Default::default()),
         KernelChoice::Auto(tables) => {
             let grid = Grid::new(&Wanted::of(scene), excitation, None)?;
             let (cells, count) = (grid.count(), scene.points());
             let cost_s = computed_s(scene, &grid) / busy(count);
             let cost =
-                format!("{count} points of {cells} cells take about {cost_s:.1e} s to compute");
+                format!("computing {count} points of {cells} cells takes about {cost_s:.1e} s");
             if cost_s <= CHEAP_S {
                 return direct(format!("{cost}: computed"));
             }
@@ -219,7 +219,7 @@ pub(crate) fn choose_source(
     }
     let table = load(tables)?;
     let KernelSource::Table(own) = &table else {
-        return Ok(Some((table, "asked for".to_owned())));
+        return Ok(Some((table, "requested".to_owned())));
     };
     let mut error = 0.0_f64;
     for place_m in points {

@@ -1,4 +1,4 @@
-//! Many contacts, without histories: what a sweep computes. Where a scene has probes, their peaks come with it.
+//! Many contacts without histories, as sweeps compute them, with the peaks at the probes of a scene.
 
 use crate::cost::Forecast;
 use crate::fields::probes::{ProbePeaks, peaks_at_probes};
@@ -9,7 +9,7 @@ use crate::scene::{Load, Scene};
 use crate::source::KernelChoice;
 use contact::{Collision, ContactError, Model, Outcomes, Results, Settings, Solver, Tabulated};
 
-/// A contact of many: its results, the model that gave them, and what the probes see.
+/// A contact out of many: its results, its model, and the peaks at the probes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Observed {
     /// The model, never [`Model::Auto`].
@@ -39,7 +39,7 @@ pub fn collide(
 /// The contact of a scene as [`crate::simulate()`] solves it, with the peaks of the fields at its probes.
 ///
 /// # Errors
-/// Why the contact failed, in one sentence; a failure of the fields alone is part of what is returned.
+/// The reason why the contact failed, in one sentence; a failure of the fields alone is part of the returned value.
 pub fn observe(
     solver: &mut Solver<'_, Tabulated>,
     scene: &Scene,

@@ -1,22 +1,22 @@
-//! Why an HDF5 file could not be read.
+//! Errors of reading HDF5 files.
 
 use hdf5_reader::error::Error;
 use std::io::{self, ErrorKind};
 
-/// A file that could not be read; none of these names the file, whoever asked for it does.
+/// A file that could not be read; the caller adds its name to the message.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum HdfError {
-    /// The system says no.
+    /// An error of the operating system.
     #[error("{0}")]
     Io(#[from] io::Error),
-    /// Bytes that no HDF5 library would write, or not those that were sealed.
+    /// Bytes that no HDF5 library writes, or that differ from their checksum.
     #[error("it is damaged: {0}")]
     Damaged(String),
-    /// Nothing of that name.
-    #[error("there is no {0}")]
+    /// The requested item does not exist.
+    #[error("{0} does not exist")]
     Absent(String),
-    /// No HDF5 file, a part of HDF5 that is not read, another type than asked for, too much memory.
+    /// Not an HDF5 file, an unsupported part of HDF5, another type than requested, or too much memory.
     #[error("{0}")]
     Refused(String),
 }

@@ -1,8 +1,9 @@
-//! Reading HDF5 files that nobody vouches for, without the HDF5 library: on damaged or forged metadata it crashes, loops,
-//! follows links into other files, loads code, or takes memory without end.
+//! Reads untrusted HDF5 files without the HDF5 library. On damaged or forged metadata that library crashes, loops,
+//! follows links into other files, loads code, or allocates memory without limit.
 //!
-//! `hdf5_reader` has no C code; it compares addresses and lengths with the file and ends at circles. Here it is given bytes
-//! that were compared with the seal, no other file to follow links to, and no more memory than the file can fill.
+//! `hdf5_reader` contains no C code, checks addresses and lengths against the file and detects cycles. This module
+//! gives it bytes whose checksums were verified, no other file to follow links to, and a memory limit that follows from
+//! the file size.
 
 use crate::error::HdfError;
 use crate::seal::Sealed;
@@ -15,19 +16,19 @@ use std::path::Path;
 use std::sync::Arc;
 use std::{fmt, io};
 
-/// Bytes of numbers that a byte of a file may become: Deflate ends a little above a thousand.
+/// Largest number of bytes of numbers per byte of a file: Deflate expands by a little over a thousand.
 const GROWTH: usize = 1100;
 
-/// Numbers of a block that are worth more than one thread.
+/// Size of a block in numbers from which several threads are used.
 const LARGE: usize = 1 << 18;
-/// Parts of such a block.
+/// Number of parts of such a block.
 const BLOCK_PARTS: usize = 16;
 
-/// An open file; its bytes are compared with its seal, where it has one, when they are read.
+/// An open file. If it has a checksum trailer, bytes are verified when they are read.
 #[derive(Debug, Clone)]
 pub struct HdfFile {
     bytes: Arc<Sealed>,
-    /// The group that holds all others.
+    /// The root group.
     pub root: Group,
 }
 
@@ -48,7 +49,7 @@ impl HdfFile {
         let written = file.superblock().eof_address;
         if written > bytes.length {
             return Err(HdfError::Damaged(format!(
-                "it was cut short to {} bytes, {written} were written",
+                "it was truncated to {} of {written} bytes",
                 bytes.length
             )));
         }
@@ -59,20 +60,20 @@ impl HdfFile {
         Ok(Self { bytes, root })
     }
 
-    /// Bytes of the HDF5 part.
+    /// Length of the HDF5 part in bytes.
     pub fn length(&self) -> u64 {
         self.bytes.length
     }
 
-    /// Whether it has a seal.
+    /// Whether the file has a checksum trailer.
     pub fn is_sealed(&self) -> bool {
         self.bytes.digests.is_some()
     }
 
-    /// Compares every byte with the seal, where there is one.
+    /// Verifies all bytes of a file that has a checksum trailer.
     ///
     /// # Errors
-    /// What the system says, or where bytes are not those that were sealed.
+    /// An error of the operating system, or bytes that differ from their checksum.
     pub fn check(&self) -> io::Result<()> {
         self.bytes.check()
     }
@@ -82,7 +83,7 @@ impl HdfFile {
 #[derive(Clone)]
 pub struct Group {
     group: hdf5_reader::group::Group,
-    /// Where it is in the file; nothing for the root.
+    /// Path in the file; empty for the root.
     pub path: String,
 }
 
@@ -93,12 +94,12 @@ impl fmt::Debug for Group {
 }
 
 impl Group {
-    /// Where something in it is in the file.
+    /// Path in the file of an item of this group.
     pub fn item(&self, name: &str) -> String {
         format!("{}/{name}", self.path)
     }
 
-    /// Names of the groups and datasets in it, ascending.
+    /// Names of the groups and datasets in this group, ascending.
     pub fn members(&self) -> Result<Vec<String>, HdfError> {
         let (mut names, datasets) = self.group.member_names()?;
         names.extend(datasets);
@@ -106,7 +107,7 @@ impl Group {
         Ok(names)
     }
 
-    /// A group in it, by its path from here.
+    /// A group, by its path relative to this group.
     pub fn group(&self, path: &str) -> Result<Self, HdfError> {
         let mut names = path.split('/').filter(|name| !name.is_empty());
         let group = names.try_fold(self.group.clone(), |group, name| group.group(name));
@@ -116,7 +117,7 @@ impl Group {
         })
     }
 
-    /// A dataset in it, by its path from here.
+    /// A dataset, by its path relative to this group.
     pub fn dataset(&self, path: &str) -> Result<Dataset, HdfError> {
         let (group, name) = path.rsplit_once('/').unwrap_or(("", path));
         let data = self.group(group)?.group.dataset(name)?;
@@ -134,7 +135,7 @@ impl Group {
         let attribute = self.group.attribute(name)?;
         same_type::<T>(&attribute.datatype)?;
         if !attribute.shape.is_empty() {
-            return refused("it is a list, needed one number");
+            return refused("it is a list, but one number is required");
         }
         Ok(attribute.read_scalar()?)
     }
@@ -144,7 +145,7 @@ impl Group {
         let attribute = self.group.attribute(name)?;
         same_type::<T>(&attribute.datatype)?;
         if attribute.shape.len() != 1 {
-            return refused("it is no list of numbers");
+            return refused("it is not a list of numbers");
         }
         Ok(attribute.read_1d()?)
     }
@@ -157,17 +158,17 @@ pub struct Dataset {
 }
 
 impl Dataset {
-    /// Its dimensions; none of a single value.
+    /// Its dimensions; empty for a single value.
     pub fn shape(&self) -> &[usize] {
         &self.shape
     }
 
-    /// How many values it has.
+    /// Number of values.
     pub fn count(&self) -> usize {
         self.shape.iter().copied().fold(1, usize::saturating_mul)
     }
 
-    /// Dimensions of its chunks, if it has them.
+    /// Dimensions of its chunks, if it is chunked.
     pub fn chunk(&self) -> Option<Vec<usize>> {
         let chunk = self.data.chunks()?.into_iter();
         Some(chunk.map(|n| n as usize).collect())
@@ -188,13 +189,13 @@ impl Dataset {
         text(&self.data.attribute(name)?)
     }
 
-    /// All its numbers, in the order of the file, which take `limit` bytes of memory at most.
+    /// All numbers, in the order of the file; they may need at most `limit` bytes of memory.
     pub fn numbers<T: H5Type + Send>(&self, limit: u64) -> Result<Vec<T>, HdfError> {
         let all: Vec<Range<usize>> = self.shape.iter().map(|&n| 0..n).collect();
         self.block(&all, limit)
     }
 
-    /// The numbers of a block of it, which take `limit` bytes of memory at most.
+    /// The numbers of a block; they may need at most `limit` bytes of memory.
     pub fn block<T: H5Type + Send>(
         &self,
         block: &[Range<usize>],
@@ -219,12 +220,12 @@ impl Dataset {
             let count = count / rows.len() * part.len();
             self.read(&[&[part], &block[1..]].concat(), count)
         });
-        // of several that fail it is the first that is told, whatever the threads
+        // of several errors the first in order is returned, whatever the threads
         let parts = parts.collect::<Vec<_>>().into_iter();
         Ok(parts.collect::<Result<Vec<_>, _>>()?.concat())
     }
 
-    /// `count` numbers, which a block has, on this thread.
+    /// Reads the `count` numbers of a block on this thread.
     fn read<T: H5Type>(&self, block: &[Range<usize>], count: usize) -> Result<Vec<T>, HdfError> {
         let slice = |range: &Range<usize>| SliceInfoElem::Slice {
             start: range.start as u64,
@@ -234,13 +235,13 @@ impl Dataset {
         let selections = block.iter().map(slice).collect();
         let found = self.data.read_slice::<T>(&SliceInfo { selections })?;
         if found.len() != count {
-            let what = format!("{block:?} is no block of {:?}", self.shape);
+            let what = format!("{block:?} is not a block of {:?}", self.shape);
             return Err(HdfError::Damaged(what));
         }
         Ok(found.into_raw_vec_and_offset().0)
     }
 
-    /// All its numbers, whatever their type, as 64-bit floats.
+    /// All numbers, of any type, as 64-bit floats.
     ///
     /// # Errors
     /// As [`numbers`](Self::numbers).
@@ -258,7 +259,7 @@ impl Dataset {
         wrong_type(&kind(self.data.dtype()), "numbers")
     }
 
-    /// All its texts, which are UTF-8.
+    /// All texts, which are UTF-8.
     pub fn texts(&self, limit: u64) -> Result<Vec<String>, HdfError> {
         admit(self.count(), 16, limit)?;
         Ok(self.data.read_strings()?)
@@ -267,7 +268,7 @@ impl Dataset {
 
 const TEXT: &str = "text";
 
-/// A type in words, whatever the order of its bytes.
+/// Name of a type, without its byte order.
 fn kind(datatype: &Datatype) -> String {
     match datatype {
         Datatype::FloatingPoint { size, .. } => format!("{}-bit float", 8 * u32::from(*size)),
@@ -290,18 +291,18 @@ fn same_type<T: H5Type>(found: &Datatype) -> Result<(), HdfError> {
 }
 
 fn wrong_type<T>(found: &str, needed: &str) -> Result<T, HdfError> {
-    refused(format!("its type is {found}, needed {needed}"))
+    refused(format!("its type is {found}, but {needed} is required"))
 }
 
 fn refused<T>(what: impl Into<String>) -> Result<T, HdfError> {
     Err(HdfError::Refused(what.into()))
 }
 
-/// The one text of an attribute; a reference to a text that cannot be followed is none itself.
+/// The only text of an attribute; a reference that cannot be followed is an error.
 fn text(attribute: &Attribute) -> Result<String, HdfError> {
     match (&attribute.datatype, attribute.decoded_strings.as_deref()) {
         (_, Some([text])) => Ok(text.clone()),
-        (_, Some(_)) => refused("it is a list, needed one text"),
+        (_, Some(_)) => refused("it is a list, but one text is required"),
         (
             Datatype::String {
                 size: StringSize::Fixed(_),
@@ -310,7 +311,7 @@ fn text(attribute: &Attribute) -> Result<String, HdfError> {
             None,
         ) => Ok(attribute.read_string()?),
         (found, None) if kind(found) == TEXT => {
-            let what = "its text is not there or not UTF-8";
+            let what = "its text is missing or not UTF-8";
             Err(HdfError::Damaged(what.to_owned()))
         }
         (found, None) => wrong_type(&kind(found), TEXT),
@@ -323,6 +324,6 @@ fn admit(count: usize, width: usize, limit: u64) -> Result<(), HdfError> {
         return Ok(());
     }
     refused(format!(
-        "it makes {needed} bytes of numbers, more than {limit}"
+        "it needs {needed} bytes of memory, more than the limit {limit}"
     ))
 }

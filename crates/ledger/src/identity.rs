@@ -1,8 +1,8 @@
-//! SHA-256 as text: of bytes, and of named parts that make two files the same.
+//! SHA-256 as text: of bytes, and of named parts that identify a file.
 
 use sha2::{Digest, Sha256};
 
-/// SHA-256 over pieces of bytes that follow each other, as sixty-four hexadecimal digits.
+/// SHA-256 over consecutive pieces of bytes, as sixty-four hexadecimal digits.
 ///
 /// ```
 /// // FIPS 180-2, appendix B.1
@@ -15,7 +15,7 @@ pub fn sha256_hex<'a>(pieces: impl IntoIterator<Item = &'a [u8]>) -> String {
     format!("{:x}", hash.finalize())
 }
 
-/// SHA-256 over named parts, each name and each part behind its length.
+/// SHA-256 over named parts; each name and each part is preceded by its length.
 ///
 /// ```
 /// let of = |revision: u64| ledger::Identity::default().with("numbers", revision.to_le_bytes()).hex();
@@ -26,7 +26,7 @@ pub fn sha256_hex<'a>(pieces: impl IntoIterator<Item = &'a [u8]>) -> String {
 pub struct Identity(Sha256);
 
 impl Identity {
-    /// With one part more; the order counts.
+    /// Adds a part; the order matters.
     #[must_use]
     pub fn with(mut self, name: &str, part: impl AsRef<[u8]>) -> Self {
         for bytes in [name.as_bytes(), part.as_ref()] {
@@ -36,7 +36,7 @@ impl Identity {
         self
     }
 
-    /// Sixty-four hexadecimal digits.
+    /// The hash as sixty-four hexadecimal digits.
     pub fn hex(self) -> String {
         format!("{:x}", self.0.finalize())
     }

@@ -1,8 +1,8 @@
-//! What a file is of, which part of the work it is, and whether its bytes are those that were written.
+//! Identity of a file, shards of divided work, and integrity of the bytes.
 //!
-//! - [`Identity`]: two files with the same are made of the same; [`sha256_hex`] is the hash of plain bytes.
-//! - [`Shard`] and [`gaps`]: work in parts, and what of it is not there.
-//! - [`seal`] and [`HdfFile`]: every byte of a finished HDF5 file is compared with what was written before it is used.
+//! - [`Identity`]: files with the same identity have the same inputs; [`sha256_hex`] is the hash of plain bytes.
+//! - [`Shard`] and [`gaps`]: division of work into shards, and its missing parts.
+//! - [`seal`] and [`HdfFile`]: a checksum trailer on finished HDF5 files; all bytes are verified before they are used.
 
 // From the bottom up: a module uses only those above it.
 mod error;

@@ -1,10 +1,10 @@
-//! The seal behind the last byte of a finished HDF5 file: a SHA-256 of every 8 KiB of it.
+//! The seal, a checksum trailer after the last byte of a finished HDF5 file: a SHA-256 of each 8 KiB.
 //!
 //! ```text
 //! HDF5 bytes | SHA-256 of each 8,192 of them, the last may be fewer | magic 8 | length of the HDF5 bytes u64 | SHA-256 of the seal up to here
 //! ```
-//! The integer is little-endian. Bytes are compared when they are read, so that a part of a file costs no more than its
-//! own pieces; a piece has its place in the list, so that pieces which were exchanged are seen too.
+//! The integer is little-endian. Bytes are verified when they are read, so that reading a part of a file requires only
+//! its own pieces. The list is in the order of the pieces, so that exchanged pieces are detected.
 
 use crate::error::HdfError;
 use hdf5_reader::error::Error;
@@ -16,22 +16,22 @@ use std::io::{self, ErrorKind, Read, Seek, SeekFrom, Write};
 use std::path::Path;
 use std::sync::{Mutex, PoisonError};
 
-/// How the last part of a seal starts.
+/// First bytes of the last part of the trailer.
 const MAGIC: &[u8; 8] = b"hlseal2\n";
 /// Bytes of the last part: magic, length, digest.
 const TRAILER: usize = 8 + 8 + DIGEST;
-/// Bytes with a digest of their own.
+/// Bytes per digest.
 const PIECE: usize = 1 << 13;
 const DIGEST: usize = 32;
 /// Pieces that are read and digested together.
 const PIECES_AT_A_TIME: usize = 512;
-/// Pieces that stay in memory: what describes a dataset is read bit by bit.
+/// Pieces that stay in memory: the description of a dataset is read in many small reads.
 const HELD: usize = 64;
 
-/// Appends its seal to a finished HDF5 file that is open for reading and writing.
+/// Appends the checksum trailer to a finished HDF5 file that is open for reading and writing.
 ///
 /// # Errors
-/// What the system says.
+/// An error of the operating system.
 pub fn seal(mut file: &std::fs::File) -> io::Result<()> {
     let length = file.metadata()?.len();
     let mut seal = digests(file, length)?.into_flattened();
@@ -42,22 +42,22 @@ pub fn seal(mut file: &std::fs::File) -> io::Result<()> {
     file.write_all(&seal)
 }
 
-/// The bytes of an open HDF5 file, compared with its seal where it has one.
+/// The bytes of an open HDF5 file, verified if it has a checksum trailer.
 #[derive(Debug)]
 pub(crate) struct Sealed {
-    /// Bytes of the HDF5 part.
+    /// Length of the HDF5 part in bytes.
     pub(crate) length: u64,
     /// Digest of each piece.
     pub(crate) digests: Option<Vec<[u8; DIGEST]>>,
     file: Mutex<std::fs::File>,
-    /// The pieces that were read last, each with its place.
+    /// The pieces that were read last, with their indices.
     held: Mutex<VecDeque<(usize, Vec<u8>)>>,
 }
 
 impl Sealed {
-    /// Opens a regular file; its bytes are read when they are asked for.
+    /// Opens a regular file; its bytes are read on request.
     pub(crate) fn open(path: &Path) -> Result<Self, HdfError> {
-        // looked at before it is opened: a pipe would wait for its other end
+        // checked before opening: a pipe would block
         if !std::fs::metadata(path)?.is_file() {
             return Err(io::Error::other("it is not a regular file").into());
         }
@@ -75,7 +75,7 @@ impl Sealed {
         })
     }
 
-    /// Compares every byte of the file, where it has a seal.
+    /// Verifies all bytes of a file that has a checksum trailer.
     pub(crate) fn check(&self) -> io::Result<()> {
         let Some(stated) = &self.digests else {
             return Ok(());
@@ -103,7 +103,7 @@ impl Sealed {
         Ok(())
     }
 
-    /// The bytes of a piece, compared.
+    /// The bytes of a piece, verified.
     fn piece(&self, piece: usize) -> io::Result<Vec<u8>> {
         let start = piece as u64 * PIECE as u64;
         let mut bytes = vec![0; (self.length - start).min(PIECE as u64) as usize];
@@ -133,7 +133,7 @@ impl Storage for Sealed {
     }
 }
 
-/// The digests of the pieces of a file of so many bytes; nothing where it has no seal.
+/// The digests of the pieces of a file of `whole` bytes; none if it has no checksum trailer.
 fn read_seal(file: &mut std::fs::File, whole: u64) -> Result<Option<Vec<[u8; DIGEST]>>, HdfError> {
     let mut end = [0; TRAILER];
     if whole >= TRAILER as u64 {
@@ -143,7 +143,7 @@ fn read_seal(file: &mut std::fs::File, whole: u64) -> Result<Option<Vec<[u8; DIG
     if !end.starts_with(MAGIC) {
         return Ok(None);
     }
-    let broken = || HdfError::Damaged("its seal is broken".to_owned());
+    let broken = || HdfError::Damaged("its checksum trailer is invalid".to_owned());
     let length = u64::from_le_bytes(end.as_chunks().0[1]);
     let pieces = length.div_ceil(PIECE as u64);
     let listed = pieces.saturating_mul(DIGEST as u64);
@@ -165,8 +165,7 @@ fn read_seal(file: &mut std::fs::File, whole: u64) -> Result<Option<Vec<[u8; DIG
 
 fn changed(piece: usize) -> io::Error {
     let (start, end) = (piece * PIECE, (piece + 1) * PIECE);
-    let what =
-        format!("its bytes from {start} to {end} are not those that were sealed when it was made");
+    let what = format!("its bytes from {start} to {end} were changed after it was written");
     io::Error::new(ErrorKind::InvalidData, what)
 }
 
@@ -201,7 +200,7 @@ mod tests {
         std::fs::read(&path).unwrap()
     }
 
-    /// What is said of bytes: nothing where all is right, and of those without a seal that they have none.
+    /// The message about some bytes: none if all is right, and a note for bytes without a trailer.
     fn said(folder: &tempfile::TempDir, bytes: &[u8]) -> Option<String> {
         let path = folder.path().join("tried");
         std::fs::write(&path, bytes).unwrap();

@@ -1,4 +1,4 @@
-//! Work in parts.
+//! Division of work into shards.
 
 use std::fmt;
 use std::ops::Range;
@@ -7,17 +7,18 @@ use std::str::FromStr;
 /// The I-th of N shards, written I/N.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Shard {
-    /// Which, from 1.
+    /// I, from 1.
     pub index: usize,
-    /// Of how many.
+    /// N.
     pub count: usize,
 }
 
 impl Shard {
-    /// Shards at most: each is looked at.
+    /// Largest number of shards; operations visit each.
     pub const MOST: usize = 1_000_000;
 
-    /// Its units, of so many, which are not divided within a grain; shards differ by one grain at most.
+    /// Range of the shard out of `units`, which are not split within a grain; the sizes of shards differ by one grain
+    /// at most.
     pub fn range(self, units: usize, grain: usize) -> Range<usize> {
         let grains = units.div_ceil(grain) as u128;
         let bound = |index: usize| {
@@ -40,7 +41,7 @@ impl FromStr for Shard {
     fn from_str(text: &str) -> Result<Self, Self::Err> {
         let parts = text.split_once('/');
         let numbers = parts.and_then(|(i, n)| Some((i.parse().ok()?, n.parse().ok()?)));
-        let (index, count) = numbers.ok_or("give I/N with whole numbers, as in 2/4")?;
+        let (index, count) = numbers.ok_or("use I/N with whole numbers, as in 2/4")?;
         if count > Self::MOST {
             return Err("N of I/N is outside [1, 1000000]");
         }
@@ -51,7 +52,7 @@ impl FromStr for Shard {
     }
 }
 
-/// What of a range is not held, ascending; what is held ascends.
+/// Missing ranges of `all`, ascending; `held` must be ascending.
 pub fn gaps(held: &[Range<usize>], all: &Range<usize>) -> Vec<Range<usize>> {
     let (mut found, mut place) = (Vec::new(), all.start);
     for held in held {

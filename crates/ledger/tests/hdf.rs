@@ -141,22 +141,25 @@ fn a_limit_is_kept_and_a_type_is_asked_for() {
     assert!(patches.numbers::<f32>(needed).is_ok());
     let error = patches.numbers::<f32>(needed - 1).unwrap_err();
     let text = format!(
-        "it makes {needed} bytes of numbers, more than {}",
+        "it needs {needed} bytes of memory, more than the limit {}",
         needed - 1
     );
     assert_eq!(error.to_string(), text);
     let error = patches.numbers::<f64>(LIMIT).unwrap_err();
     assert_eq!(
         error.to_string(),
-        "its type is 32-bit float, needed 64-bit float"
+        "its type is 32-bit float, but 64-bit float is required"
     );
     // of a text and of a number
     let error = root.number::<f64>("text").unwrap_err();
-    assert_eq!(error.to_string(), "its type is text, needed 64-bit float");
+    assert_eq!(
+        error.to_string(),
+        "its type is text, but 64-bit float is required"
+    );
     let error = root.text("count").unwrap_err();
     assert_eq!(
         error.to_string(),
-        "its type is 64-bit unsigned integer, needed text"
+        "its type is 64-bit unsigned integer, but text is required"
     );
 }
 

@@ -1,4 +1,4 @@
-//! From a name to the finished file under it.
+//! From the name of an output to the finished file.
 
 use crate::error::{OutputError, OutputFault};
 use crate::handle::{is_at, make};
@@ -8,40 +8,43 @@ use std::fs::File;
 use std::io::{self, ErrorKind, Read, Seek};
 use std::path::{Path, PathBuf};
 
-/// What to do with an existing file.
+/// Treatment of an existing file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Existing {
     /// Keep it and report it.
     Keep,
-    /// Keep it unless it is, byte by byte, what is written: a run that was killed between two outputs goes on.
+    /// Keep it unless it is byte for byte identical to the new content, so that a run that was killed between two
+    /// outputs can be resumed.
     KeepUnlessSame,
     /// Replace it once the new one is complete.
     Replace,
 }
 
 impl Existing {
-    /// Keeps it unless it may be replaced.
+    /// [`Self::Replace`] if `may`, [`Self::Keep`] otherwise.
     pub fn replaced(may: bool) -> Self {
         if may { Self::Replace } else { Self::Keep }
     }
 }
 
-/// A name that this run alone writes to, until it is dropped.
+/// A name that only this run writes to, until it is dropped.
 #[derive(Debug)]
 pub struct Output {
-    /// The name that was given.
+    /// Name as given by the user.
     pub path: PathBuf,
-    /// The file that is written, behind links.
+    /// Path of the file after following links.
     pub real: PathBuf,
     existing: Existing,
     _lock: Lock,
 }
 
 impl Output {
-    /// Checks that a file can be written, locks its name and removes what killed runs left beside it.
+    /// Checks that a file can be written, locks its name and removes temporary files that killed runs have left next to
+    /// it.
     ///
     /// # Errors
-    /// [`OutputError`] when it exists and is kept, is no file, when its folder cannot take it or another run writes it.
+    /// [`OutputError`] if the file exists and must be kept, is not a regular file, its folder is not writable, or
+    /// another run writes it.
     pub fn claim(path: &Path, existing: Existing) -> Result<Self, OutputError> {
         let real = behind(path)?;
         let exists = || refuse(path, &real, existing);
@@ -65,16 +68,16 @@ impl Output {
         })
     }
 
-    /// The same name with another answer to what is there already.
+    /// The same name with another treatment of an existing file.
     ///
     /// # Errors
-    /// [`OutputError::Exists`] when it exists and is kept.
+    /// [`OutputError::Exists`] if the file exists and must be kept.
     pub fn over(self, existing: Existing) -> Result<Self, OutputError> {
         refuse(&self.path, &self.real, existing)?;
         Ok(Self { existing, ..self })
     }
 
-    /// Writes the whole content through a closure that is given an empty file, and flushes it.
+    /// Writes the whole content through a closure that receives an empty file, and flushes it.
     ///
     /// # Errors
     /// [`OutputError`]; the final name is untouched.
@@ -89,10 +92,10 @@ impl Output {
         })
     }
 
-    /// The same with a closure that makes the file itself, where nothing has its name yet, and returns its handle.
+    /// Like [`Self::stage`], with a closure that creates the file itself under an unused name and returns its handle.
     ///
-    /// From then on the handle alone is used: somebody else who may write to the folder can put a link to another file under
-    /// the name at any time.
+    /// From then on only the handle is used: another user with write access to the folder can replace the name by a
+    /// link to another file at any time.
     ///
     /// # Errors
     /// [`OutputError`]; the final name is untouched.
@@ -124,13 +127,14 @@ impl Output {
         self.stage(fill)?.commit()
     }
 
-    /// Gives a finished file the permissions of the one that it replaces, and flushes it.
+    /// Gives a finished file the permissions of the file that it replaces, and flushes it.
     fn settle(&self, file: &File) -> io::Result<u64> {
         if let Ok(old) = std::fs::metadata(&self.real) {
             #[cfg(unix)]
             {
                 use std::os::unix::fs::MetadataExt;
-                // fails unless this process belongs to the owner or the administrator; the file then keeps this process as owner
+                // fails unless this process belongs to the owner or the administrator; this process then stays the
+                // owner
                 let _ = std::os::unix::fs::fchown(file, Some(old.uid()), Some(old.gid()));
             }
             file.set_permissions(old.permissions())?;
@@ -140,13 +144,13 @@ impl Output {
     }
 }
 
-/// A whole file that has no name yet; without a commit it is removed.
+/// A complete file without its final name; it is removed unless it is committed.
 #[derive(Debug)]
 pub struct Staged<'a> {
     output: &'a Output,
     part: Temporary,
     file: File,
-    /// Its size.
+    /// Size in bytes.
     pub bytes: u64,
 }
 
@@ -154,7 +158,7 @@ impl Staged<'_> {
     /// Gives the file its name and flushes the folder.
     ///
     /// # Errors
-    /// [`OutputError`]: it exists by now and is kept, or the system's reason.
+    /// [`OutputError`]: the file exists by now and must be kept, or an error of the operating system.
     pub fn commit(self) -> Result<(), OutputError> {
         let (path, real) = (&self.output.path, &self.output.real);
         let (part, existing) = (&self.part.path, self.output.existing);
@@ -172,14 +176,14 @@ impl Staged<'_> {
     }
 }
 
-/// Refuses another file under a name of the one that was written for an output: others may write to its folder.
+/// Rejects a file under the temporary name that is not the written one: other users may write to the folder.
 fn check_place(written: &File, name: &Path, output: &Path) -> Result<(), OutputError> {
-    let what = "somebody else put another file in its place while it was written";
+    let what = "another process replaced it while it was written";
     let exchanged = || OutputError::writing(output, what);
     is_at(written, name).then_some(()).ok_or_else(exchanged)
 }
 
-/// Refuses a file that is there and is kept.
+/// Rejects an existing file that must be kept.
 fn refuse(path: &Path, real: &Path, existing: Existing) -> Result<(), OutputError> {
     match existing {
         Existing::Keep if real.exists() => Err(OutputError::Exists(path.to_owned())),
@@ -187,7 +191,7 @@ fn refuse(path: &Path, real: &Path, existing: Existing) -> Result<(), OutputErro
     }
 }
 
-/// Flushes a folder; one that cannot be is left to the system.
+/// Flushes a folder, if the system supports that.
 fn flush(folder: &Path) -> io::Result<()> {
     use ErrorKind::{InvalidInput, PermissionDenied, Unsupported};
     let flushed = File::open(folder).and_then(|folder| folder.sync_all());
@@ -197,7 +201,7 @@ fn flush(folder: &Path) -> io::Result<()> {
     })
 }
 
-/// Whether two files hold the same bytes.
+/// Whether two files have the same content.
 fn same(mut one: &File, other: &Path) -> io::Result<bool> {
     let other = File::open(other)?;
     one.rewind()?;
@@ -209,14 +213,14 @@ fn same(mut one: &File, other: &Path) -> io::Result<bool> {
     }
 }
 
-/// The next MiB of a file, or what it has left.
+/// The next MiB of a file, or the rest of it.
 fn piece(file: &File) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     file.take(1 << 20).read_to_end(&mut bytes)?;
     Ok(bytes)
 }
 
-/// Writes a file through a closure that is given an empty one, which then gets the name.
+/// Writes a file through a closure that receives an empty file, which then gets its name.
 ///
 /// # Errors
 /// [`OutputError`]; the final name is untouched.

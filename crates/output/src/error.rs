@@ -1,47 +1,47 @@
-//! What can keep a file from being written, and why its content could not be.
+//! Errors of writing files, and their reasons.
 
 use fault::{Class, Culprit, Remedy};
 use std::io::{Error, ErrorKind};
 use std::path::{Path, PathBuf};
 
-/// A file that could not be written, or is not to be.
+/// A file that could not be written, or must not be written.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum OutputError {
-    /// The name is that of another format, of an input, of another output or of a file that is none of the program's.
+    /// The name is that of another format, of an input, of another output or of a file of another program.
     #[error("{} {}", .0.display(), .1)]
     Refused(PathBuf, String),
-    /// The file exists and may not be replaced.
-    #[error("{} exists already and is not replaced", .0.display())]
+    /// The file exists and must not be replaced.
+    #[error("{} exists already and was not replaced", .0.display())]
     Exists(PathBuf),
-    /// The place cannot be written to, for the system's or a library's reason.
+    /// The place is not writable; the reason comes from the system or a library.
     #[error("cannot write {}: {}", .0.display(), .1)]
     Unwritable(PathBuf, String),
-    /// The content could not be made or written, for such a reason; the file that was there is untouched.
+    /// The content could not be created or written; an existing file is unchanged.
     #[error("cannot write {}: {}", .0.display(), .1)]
     Failed(PathBuf, String),
-    /// There is no space left, in words that say where; the file that was there is untouched.
-    #[error("cannot write {}: {}; what was there is as it was", .0.display(), .1)]
+    /// No space is left; the message contains the place. An existing file is unchanged.
+    #[error("cannot write {}: {}; an existing file is unchanged", .0.display(), .1)]
     Full(PathBuf, String),
     /// Another run writes the same file.
     #[error("another run is writing {}; nothing was changed", .0.display())]
     Busy(PathBuf),
-    /// Another run began something there.
+    /// Another run has begun other work there.
     #[error(
-        "{} holds the beginning of another {}, or of this one before its settings, its files or the program changed",
+        "{} contains the beginning of another {}, or of this one before its settings, its files or the program changed",
         .0.display(), .1
     )]
     Begun(PathBuf, &'static str),
-    /// What was begun there cannot be read, for the system's reason.
+    /// The beginning of other work cannot be read; the reason comes from the system.
     #[error("cannot read {}: {}", .0.display(), .1)]
     Unreadable(PathBuf, String),
     /// The format is one that the program was built without.
-    #[error("{} is to be {}, which this program was built without", .0.display(), .1)]
+    #[error("{} has the name of {}, but this program was built without that format", .0.display(), .1)]
     Unbuilt(PathBuf, &'static str),
 }
 
 impl OutputError {
-    /// A place that cannot be written to.
+    /// An error of a place that is not writable.
     pub(crate) fn place(path: &Path, fault: impl Into<OutputFault>) -> Self {
         match Self::writing(path, fault) {
             Self::Failed(path, reason) => Self::Unwritable(path, reason),
@@ -49,7 +49,7 @@ impl OutputError {
         }
     }
 
-    /// A write that failed.
+    /// An error of a failed write.
     pub fn writing(path: &Path, fault: impl Into<OutputFault>) -> Self {
         let OutputFault { reason, full } = fault.into();
         let path = path.to_owned();
@@ -80,17 +80,17 @@ impl fault::Fault for OutputError {
     }
 }
 
-/// A reason, and whether it may be gone when the same is tried again: there is no space left.
+/// A reason, and whether a retry may succeed because only space was missing.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct OutputFault {
-    /// The system's or a library's reason.
+    /// The reason of the system or a library.
     pub reason: String,
-    /// Whether there is no space left, on the disk, in a quota, or below a limit of the process.
+    /// Whether no space is left: on the disk, in a quota, or below a limit of the process.
     pub full: bool,
 }
 
-/// The kinds of errors that mean that there is no space left, what the C library calls them, in whose words other libraries
-/// pass them on, and how they are told.
+/// The errors that mean that no space is left: their kinds, their names in the C library, which other libraries pass
+/// on, and their messages.
 const FULL: [(ErrorKind, &str, &str); 3] = [
     (
         ErrorKind::StorageFull,

@@ -1,4 +1,4 @@
-//! A folder of files that belong together: all of them or none.
+//! A folder of files that belong together: all of them are written, or none.
 
 use crate::claim::{Existing, Output, Staged};
 use crate::error::OutputError;
@@ -9,23 +9,22 @@ use std::path::Path;
 /// A folder that one run at a time writes into.
 #[derive(Debug)]
 pub struct Folder {
-    /// A name in it that stands for the whole folder.
+    /// A name in it that represents the whole folder.
     claim: Output,
 }
 
 impl Folder {
-    /// Makes sure, before any work, that files can be written into a folder, which is made where it is missing.
+    /// Checks, before any work, that files can be written into a folder, which is created if it does not exist.
     ///
     /// # Errors
-    /// [`OutputError::Exists`] with a file when the folder holds any and they are to be kept,
-    /// [`OutputError::Unwritable`] when it cannot be made or takes no files, [`OutputError::Busy`] when another run
-    /// writes into it.
+    /// [`OutputError::Exists`] with a file if the folder contains files that must be kept, [`OutputError::Unwritable`]
+    /// if it cannot be created or written, [`OutputError::Busy`] if another run writes into it.
     pub fn claim(path: &Path, existing: Existing) -> Result<Self, OutputError> {
         if path.exists() && !path.is_dir() {
             return Err(OutputError::place(path, "it is not a folder"));
         }
         std::fs::create_dir_all(path).map_err(|error| OutputError::place(path, error))?;
-        // a folder that takes no files is found now, not after minutes
+        // a read-only folder is detected now, not after minutes
         let claim = Output::claim(&path.join("folder.lock"), Existing::Replace)?;
         let entries = std::fs::read_dir(path).map_err(|error| OutputError::place(path, error))?;
         let names = entries.filter_map(|entry| Some(entry.ok()?.path()));
@@ -35,7 +34,7 @@ impl Folder {
         }
     }
 
-    /// Writes files, each a name and its bytes: all of them, or none where one fails.
+    /// Writes files, each a name and its bytes: all of them, or none if one fails.
     ///
     /// # Errors
     /// [`OutputError`] with the file that failed.
@@ -43,7 +42,7 @@ impl Folder {
         self.write_by(files, |mut file, bytes| file.write_all(bytes))
     }
 
-    /// The same, with how a file is written.
+    /// [`Self::write`] with a function that writes one file.
     fn write_by(
         &self,
         files: Vec<(String, Vec<u8>)>,
@@ -66,7 +65,7 @@ impl Folder {
     }
 }
 
-/// Whether a name begins with a dot: what a killed run has left is hidden, and nothing that somebody would miss.
+/// Whether a name begins with a dot: files that a killed run has left are hidden and not needed.
 pub fn is_hidden(path: &Path) -> bool {
     path.file_name()
         .is_some_and(|name| name.as_encoded_bytes().starts_with(b"."))
@@ -88,7 +87,7 @@ mod tests {
         let refused = Folder::claim(&inside, Existing::Keep).unwrap_err();
         assert_eq!(refused, OutputError::Exists(precious.clone()));
         drop(Folder::claim(&inside, Existing::Replace).unwrap());
-        // nothing is touched before there is something to put in its place
+        // nothing is changed before there is a replacement
         assert_eq!(std::fs::read_to_string(&precious).unwrap(), "precious");
         let file = folder.path().join("file");
         std::fs::write(&file, "").unwrap();
@@ -109,7 +108,7 @@ mod tests {
         let refused = folder.write(vec![file("a.txt"), file("missing/b.txt")]);
         assert!(matches!(refused, Err(OutputError::Unwritable { .. })));
         assert!(!inside.join("a.txt").exists());
-        // the second of them cannot be written when the first one is
+        // the second file fails after the first one was written
         let failing = vec![file("a.txt"), ("b.txt".to_owned(), Vec::new())];
         let refused = folder.write_by(failing, |mut file, bytes| match bytes {
             [] => Err(std::io::Error::other("no")),

@@ -1,16 +1,16 @@
-//! Files by their handles: somebody else who may write to a folder can put another file under a name at any time.
+//! Files by their handles: another process with access to a folder can put another file under a name at any time.
 
 use std::fs::{File, OpenOptions};
 use std::io;
 use std::path::Path;
 
-/// Makes an empty file where nothing has its name: neither a file nor a link of that name is written to.
+/// Creates an empty file under an unused name; an existing file or link is not touched.
 pub(crate) fn make(name: &Path) -> io::Result<File> {
     let mut new = File::options();
     new.read(true).write(true).create_new(true).open(name)
 }
 
-/// The same options, with which a link is not followed.
+/// The options with an additional flag that prevents following links.
 pub(crate) fn without_links(options: &mut OpenOptions) -> &mut OpenOptions {
     #[cfg(unix)]
     {
@@ -20,7 +20,7 @@ pub(crate) fn without_links(options: &mut OpenOptions) -> &mut OpenOptions {
     options
 }
 
-/// Whether an open file is the one under this name.
+/// Whether an open file is the one with this name.
 #[cfg(unix)]
 pub(crate) fn is_at(file: &File, name: &Path) -> bool {
     use std::os::unix::fs::MetadataExt;

@@ -1,8 +1,8 @@
-//! Finished work on disk, so that an interrupted run goes on where it stopped.
+//! Finished work on disk, so that an interrupted run can be resumed.
 //!
-//! A line that names what the journal is of and its identity, a text that says more, and records that are only ever
-//! appended: the length of what is kept, that itself, and a sum of both. A record that was cut short or damaged ends
-//! the journal; what comes after is done anew.
+//! The first line contains the kind of work and its identity. A text with details and the records follow, which are
+//! only appended: length, content, and a checksum of both. A truncated or damaged record ends the journal; all later
+//! work is repeated.
 
 use crate::error::OutputError;
 use crate::handle::without_links;
@@ -11,25 +11,25 @@ use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-/// How every journal begins; the number is the version of the format.
+/// First bytes of every journal; the number is the version of the format.
 const BEGIN: &str = "hertzlamb journal 1 of a ";
-/// How those of earlier versions begin, which are not gone on with.
+/// First bytes of earlier versions, which cannot be resumed.
 const EARLIER: [&[u8]; 2] = [b"hlsweep", b"hertzlamb kernel blocks "];
-/// Bytes of the first line, and of the text behind it, at most.
+/// Largest size in bytes of the first line, and of the text after it.
 const MOST_TEXT_BYTES: u64 = 1 << 20;
-/// Bytes of a record beside what it keeps.
+/// Bytes of a record in addition to its content.
 const FRAME: u64 = 8 + 8;
-/// Time between two flushes: what a loss of power costs at most, beside the work that is not recorded.
+/// Time between two flushes: work that a power failure may cost, in addition to unrecorded work.
 const FLUSH: Duration = Duration::from_secs(5);
 
-/// What a journal is of.
+/// Title of a journal.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Title {
-    /// What is done, such as `sweep`.
+    /// Kind of work, such as `sweep`.
     pub kind: &'static str,
-    /// What is the same where the same is done.
+    /// Identity: the same for the same work.
     pub identity: String,
-    /// More about it.
+    /// Details of the work.
     pub about: String,
 }
 
@@ -49,14 +49,14 @@ pub struct Journal {
     flushed: Instant,
 }
 
-/// Where in a journal a record begins.
+/// Offset of a record in a journal.
 pub type Record = u64;
 
 impl Journal {
-    /// Opens or begins the journal at `path`, whose output was claimed, and shows what it keeps to `take`, which says
-    /// whether it is whole.
+    /// Opens or begins the journal at `path`, whose output was claimed, and passes its records to `take`, which returns
+    /// whether they are valid.
     ///
-    /// Another one of the same kind is replaced where `drops` says so of it.
+    /// Another journal of the same kind is replaced if `drops` returns true for it.
     ///
     /// # Errors
     /// [`OutputError`].
@@ -118,7 +118,7 @@ impl Journal {
         Ok(journal)
     }
 
-    /// Appends something finished.
+    /// Appends a finished piece of work.
     ///
     /// # Errors
     /// [`OutputError`].
@@ -135,10 +135,10 @@ impl Journal {
         Ok(record)
     }
 
-    /// What it keeps at a place, in the room of what was read before.
+    /// Reads the content of a record into the buffer `kept`.
     ///
     /// # Errors
-    /// What the system says, or that it was changed.
+    /// An error of the operating system, or a changed journal.
     pub fn read(&self, record: Record, kept: &mut Vec<u8>) -> io::Result<()> {
         let mut file = &self.file;
         file.seek(SeekFrom::Start(record))?;
@@ -150,7 +150,7 @@ impl Journal {
         Err(io::Error::other(changed))
     }
 
-    /// Removes the file: what it keeps is written elsewhere.
+    /// Removes the file, whose content is then written elsewhere.
     pub fn remove(self) {
         let _ = std::fs::remove_file(&self.path);
     }
@@ -163,13 +163,13 @@ impl Journal {
     }
 }
 
-/// Whole numbers as they stand at the beginning of what a record keeps: eight bytes each.
+/// Whole numbers at the beginning of a record's content: eight bytes each.
 pub fn packed<const N: usize>(numbers: [usize; N]) -> Vec<u8> {
     let bytes = numbers.map(|number| (number as u64).to_le_bytes());
     bytes.concat()
 }
 
-/// The whole numbers that what a record keeps begins with, and what follows them.
+/// The whole numbers at the beginning of a record's content, and the rest.
 pub fn unpacked<const N: usize>(kept: &[u8]) -> Option<([usize; N], &[u8])> {
     let (numbers, rest) = kept.split_at_checked(8 * N)?;
     let (words, _) = numbers.as_chunks();
@@ -177,32 +177,32 @@ pub fn unpacked<const N: usize>(kept: &[u8]) -> Option<([usize; N], &[u8])> {
     Some((std::array::from_fn(number), rest))
 }
 
-/// A file of somebody else, or of another version.
+/// The error for a file of another program or version.
 fn strange(path: &Path) -> OutputError {
     let what =
-        "is no beginning that this program goes on with, and is kept: give the output another name";
+        "exists and is not work that this program can resume: choose another name for the output";
     OutputError::Refused(path.to_owned(), what.to_owned())
 }
 
-/// What a journal keeps, one record after the other.
+/// The contents of a journal's records, in order.
 #[derive(Debug)]
 pub struct Records {
-    /// What it is of.
+    /// Title of the journal.
     pub title: Title,
     reader: BufReader<File>,
-    /// Where the next record begins.
+    /// Offset of the next record.
     at: u64,
     length: u64,
 }
 
 impl Records {
-    /// Opens a journal of a kind without changing it; nothing where the file is none.
+    /// Opens a journal of a kind without changing it; none if the file is not such a journal.
     ///
     /// # Errors
     /// [`OutputError::Unreadable`].
     pub fn open(path: &Path, kind: &'static str) -> Result<Option<Self>, OutputError> {
         let open = || {
-            // looked at before it is opened: a pipe would wait for its other end
+            // checked before opening: a pipe would block
             if !std::fs::metadata(path)?.is_file() {
                 return Err(io::Error::other("it is not a file"));
             }
@@ -248,7 +248,7 @@ impl Records {
 impl Iterator for Records {
     type Item = (Record, Vec<u8>);
 
-    /// Nothing at the end and after damage.
+    /// None at the end and after damage.
     fn next(&mut self) -> Option<Self::Item> {
         let mut kept = Vec::new();
         let found = next(&mut self.reader, self.length - self.at, &mut kept);
@@ -259,7 +259,7 @@ impl Iterator for Records {
     }
 }
 
-/// What the next record keeps, and whether it is one; `left` is what the file still has: no more memory is taken.
+/// Reads the next record; false if it is not valid. `left` is the rest of the file, which limits the memory.
 fn next(reader: &mut impl Read, left: u64, kept: &mut Vec<u8>) -> io::Result<bool> {
     let (mut length, mut stated) = ([0; 8], [0; 8]);
     if left < FRAME {
@@ -276,8 +276,8 @@ fn next(reader: &mut impl Read, left: u64, kept: &mut Vec<u8>) -> io::Result<boo
     Ok(sum(kept) == stated)
 }
 
-/// Fowler, Noll and Vo's hash over words of eight bytes and the length: rows are read back several times, a million and more
-/// a second.
+/// Fowler-Noll-Vo hash over words of eight bytes and the length: rows are read back several times, at more than a
+/// million per second.
 pub(crate) fn sum(kept: &[u8]) -> [u8; 8] {
     let (words, rest) = kept.as_chunks::<8>();
     let mut last = [0; 8];
@@ -291,15 +291,15 @@ pub(crate) fn sum(kept: &[u8]) -> [u8; 8] {
     hash.to_le_bytes()
 }
 
-/// Whether a file without a title that can be read has nothing in it, or is the journal of an earlier version; nothing for
-/// somebody else's.
+/// Whether a file without a readable title is empty or the journal of an earlier version; none for a file of another
+/// program.
 fn without_title(file: &File, title: &Title) -> io::Result<Option<bool>> {
     let (mut file, mut found) = (file, Vec::new());
     file.rewind()?;
     file.take(MOST_TEXT_BYTES).read_to_end(&mut found)?;
     let begin = format!("{BEGIN}{}: ", title.kind);
     let compared = found.len().min(begin.len());
-    // new, or cut short in its title
+    // new, or truncated within its title
     let cut_short = found[..compared] == begin.as_bytes()[..compared]
         && (!found.contains(&b'\n') || title.text().as_bytes().starts_with(&found));
     let earlier = EARLIER.iter().any(|begin| found.starts_with(begin));
@@ -332,7 +332,7 @@ mod tests {
         Ok((journal, found))
     }
 
-    /// Two records, and where the second begins.
+    /// Two records, and the offset of the second.
     fn two(path: &Path) -> usize {
         let (mut journal, none) = open(path, "mine").unwrap();
         assert!(none.is_empty());

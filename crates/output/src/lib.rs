@@ -1,15 +1,15 @@
-//! Where a file goes: whole or not at all, never over another one unasked, by one run at a time.
+//! Atomic output files: complete or absent, never replacing a file without permission, one run at a time.
 //!
-//! A writer claims an [`Output`], which checks the place and locks the name against other runs.
-//! It stages the file under a random name beside the final one, flushes it, and commits it: a rename and a flush of
-//! the folder. Whatever moment a run ends at, the final name holds the old file, the new one or nothing.
+//! A writer claims an [`Output`], which checks the place and locks the name against other runs. It stages the file
+//! under a random name next to the final one, flushes it, and commits it: a rename and a flush of the folder. Whenever
+//! a run ends, the final name has the old file, the new one or none.
 //!
-//! - Links are written through: the file behind them is replaced, the link stays.
-//! - Folders, pipes and devices are refused.
+//! - Links are followed: the file that they point to is replaced, the link remains.
+//! - Folders, pipes and devices are rejected.
 //! - A replaced file keeps its permissions.
-//! - What a killed run leaves beside a name, the next run on that name removes.
+//! - Temporary files of a killed run are removed by the next run with the same name.
 //!
-//! What takes long keeps what is done of it in a [`Journal`], record by record, which survives an interruption at any moment.
+//! Long work keeps its finished parts in a [`Journal`], record by record, which survives an interruption at any moment.
 //!
 //! ```
 //! # let folder = std::env::temp_dir().join(format!("hertzlamb-output-{}", std::process::id()));

@@ -1,4 +1,4 @@
-//! The file behind a name, and outputs that are inputs, or each other.
+//! The file behind a name, and outputs that are inputs or identical.
 
 use crate::error::{OutputError, OutputFault};
 use crate::journal::sum;
@@ -6,10 +6,10 @@ use std::ffi::{OsStr, OsString};
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-/// Links that are followed one after the other.
+/// Largest number of consecutive links.
 const MOST_LINKS: usize = 40;
 
-/// Whether a name stands for standard output.
+/// Whether a name means standard output.
 pub fn is_standard(path: &Path) -> bool {
     path == Path::new("-")
 }
@@ -22,17 +22,17 @@ pub fn folder(path: &Path) -> &Path {
     }
 }
 
-/// Where a file of this name is, or would be made: links are followed, also one to a file that is not there yet.
+/// Path of the file with this name, existing or not, after following links; the target of a link may not exist yet.
 ///
 /// # Errors
-/// [`OutputError::Unwritable`] when it is no regular file, or its folder is not there.
+/// [`OutputError::Unwritable`] if it is not a regular file, or its folder does not exist.
 pub fn behind(path: &Path) -> Result<PathBuf, OutputError> {
     file_behind(path).map_err(|fault| OutputError::place(path, fault))
 }
 
 fn file_behind(path: &Path) -> Result<PathBuf, OutputFault> {
     if is_standard(path) {
-        return Err("standard output does not take such a file; give a name, ./- for a file that is called so".into());
+        return Err("standard output does not accept such a file; use a file name (./- for a file with the name -)".into());
     }
     if path.as_os_str().is_empty() {
         return Err("the name is empty".into());
@@ -55,7 +55,7 @@ fn file_behind(path: &Path) -> Result<PathBuf, OutputFault> {
         Err(error) => return Err(error.into()),
     }
     match std::fs::symlink_metadata(&real) {
-        // a name that is too long, for one
+        // for example a name that is too long
         Err(error) if error.kind() != ErrorKind::NotFound => Err(error.into()),
         Ok(_) | Err(_) => Ok(real),
     }
@@ -73,10 +73,10 @@ fn follow(path: &Path) -> Result<PathBuf, OutputFault> {
         }
         real = folder(&real).join(std::fs::read_link(&real)?);
     }
-    Err("it is a link to itself, or too many links one after the other".into())
+    Err("it is a link to itself, or a chain of too many links".into())
 }
 
-/// Refuses what is no file that can be replaced.
+/// Rejects everything except regular files.
 fn regular(kind: &std::fs::FileType) -> Result<(), OutputFault> {
     if kind.is_file() {
         return Ok(());
@@ -99,7 +99,8 @@ fn regular(kind: &std::fs::FileType) -> Result<(), OutputFault> {
     Err(what.into())
 }
 
-/// `path` with something before and after its name; long names are replaced by a hash, so that there is room for both.
+/// `path` with something before and after its name; long names are replaced by a hash to respect the limit of the
+/// system.
 pub(crate) fn beside(path: &Path, before: &str, after: &str) -> PathBuf {
     let mut name = path.file_name().unwrap_or_default().to_owned();
     if name.len() > 180 {
@@ -110,22 +111,22 @@ pub(crate) fn beside(path: &Path, before: &str, after: &str) -> PathBuf {
     folder(path).join(whole.into_iter().collect::<OsString>())
 }
 
-/// What a file that a command reads is to it, such as "the scene", and where it is.
+/// Role of an input file in a command, such as "the scene", and its path.
 pub type Role = (&'static str, PathBuf);
 
-/// Refuses, before any work, an output that is an input of the same command, and two outputs that are one file.
+/// Rejects, before any work, an output that is an input of the same command, and two outputs that are the same file.
 ///
-/// Files are compared by what they are, not by name: also through links of both kinds.
+/// Files are compared by identity, not by name: also through symbolic and hard links.
 ///
 /// # Errors
-/// [`OutputError::Refused`]; or that an output cannot be written at all.
+/// [`OutputError::Refused`], or another error if an output cannot be written at all.
 pub fn apart(outputs: &[&Path], inputs: &[Role]) -> Result<(), OutputError> {
     let mut seen: Vec<(&Path, _)> = Vec::new();
     for &output in outputs {
         let this = identity(&behind(output)?);
         if let Some((first, _)) = seen.iter().find(|(_, other)| *other == this) {
             let reason = format!(
-                "and {} are the same file: give each output a name of its own",
+                "and {} are the same file: choose different names for the outputs",
                 output.display()
             );
             return Err(OutputError::Refused((*first).to_owned(), reason));
@@ -133,8 +134,9 @@ pub fn apart(outputs: &[&Path], inputs: &[Role]) -> Result<(), OutputError> {
         if let Some((role, input)) = inputs.iter().find(|(_, input)| identity(input) == this) {
             let other = Some(input).filter(|input| *input != output);
             let other = other.map_or(String::new(), |input| format!(" as {}", input.display()));
-            let reason =
-                format!("is {role} that this command reads{other}: give the output another name");
+            let reason = format!(
+                "is {role} that this command reads{other}: choose another name for the output"
+            );
             return Err(OutputError::Refused(output.to_owned(), reason));
         }
         seen.push((output, this));
@@ -142,8 +144,8 @@ pub fn apart(outputs: &[&Path], inputs: &[Role]) -> Result<(), OutputError> {
     Ok(())
 }
 
-/// What a file is, whatever it is called: device and number of one that is there; elsewhere, and where nothing is yet, the
-/// folder with its links followed, and the name.
+/// Identity of a file, whatever its name: device and number of an existing file. For a new file, or where the system
+/// has no such numbers, it is the name and the folder after following links.
 fn identity(path: &Path) -> (u64, u64, PathBuf) {
     #[cfg(unix)]
     if let Ok(there) = std::fs::metadata(path) {
@@ -157,23 +159,23 @@ fn identity(path: &Path) -> (u64, u64, PathBuf) {
     (0, 0, whole.unwrap_or_else(|_| path.to_owned()))
 }
 
-/// A format in words, such as "an HDF5 file", and how the names of its files end: without the dot, the usual one first.
+/// A format in words, such as "an HDF5 file", and its file extensions without the dot, the usual one first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Ending(pub &'static str, pub &'static [&'static str]);
 
-/// HDF5; sections open in ParaView under the last of its endings.
+/// HDF5; ParaView opens sections under the last extension.
 pub const HDF5: Ending = Ending("an HDF5 file", &["h5", "hdf5", "hdf", "vtkhdf"]);
 
 /// A kernel table.
 pub const TABLE: Ending = Ending("a kernel table (HDF5)", &["h5", "hdf5", "hdf"]);
 
-/// A part of a kernel table.
+/// A shard of a kernel table.
 pub const SHARD: Ending = Ending("a shard", &["shard", "part", "blocks"]);
 
-/// Rows in columns that are compressed.
+/// Rows in compressed columns.
 pub const PARQUET: Ending = Ending("a Parquet file", &["parquet"]);
 
-/// Rows: HDF5, or Parquet.
+/// Rows as HDF5 or Parquet.
 pub const ROWS: Ending = Ending(
     "an HDF5 or a Parquet file",
     &["h5", "hdf5", "hdf", "vtkhdf", "parquet"],
@@ -183,12 +185,12 @@ pub const ROWS: Ending = Ending(
 pub const CSV: Ending = Ending("text in columns", &["csv", "txt"]);
 
 impl Ending {
-    /// Whether a name ends so.
+    /// Whether a name has an extension of the format.
     pub fn is_of(self, path: &Path) -> bool {
         path.extension().is_some() && self.check(path).is_ok()
     }
 
-    /// Refuses a name with the ending of another format; a name without one is accepted.
+    /// Rejects a name with the extension of another format; a name without an extension is accepted.
     ///
     /// # Errors
     /// [`OutputError::Refused`].
@@ -202,7 +204,7 @@ impl Ending {
             return Ok(());
         }
         let (format, allowed) = (self.0, self.1.join(" or ."));
-        let reason = format!("is to be {format}: its name ends with .{allowed}, not with .{found}");
+        let reason = format!("must be {format} with the extension .{allowed}, not .{found}");
         Err(OutputError::Refused(path.to_owned(), reason))
     }
 }

@@ -1,25 +1,25 @@
-//! What the machine has left, and what it has given.
+//! Resources of the machine: free memory, disk space and processor time.
 
 use crate::place::folder;
 use std::fs;
 use std::path::Path;
 
-/// Memory in bytes where the system does not say what there is.
+/// Assumed free memory in bytes if the system does not report it.
 const UNKNOWN: f64 = 8e9;
-/// Part of what is free that work may take: the rest is for the program and for what a forecast misses.
+/// Fraction of the free memory that work may use; the rest is for the program and for errors of the forecast.
 const USABLE: f64 = 0.85;
 
-/// Threads that work may be divided among: far more than machines have processors, and few enough to start.
+/// Largest number of threads: far more than the processors of any machine, and few enough to start.
 pub const MOST_THREADS: usize = 1024;
 
-/// Memory in bytes that work may take: of the machine, of the container, of the process (`ulimit -v`).
+/// Memory in bytes that work may use, limited by the machine, the container and the process (`ulimit -v`).
 pub fn free_memory() -> f64 {
     let free = [machine(), container(), free_address_space()];
     let least = free.into_iter().flatten().reduce(f64::min);
     USABLE * least.unwrap_or(UNKNOWN)
 }
 
-/// Bytes that the disk of a file has left, where the system says so.
+/// Free bytes on the disk of a file, if the system reports them.
 pub fn free_disk(path: &Path) -> Option<f64> {
     #[cfg(unix)]
     if let Ok(disk) = rustix::fs::statvfs(folder(path)) {
@@ -29,7 +29,7 @@ pub fn free_disk(path: &Path) -> Option<f64> {
     None
 }
 
-/// Seconds of all threads that the processor has spent on this process, where the system says so.
+/// Processor time of this process in s, over all threads, if the system reports it.
 pub fn processor_s() -> Option<f64> {
     #[cfg(unix)]
     {
@@ -41,19 +41,19 @@ pub fn processor_s() -> Option<f64> {
     None
 }
 
-/// What the system could give a new program.
+/// Memory that the machine could give to a new program.
 fn machine() -> Option<f64> {
     line_of("/proc/meminfo", "MemAvailable:", 1).map(|kilobytes| 1024.0 * kilobytes)
 }
 
-/// What the groups of processes that this one is in may still take.
+/// Memory that the control groups of this process may still use.
 fn container() -> Option<f64> {
     let groups = fs::read_to_string("/proc/self/cgroup").ok()?;
     left_in(Path::new("/sys/fs/cgroup"), &groups)
 }
 
-/// The same of the groups that a text as in `/proc/self/cgroup` lists, whose files are below `root`: of both versions of such
-/// groups, and of those around each, up to the outermost that a container sees.
+/// Free memory in the control groups that a text such as `/proc/self/cgroup` lists; their files are below `root`. Both
+/// versions of control groups and all visible parent groups are considered.
 fn left_in(root: &Path, groups: &str) -> Option<f64> {
     let listed = groups.lines().filter_map(|line| {
         let (controllers, path) = line.split_once(':')?.1.split_once(':')?;
@@ -81,7 +81,7 @@ fn left_in(root: &Path, groups: &str) -> Option<f64> {
     listed.reduce(f64::min)
 }
 
-/// What a group may still take, by its limit, what it has, and the part of that which is copies of files and can be dropped.
+/// Free memory of a group: its limit minus its use, of which cached files can be dropped.
 fn left(group: &Path, [limit, taken, dropped]: [&str; 3]) -> Option<f64> {
     let number = |name| {
         let text = fs::read_to_string(group.join(name)).ok()?;
@@ -91,14 +91,14 @@ fn left(group: &Path, [limit, taken, dropped]: [&str; 3]) -> Option<f64> {
     Some((number(limit)? - (number(taken)? - dropped).max(0.0)).max(0.0))
 }
 
-/// Bytes that the process may still take of its address space, where there is a limit (`ulimit -v`).
+/// Free address space of the process in bytes, if it is limited (`ulimit -v`).
 pub fn free_address_space() -> Option<f64> {
     let limit = line_of("/proc/self/limits", "Max address space", 3)?;
     let taken = line_of("/proc/self/status", "VmSize:", 1).unwrap_or(0.0);
     Some((limit - 1024.0 * taken).max(0.0))
 }
 
-/// A word of the line of a file that starts with some words, as a number.
+/// A word, as a number, in the first line of a file that begins with `start`.
 fn line_of(path: impl AsRef<Path>, start: &str, word: usize) -> Option<f64> {
     let text = fs::read_to_string(path).ok()?;
     let line = text.lines().find(|line| line.starts_with(start))?;
@@ -120,7 +120,7 @@ mod tests {
         let left = |groups: &str| left_in(root.path(), groups);
         let first = "4:pids:/a\n3:cpu,memory:/a/b\n0::/\n";
         assert_eq!(left(first), None);
-        // version 1: the outer group has no limit, copies of files can be dropped
+        // version 1: the outer group has no limit, cached files can be dropped
         write("memory/a/memory.limit_in_bytes", "9223372036854771712\n");
         write("memory/a/memory.usage_in_bytes", "5000\n");
         write("memory/a/b/memory.limit_in_bytes", "1000\n");
@@ -130,7 +130,7 @@ mod tests {
             "cache 400\ntotal_inactive_file 200\n",
         );
         assert_eq!(left(first), Some(500.0));
-        // version 2: the outer group is the tighter one, and has more than it may
+        // version 2: the outer group has the lower limit, and exceeds it
         write("memory.max", "max\n");
         write("memory.current", "1\n");
         write("x/memory.max", "300\n");

@@ -1,5 +1,5 @@
-//! Files that are there while a run is, beside the file that it writes: temporaries, and the lock that keeps one run at a
-//! time on one name.
+//! Files that exist only during a run, next to its output: temporary files, and the lock that lets only one run write
+//! to a name.
 
 use crate::handle::{is_at, without_links};
 use crate::place::{beside, folder};
@@ -16,16 +16,17 @@ static LIVE: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
 
 /// Random hexadecimal digits of a temporary name.
 const DIGITS: usize = 16;
-/// How it ends.
+/// File extension of temporary names.
 const SUFFIX: &str = ".part";
 
 fn live() -> MutexGuard<'static, BTreeSet<PathBuf>> {
     LIVE.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Removes what this process has not finished; for what ends it at any moment, also while this very thread adds to the list.
+/// Removes the unfinished files of this process. It may be called at any moment, even while this thread adds to the
+/// list.
 pub fn abandon() {
-    /// Times that the list is looked at, a millisecond apart.
+    /// Attempts to lock the list, a millisecond apart.
     const TRIES: usize = 100;
     for _ in 0..TRIES {
         let live = match LIVE.try_lock() {
@@ -50,19 +51,19 @@ pub(crate) struct Temporary {
 }
 
 impl Temporary {
-    /// A random name beside `path`, for a file that is about to be made.
+    /// A random name next to `path`, for a file that will be created.
     pub(crate) fn beside(path: &Path) -> Self {
-        // before it exists, so that no moment is left at which nobody knows of it
+        // registered before the file exists, so that it is removed whenever the run ends
         Self::known(beside(path, ".", &format!(".{:016x}{SUFFIX}", random())))
     }
 
-    /// A file of this name, which is there or is about to be.
+    /// A file with this name, which exists or will be created.
     pub(crate) fn known(path: PathBuf) -> Self {
         live().insert(path.clone());
         Self { path }
     }
 
-    /// Leaves the file alone from now on.
+    /// Keeps the file when this value is dropped.
     pub(crate) fn forget(self) {
         live().remove(&self.path);
         std::mem::forget(self);
@@ -77,7 +78,7 @@ impl Drop for Temporary {
     }
 }
 
-/// Removes temporaries of `path`; the caller holds its lock, so that none belongs to a run.
+/// Removes temporary files of `path`; the caller holds its lock, so that none of them belongs to a run.
 pub(crate) fn sweep(path: &Path) {
     let prefix = beside(path, ".", ".");
     let prefix = prefix.file_name().unwrap_or_default().as_encoded_bytes();
@@ -99,7 +100,7 @@ pub(crate) fn sweep(path: &Path) {
     }
 }
 
-/// A number that differs from call to call and from process to process.
+/// A number that differs between calls and between processes.
 fn random() -> u64 {
     RandomState::new().hash_one(std::process::id())
 }
@@ -107,21 +108,22 @@ fn random() -> u64 {
 /// The lock of a name, held until it is dropped: an advisory lock on `.NAME.lock`, which is removed with it.
 #[derive(Debug)]
 pub(crate) struct Lock {
-    // in this order: the name goes while the lock is still held; a file that somebody has put there stays
+    // dropped in this order: the name is removed while the lock is held; a file of another process under that name
+    // stays
     _name: Option<Temporary>,
     _file: File,
-    /// Whether the file system keeps locks; where it does not, two runs are not kept apart.
+    /// Whether the file system supports locks; if it does not, concurrent runs are not prevented.
     pub(crate) held: bool,
 }
 
 impl Lock {
-    /// Takes the lock, or says with nothing that another run has it.
+    /// Acquires the lock; none if another run has it.
     pub(crate) fn take(path: &Path) -> io::Result<Option<Self>> {
         let name = beside(path, ".", ".lock");
         loop {
             if std::fs::symlink_metadata(&name).is_ok_and(|there| !there.is_file()) {
                 return Err(io::Error::other(format!(
-                    "{} is needed for a lock and is no file",
+                    "{} is needed for a lock but is not a regular file",
                     name.display()
                 )));
             }
@@ -134,7 +136,7 @@ impl Lock {
                 Err(Unlocked::Error(error)) if keeps_no_locks(&error) => false,
                 Err(Unlocked::Error(error)) => return Err(error),
             };
-            // The run that had the lock may have removed the name after it was opened here.
+            // The previous owner of the lock may have removed the name after it was opened here.
             if !held || is_at(&file, &name) {
                 let ours = file.metadata()?.len() == 0;
                 return Ok(Some(Self {

@@ -167,7 +167,7 @@ fn a_file_in_the_place_of_the_temporary_is_left_alone() {
             file.write_all(b"new")
         });
         let refused = refused.unwrap_err().to_string();
-        assert!(refused.contains("somebody else"), "{refused}");
+        assert!(refused.contains("another process"), "{refused}");
         assert_eq!(std::fs::read(&private).unwrap(), b"private");
         assert_eq!(mode(&private), 0o600);
         assert_eq!(std::fs::read(&path).unwrap(), b"old");

@@ -1,4 +1,4 @@
-//! From files to a figure.
+//! Composes figures from files.
 
 use crate::error::{Drawn, PlotError};
 use crate::impacts::{frames_of, of_impacts};
@@ -10,10 +10,11 @@ use figure::{Axis, ColourMap, Figure, Image, Layer, Line, Panel, Scale};
 use formats::stored::{FileKind, StoredImpact, file_kind};
 use std::path::PathBuf;
 
-/// Composes a figure of one or several files of one kind; and sentences for its user: what is not shown, and how to see it.
+/// Composes a figure of one or several files of the same kind. Also returns notes for the user, such as what is not
+/// shown and how to see it.
 pub fn compose(paths: &[PathBuf], request: &Request) -> Drawn<Figure> {
     let file = common_kind(paths)?;
-    // a kind of picture that a file of another kind does not give
+    // a kind of picture that requires another kind of file
     let unsuitable = |kind| {
         let kinds = PictureKind::ALL.iter().filter(|kind| kind.file() == file);
         let allowed = match &kinds.map(|kind| kind.name()).collect::<Vec<_>>()[..] {
@@ -21,7 +22,9 @@ pub fn compose(paths: &[PathBuf], request: &Request) -> Drawn<Figure> {
             names => names.join(", "),
         };
         let path = paths[0].display();
-        let sentence = format!("{path} is {file}, which has no picture {kind}; it has {allowed}");
+        let sentence = format!(
+            "{path} is {file}, for which the picture {kind} does not exist; choose one of {allowed}"
+        );
         Err(PlotError::refused(Some(&paths[0]), sentence))
     };
     if let Some(kind) = request.kind.filter(|kind| kind.file() != file) {
@@ -40,19 +43,18 @@ pub fn compose(paths: &[PathBuf], request: &Request) -> Drawn<Figure> {
     Ok((figure, notes))
 }
 
-/// Shows the limits and the scale that are asked for: of colours where there are some, else of the y axis.
-/// Limits that are not above zero make a scale linear that a kind of picture chooses to be logarithmic. The axes of a sweep
-/// have the scale already.
+/// Applies the requested limits and scale to the colours, or else to the y axis. Limits that are not above zero make a
+/// scale linear that would be logarithmic by default. The axes of a sweep have their scale already.
 fn scale(figure: &mut Figure, request: &Request, file: FileKind) -> Result<(), PlotError> {
     let scale = request.scale.filter(|_| file != FileKind::Sweep);
     if let Some((low, high)) = request.limits {
         let refused = |why| {
             let [low, high] = [low, high].map(fault::number);
-            let sentence = format!("the limits {low}:{high} are not those of a picture: {why}");
+            let sentence = format!("the limits {low}:{high} cannot be used: {why}");
             Err(PlotError::refused(None, sentence))
         };
         if !(low < high && high.is_finite()) {
-            return refused("the first has to be below the second");
+            return refused("the first must be below the second");
         }
         if request.scale == Some(Scale::Logarithmic) && low <= 0.0 {
             return refused("a logarithmic scale needs values above zero");
@@ -60,7 +62,7 @@ fn scale(figure: &mut Figure, request: &Request, file: FileKind) -> Result<(), P
         let mut quantities = figure.panels.iter().map(|panel| &panel.y.quantity);
         let first = quantities.next();
         if quantities.any(|quantity| Some(quantity) != first) {
-            return refused("it shows several quantities, choose one");
+            return refused("the picture shows several quantities, choose one");
         }
     }
     let asked = |axis: &mut Axis| {
@@ -95,12 +97,12 @@ fn scale(figure: &mut Figure, request: &Request, file: FileKind) -> Result<(), P
     figure.panels.iter().try_for_each(shows_something)
 }
 
-/// The name of an axis that shows values without their signs.
+/// Name of an axis that shows magnitudes.
 fn size_of(quantity: &str) -> String {
-    format!("size of the {quantity}")
+    format!("magnitude of the {quantity}")
 }
 
-/// Sizes in place of values with a sign, over four decades.
+/// Replaces signed values by their magnitude, over four decades.
 fn show_sizes(image: &mut Image) {
     if image.map == ColourMap::Diverging {
         image.colours.quantity = size_of(&image.colours.quantity);
@@ -115,11 +117,11 @@ fn show_sizes(image: &mut Image) {
     image.map = ColourMap::Sequential;
 }
 
-/// Smallest size that curves of values with a sign show, over the largest: below it they are rounding on their way through
-/// zero. A test of signed histories fails without it.
+/// Smallest relative magnitude in curves of signed values: smaller values are rounding errors near a zero. A test of
+/// signed histories fails without it.
 const SIGNED_DECADES: f64 = 1e-6;
 
-/// Sizes in place of the values of curves of which some are negative, with the sizes of their bands.
+/// Replaces the values of curves with negative values by their magnitude, and likewise their bands.
 fn show_sizes_of_curves(panel: &mut Panel) {
     let mut lines: Vec<&mut Line> = Vec::new();
     for layer in &mut panel.layers {
@@ -143,7 +145,7 @@ fn show_sizes_of_curves(panel: &mut Panel) {
         for (a, b) in lower.iter_mut().zip(upper) {
             let crosses = a.1 < 0.0 && b.1 > 0.0;
             let [one, other] = [a.1.abs(), b.1.abs()];
-            // a band that holds zero reaches down to the end of the axis
+            // a band that contains zero extends to the end of the axis
             a.1 = if crosses {
                 low
             } else {
@@ -156,7 +158,7 @@ fn show_sizes_of_curves(panel: &mut Panel) {
     panel.y.range = (largest > 0.0).then_some((low, 2.0 * largest));
 }
 
-/// A logarithmic axis has to have a value above zero to show.
+/// Checks that a logarithmic axis has a positive value to show.
 fn shows_something(panel: &Panel) -> Result<(), PlotError> {
     let lines = || panel.layers.iter().filter_map(Layer::as_line);
     let shown = |line: &Line| line.points.iter().any(|p| panel.y.scale.shows(p.1));
@@ -169,7 +171,7 @@ fn shows_something(panel: &Panel) -> Result<(), PlotError> {
     Err(PlotError::refused(None, sentence))
 }
 
-/// Composes the frames of an animation of a section, one figure each; and sentences for its user.
+/// Composes the frames of an animation of a section, one figure each. Also returns notes for the user.
 pub fn animate(paths: &[PathBuf], request: &Request) -> Drawn<Vec<Figure>> {
     let file = common_kind(paths)?;
     let kind = request.kind_or(PictureKind::Waves)?;
@@ -177,7 +179,7 @@ pub fn animate(paths: &[PathBuf], request: &Request) -> Drawn<Vec<Figure>> {
         let path = &paths[0];
         let shown = (request.kind).map_or_else(String::new, |kind| format!(", shown as {kind}"));
         let sentence = format!(
-            "an animation shows the waves in the section of an impact, and {} is {file}{shown}",
+            "an animation shows the waves in the section of an impact, but {} is {file}{shown}",
             path.display()
         );
         return Err(PlotError::refused(Some(path), sentence));
@@ -194,14 +196,14 @@ fn open(paths: &[PathBuf]) -> Result<Vec<StoredImpact>, PlotError> {
     paths.iter().map(open).collect()
 }
 
-/// What all files are.
+/// The common kind of all files.
 fn common_kind(paths: &[PathBuf]) -> Result<FileKind, PlotError> {
     let first = file_kind(&paths[0])?;
     for path in &paths[1..] {
         let second = file_kind(path)?;
         if second != first {
             let sentence = format!(
-                "{} is {first}, and {} is {second}: one picture shows files of one kind",
+                "{} is {first}, but {} is {second}: all files of a picture must be of the same kind",
                 paths[0].display(),
                 path.display()
             );

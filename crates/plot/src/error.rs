@@ -1,4 +1,4 @@
-//! Why there is no picture; and what is looked for by its name, with the error that it is not there.
+//! Errors of pictures, and the search for names with the error that a name does not exist.
 
 use contact::{Choice, nearest};
 use fault::{Class, Culprit, Fault};
@@ -9,7 +9,7 @@ use std::fmt::Display;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
-/// A picture that cannot be composed, told in one sentence.
+/// A picture that cannot be composed; the message is one sentence.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum PlotError {
@@ -19,44 +19,44 @@ pub enum PlotError {
     /// A kernel table cannot be read.
     #[error(transparent)]
     Table(#[from] lookup::TableError),
-    /// A number is outside the physics.
+    /// A number is outside its physical range.
     #[error(transparent)]
     Domain(#[from] DomainError),
-    /// A sweep over words alone has no axis to draw along.
-    #[error("{} has no key of numbers that varies: a sweep over words alone has no axis to draw along", .0.display())]
+    /// A sweep that varies words only has no axis to draw along.
+    #[error("{} varies no key with numbers: a sweep over words only has no x axis", .0.display())]
     NoAxis(PathBuf),
-    /// A picture would have more curves than can be told apart.
-    #[error("{} would give {curves} curves, and {most} can be told apart: choose among them", file.display())]
+    /// A picture would have too many curves.
+    #[error("{} would give {curves} curves, but at most {most} are distinguishable: select some of them", file.display())]
     TooManyCurves {
         /// The sweep.
         file: PathBuf,
-        /// Its curves.
+        /// Number of curves.
         curves: usize,
-        /// Curves that can be told apart.
+        /// Largest number of curves.
         most: usize,
-        /// A value of a key that can be held, such as `target.material=steel`.
+        /// A value of a key that can be fixed, such as `target.material=steel`.
         example: Option<String>,
     },
     /// A kernel table without a slice.
     #[error("{} has no slice", .0.display())]
     NoSlice(PathBuf),
-    /// What is asked for is not in the files, or not to be drawn.
+    /// The request does not match the files, or cannot be drawn.
     #[error("{sentence}")]
     Refused {
         /// The whole sentence.
         sentence: String,
         /// The file at fault.
         file: Option<PathBuf>,
-        /// The nearest name that is there.
+        /// The nearest existing name.
         suggestion: Option<String>,
     },
 }
 
-/// What is drawn, with sentences for its user.
+/// A figure with notes for the user.
 pub(crate) type Drawn<T> = Result<(T, Vec<String>), PlotError>;
 
 impl PlotError {
-    /// What is asked for is not to be drawn.
+    /// A request that cannot be drawn.
     pub(crate) fn refused(file: Option<&Path>, sentence: String) -> Self {
         Self::Refused {
             sentence,
@@ -65,7 +65,7 @@ impl PlotError {
         }
     }
 
-    /// What a picture shows is not in the file.
+    /// The file does not contain the data of a picture.
     pub(crate) fn absent(path: &Path, what: &str, hint: &str) -> Self {
         Self::refused(
             Some(path),
@@ -78,7 +78,7 @@ impl PlotError {
         Self::refused(None, format!("{key} has no numbers to draw along"))
     }
 
-    /// A word that is none of those that a file has: `said` is what was asked for, of which `word` may be misspelt.
+    /// A name that the file does not have: `said` is the request, and `word` the part that may be misspelt.
     pub(crate) fn unknown<'a>(
         path: &Path,
         said: impl Display,
@@ -86,12 +86,12 @@ impl PlotError {
         known: impl IntoIterator<Item = &'a str>,
     ) -> Self {
         let known: Vec<&str> = known.into_iter().collect();
-        // a part of a name, such as that of a quantity without its probe
+        // part of a name, such as a quantity without its probe
         let longer = known.iter().filter(|name| name.contains(word));
         let whole = longer.min_by_key(|name| name.len());
         let whole = whole.map(|&name| name.to_owned());
         if whole.is_none() && impact::Quantity::named(word).is_some() {
-            let hint = format!("give the scene [output] quantities = [\"{word}\"]");
+            let hint = format!("add [output] quantities = [\"{word}\"] to the scene");
             return Self::absent(path, word, &hint);
         }
         let suggestion = whole.or_else(|| nearest(word, known.iter().copied()));
@@ -99,7 +99,7 @@ impl PlotError {
         let near = near.map_or_else(String::new, |word| format!(" (did you mean {word}?)"));
         Self::Refused {
             sentence: format!(
-                "{said} is not in {}{near}; it has {}",
+                "{said} does not exist in {}{near}; choose one of {}",
                 path.display(),
                 known.join(", ")
             ),
@@ -129,7 +129,7 @@ impl Fault for PlotError {
     }
 }
 
-/// Which of the quantities of a file are asked for by their names; without names the usual ones.
+/// The requested quantities of a file by their names, or else the usual ones.
 pub(crate) fn chosen(
     path: &Path,
     known: &[Described],

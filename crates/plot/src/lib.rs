@@ -1,7 +1,7 @@
 //! Figures composed from the files of the program.
 //!
-//! [`compose`] takes the paths of results, sweeps or tables and a [`Request`], and gives a [`figure::Figure`]; `figure`
-//! draws it. What is shown is a [`PictureKind`], by default the one that suits the file.
+//! [`compose`] reads results, sweeps or tables and returns a [`figure::Figure`] for a [`Request`]; `figure` draws it.
+//! The [`PictureKind`] selects the content, by default the one that suits the file.
 //!
 //! ```no_run
 //! use plot::{PictureKind, Request, compose};

@@ -1,4 +1,4 @@
-//! Samples over time: curves thin enough to draw, begin and end of a force, and when waves arrive.
+//! Samples over time: thinned curves, beginning and end of a force, and arrival times.
 
 use crate::error::PlotError;
 use contact::WaveSpeeds;
@@ -6,10 +6,10 @@ use formats::stored::StoredImpact;
 use impact::Series;
 use std::ops::Range;
 
-/// Points of a curve that is drawn: with more, parts of it are drawn by their extremes.
+/// Largest number of points of a curve; longer curves are drawn by the extremes of their parts.
 const MOST_POINTS: usize = 4000;
 
-/// A curve over times from and to, and a sample further at both ends, with its extremes kept where there are too many samples.
+/// A curve over a range of times and one more sample at both ends; too many samples are thinned to their extremes.
 pub(crate) fn curve(time_s: &[f64], samples: &[f64], [from_s, to_s]: [f64; 2]) -> Vec<(f64, f64)> {
     let first = time_s.partition_point(|&t| t < from_s).saturating_sub(1);
     let end = (time_s.partition_point(|&t| t <= to_s) + 1).clamp(first, time_s.len());
@@ -32,7 +32,7 @@ pub(crate) fn curve(time_s: &[f64], samples: &[f64], [from_s, to_s]: [f64; 2]) -
     kept
 }
 
-/// The samples from the last before a force that is not zero to the first from which on it is zero, where there are such.
+/// The samples from the last zero before the force to the first zero after it, if they exist.
 pub(crate) fn loaded(force_n: &[f64]) -> Range<usize> {
     let is_loaded = |force: &f64| *force != 0.0;
     let first = force_n.iter().position(is_loaded).unwrap_or(0);
@@ -40,13 +40,13 @@ pub(crate) fn loaded(force_n: &[f64]) -> Range<usize> {
     first.saturating_sub(1)..(last + 2).min(force_n.len())
 }
 
-/// When a force ends.
+/// End time of a force.
 pub(crate) fn end_s(series: &Series) -> f64 {
     series.time_s[loaded(&series.force_n).end - 1]
 }
 
-/// Speeds of the waves in the half-space of an impact, and when its force begins in s: at the onset of a record where its
-/// scene has one.
+/// Wave speeds in the half-space of an impact, and the onset of its force in s: the onset of a record if the scene sets
+/// one.
 pub(crate) fn waves_of(impact: &StoredImpact) -> Result<(WaveSpeeds, f64), PlotError> {
     let series = &impact.series;
     let keys = impact.keys();
@@ -72,7 +72,7 @@ mod tests {
         assert!(found.len() <= MOST_POINTS + 4 && found.contains(&(54_321.0, 7.0)));
         assert!(found.windows(2).all(|pair| pair[0].0 < pair[1].0));
         assert_eq!(found.last().map(|p| p.0), Some(90_001.0));
-        // the lines run to the ends of the axis
+        // the lines extend to the ends of the axis
         let places = |span| -> Vec<f64> {
             let points = curve(&time[..10], &samples, span);
             points.into_iter().map(|p| p.0).collect()

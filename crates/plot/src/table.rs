@@ -9,13 +9,13 @@ use formats::quantities::FIELDS;
 use lookup::{Content, Slice};
 use std::path::Path;
 
-/// Poisson's ratio whose slice is shown, unless there is none near it.
+/// Poisson's ratio of the shown slice; the nearest slice is shown.
 const RATIO: f64 = 0.3;
 
-/// Errors off the grid of a table, a panel for each length of the verification pulse.
+/// Errors of a table between its grid points, one panel per length of the verification pulse.
 ///
-/// An error is the largest difference in time over the largest exact response in time, at each place for the worst of
-/// the fields that are asked for.
+/// An error is the largest difference over time relative to the largest exact response over time, at each place for the
+/// worst of the requested fields.
 pub(crate) fn of_table(path: &Path, request: &Request) -> Result<Figure, PlotError> {
     let content = lookup::read(path)?;
     let (known, all) = (FIELDS.map(Described::from), FIELDS.map(|field| field.0));
@@ -33,7 +33,7 @@ pub(crate) fn of_table(path: &Path, request: &Request) -> Result<Figure, PlotErr
     let colours = Axis::logarithmic(&format!("relative error, {what}"));
     let title = format!("Errors of the kernel table {}", stem(path));
     let subtitle = format!(
-        "Poisson's ratio {}, at the centres of the meshes, by the length of the pulse",
+        "Poisson's ratio {}, at the centres of the grid cells, by pulse length",
         digits(slice.poisson_ratio)
     );
     let pulses = 0..content.pulse_lengths.len();
@@ -59,7 +59,7 @@ fn panel(
         let of = |field: &usize| {
             let error = measured.error.get(place + field)?;
             let exact = measured.direct.get(place + field)?;
-            // where a field is zero throughout it says nothing
+            // a field that is zero throughout has no relative error
             (*exact != 0.0).then(|| f64::from(*error) / f64::from(exact.abs()))
         };
         fields.iter().filter_map(of).fold(f64::NAN, f64::max)

@@ -15,11 +15,11 @@ pub(crate) fn with_unit(value: f64, unit: &str) -> String {
     if unit.is_empty() || unit == "1" {
         return digits(value);
     }
-    // a power in the unit would raise the prefix as well
+    // a power in the unit would apply to the prefix as well
     let exponent = if value == 0.0 || !value.is_finite() || unit.contains('^') {
         0
     } else {
-        // what is shown as 1000 takes the next prefix
+        // a value that rounds to 1000 gets the next prefix
         let shown: f64 = format!("{:.3e}", value.abs()).parse().unwrap_or(0.0);
         (3 * (shown.log10().floor() as i32).div_euclid(3)).clamp(-15, 12)
     };
@@ -28,7 +28,7 @@ pub(crate) fn with_unit(value: f64, unit: &str) -> String {
     format!("{} {prefix}{unit}", digits(value / 10_f64.powi(exponent)))
 }
 
-/// Four digits without zeros at the end.
+/// Four digits without trailing zeros.
 pub(crate) fn digits(value: f64) -> String {
     if value == 0.0 || !value.is_finite() {
         return format!("{value}");
@@ -68,7 +68,7 @@ pub(crate) fn of_key(key: &str) -> (String, &'static str) {
     (name, unit)
 }
 
-/// An axis with the unit of a file: with SI prefixes where it takes them.
+/// An axis with the unit of a file; with SI prefixes if the unit allows them.
 pub(crate) fn axis(name: &str, unit: &str, scale: Scale) -> Axis {
     let mut axis = Axis::linear(name);
     axis.scale = scale;
@@ -76,25 +76,25 @@ pub(crate) fn axis(name: &str, unit: &str, scale: Scale) -> Axis {
         "1" | "" => axis,
         "kg" => axis.si("g"),
         "kg/m^3" => axis.unit("kg/m^{3}"),
-        // a power in the unit would raise the prefix as well
+        // a power in the unit would apply to the prefix as well
         unit if unit.contains('^') => axis.unit(&unit.replace("^2", "^{2}")),
         unit => axis.si(unit),
     }
 }
 
-/// Name of a field in words, as files describe it but for its sign: `displacement_z` is "axial displacement".
+/// Name of a field in words, as in files but without its sign convention: `displacement_z` is "axial displacement".
 pub(crate) fn of_quantity(name: &str) -> String {
     let more = FIELD_QUANTITIES.iter().map(|row| (row.0.name(), row.2));
     let mut known = FIELDS.iter().map(|row| (row.0, row.2)).chain(more);
     let meaning = match (name, known.find(|row| row.0 == name)) {
-        ("displacement", _) => "length of the displacement",
+        ("displacement", _) => "magnitude of the displacement",
         ("speed", _) => "speed of the particles",
         (_, found) => found.map_or(name, |row| row.1),
     };
     meaning.split(',').take(1).collect()
 }
 
-/// Name of a quantity for the legend, of a component with its symbol: "axial u_{z}".
+/// Name of a quantity for the legend; components with their symbol: "axial u_{z}".
 pub(crate) fn component(name: &str) -> String {
     let symbols = [
         ("displacement_", "u"),
@@ -114,7 +114,7 @@ pub(crate) fn component(name: &str) -> String {
     found.unwrap_or_else(|| of_quantity(name))
 }
 
-/// A file's name without its ending.
+/// A file's name without its extension.
 pub(crate) fn stem(path: &Path) -> String {
     path.file_stem()
         .map_or_else(String::new, |name| name.to_string_lossy().into_owned())

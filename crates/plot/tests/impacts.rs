@@ -105,7 +105,7 @@ fn what_cannot_be_drawn_is_told_in_one_sentence() {
     let said = |paths: &[PathBuf], kind| picture(paths, kind).unwrap_err().to_string();
     assert!(
         said(std::slice::from_ref(&bare), Some(PictureKind::Probes))
-            .ends_with("has no probes: give the scene a [[probe]] with r_m and z_m")
+            .ends_with("has no probes: add a [[probe]] with r_m and z_m to the scene")
     );
     let text = folder.path().join("scene.toml");
     std::fs::write(&text, "[target]\n").unwrap();
@@ -119,7 +119,7 @@ fn what_cannot_be_drawn_is_told_in_one_sentence() {
     hdf5::File::create(&foreign).unwrap();
     assert!(
         said(std::slice::from_ref(&foreign), None)
-            .ends_with("is an HDF5 file, but none of hertzlamb's")
+            .ends_with("is an HDF5 file, but not one of hertzlamb")
     );
     // a file that was cut short
     let bytes = std::fs::read(&bare).unwrap();
@@ -173,7 +173,7 @@ fn sizes_keep_the_negative_parts() {
         assert_eq!(signed.points.len(), shown.points.len());
         let largest = shown.points.iter().map(|p| p.1).fold(0.0, f64::max);
         let axis = &sizes.panels[panel].y;
-        assert_eq!(axis.quantity, "size of the radial stress");
+        assert_eq!(axis.quantity, "magnitude of the radial stress");
         // not the eighteen decades of rounding
         assert!(axis.range.unwrap().0 >= 1e-7 * largest && axis.range.unwrap().1 >= largest);
         let [lower, upper] = &shown.band;
@@ -291,7 +291,7 @@ fn a_quantity_of_the_contact_is_drawn_alone() {
     let said = of(Some(PictureKind::Probes), &["force"])
         .unwrap_err()
         .to_string();
-    assert!(said.ends_with("the picture impact shows it"), "{said}");
+    assert!(said.ends_with("use the picture impact"), "{said}");
     // what cannot be drawn is not left out in silence
     let bare = impact(folder.path(), "b.h5", 0.7, "");
     let said = compose(&[bare], &asked(None, &["stress_zz"]))
@@ -320,8 +320,8 @@ fn a_span_is_the_time_axis() {
         }
     }
     for (span_s, why) in [
-        ((7e-6, 4e-6), "has to be before"),
-        ((1.0, 2.0), "there is nothing"),
+        ((7e-6, 4e-6), "must be before"),
+        ((1.0, 2.0), "contains no data"),
     ] {
         let said = compose(
             std::slice::from_ref(&path),

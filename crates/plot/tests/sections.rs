@@ -107,7 +107,9 @@ fn velocities_are_those_of_the_file_or_none() {
     );
     let said = refused.unwrap_err().to_string();
     assert!(
-        said.ends_with("has no velocity_z: give the scene [output] quantities = [\"velocity_z\"]"),
+        said.ends_with(
+            "has no velocity_z: add [output] quantities = [\"velocity_z\"] to the scene"
+        ),
         "{said}"
     );
     let (figure, notes) = compose(&[without], &Request::default()).unwrap();
@@ -127,7 +129,7 @@ fn limits_and_ratios_are_those_that_are_asked_for() {
     let (figure, _) = compose(std::slice::from_ref(&path), &asked).unwrap();
     let image = images(&figure)[0];
     assert_eq!(image.colours.range, Some((1e3, 1e6)));
-    assert_eq!(image.colours.quantity, "size of the axial stress");
+    assert_eq!(image.colours.quantity, "magnitude of the axial stress");
     assert!(image.values.iter().all(|value| *value >= 0.0));
     texts(&figure);
     let turned = Request {
@@ -194,7 +196,7 @@ fn every_kind_of_picture_of_a_section_is_drawn() {
         &request(PictureKind::Waves, "stress_zz"),
     );
     let two = two.unwrap_err().to_string();
-    assert!(two.ends_with("shows one file, and 2 were given"), "{two}");
+    assert!(two.ends_with("shows one file, but 2 were given"), "{two}");
 }
 
 fn sides(figure: &Figure) -> &figure::Image {
@@ -284,7 +286,7 @@ fn a_wave_along_the_surface_has_no_teeth() {
     let few = section(folder.path(), 6, "");
     let (_, notes) = compose(&[few], &request(PictureKind::Surface, "displacement_z")).unwrap();
     assert!(
-        notes[0].contains("look like dots: [map] frames = "),
+        notes[0].contains("look like dots: use [map] frames = "),
         "{notes:?}"
     );
 }
@@ -329,7 +331,7 @@ fn a_span_chooses_the_frames() {
         ..asked
     };
     let said = compose(&[path], &both).unwrap_err().to_string();
-    assert!(said.ends_with("give one of them"), "{said}");
+    assert!(said.ends_with("use only one of them"), "{said}");
 }
 
 /// Frames that the scene puts at some times are those that a picture of these times shows.

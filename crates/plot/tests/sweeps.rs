@@ -176,7 +176,8 @@ fn what_cannot_be_shown_of_a_sweep_is_told() {
         ..Request::default()
     };
     assert!(
-        said(&kind(PictureKind::Impact)).contains("v.h5 is a sweep, which has no picture impact")
+        said(&kind(PictureKind::Impact))
+            .contains("v.h5 is a sweep, for which the picture impact does not exist")
     );
     let wrong = Request {
         along: Some("target.material".to_owned()),
@@ -203,7 +204,8 @@ fn what_cannot_be_shown_of_a_sweep_is_told() {
     };
     let near = said(&held("0.051"));
     assert!(
-        near.contains("velocity_m_s = 0.051 is not in") && near.contains("it has 0.05, "),
+        near.contains("velocity_m_s = 0.051 does not exist in")
+            && near.contains("choose one of 0.05, "),
         "{near}"
     );
     assert!(
@@ -230,7 +232,7 @@ fn what_cannot_be_shown_of_a_sweep_is_told() {
     };
     assert!(curves > 12 && example.is_some(), "{refused}");
     assert!(
-        refused.to_string().ends_with("choose among them"),
+        refused.to_string().ends_with("select some of them"),
         "{refused}"
     );
 }
@@ -248,7 +250,7 @@ fn restitution_has_the_slope_where_something_yields() {
         let figure = drawn(&path, &request);
         let lines = lines(&figure, 0);
         assert_eq!(lines.len(), curves, "{name}");
-        let is_of_yield = figure.panels[0].x.quantity.ends_with("of yield");
+        let is_of_yield = figure.panels[0].x.quantity.ends_with("at yield");
         assert_eq!(is_of_yield, curves == 2, "{name}");
         assert_eq!(lines[curves - 1].0 == "slope -1/4", curves == 2, "{name}");
     }

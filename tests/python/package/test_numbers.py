@@ -395,8 +395,8 @@ def test_arrays_that_are_no_force_are_named():
         ({"time_s": [0.0, 1.0, "2"], "force_n": force[:3]}, "force.time_s = .* is not a list of numbers"),
         ({"time_s": time, "force_n": np.ma.array(force, mask=force > 4)}, "force.force_n has masked entries"),
         ({"time_s": time.astype("timedelta64[ns]"), "force_n": force}, "force.time_s .* time differences"),
-        ({"time_s": time, "force_n": force, "file": "x.csv"}, "force.file cannot be given beside"),
-        ({"time_s": time, "force_n": force, "columns": [1, 2]}, "force.columns cannot be given beside"),
+        ({"time_s": time, "force_n": force, "file": "x.csv"}, "force.file cannot be combined with"),
+        ({"time_s": time, "force_n": force, "columns": [1, 2]}, "force.columns cannot be combined with"),
         ({"time_s": np.arange(131_073.0), "force_n": np.ones(131_073)}, "131073 samples, more than the 131072"),
         ({}, "force.file is missing: .* time_s and force_n"),
     ):

@@ -1,4 +1,4 @@
-//! `hertzlamb chart`: speed against accuracy, and where methods fail.
+//! `hertzlamb chart`: speed and accuracy of all methods, and maps of their failures.
 
 use crate::arguments::Overwrite;
 use crate::failure::{Failure, line, print};
@@ -13,19 +13,19 @@ const EXAMPLES: &str = "Examples:
   hertzlamb chart -o chart-full --force
   hertzlamb chart --quick --check -o chart-check
 
-The folder gets chart.csv, pictures.csv, report.md and the pictures as SVG and PNG.
-Times are those of this machine; run it on an idle one.";
+Writes chart.csv, pictures.csv, report.md and the pictures as SVG and PNG.
+Times are measured on this machine, which should be idle.";
 
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Arguments {
-    /// Few settings and coarse maps: under a minute instead of many.
+    /// Use few settings and coarse maps: under a minute instead of many.
     #[arg(long)]
     quick: bool,
     /// Folder for the chart.
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
-    /// Fail unless the default path is on the Pareto front by time, or the report says why not.
+    /// Fail if the default method is not on the Pareto front of time and the report has no reason for that.
     #[arg(long)]
     check: bool,
     #[command(flatten)]
@@ -49,7 +49,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     ))?;
     let ahead = chart.unexplained().join("; ");
     if arguments.check && !ahead.is_empty() {
-        let told = format!("the default path is not on the Pareto front at {ahead}");
+        let told = format!("the default method is not on the Pareto front at {ahead}");
         return Err(Failure::work(told));
     }
     Ok(())

@@ -15,15 +15,15 @@ use std::sync::Arc;
 use std::time::Instant;
 use tabulator::{Grid, Progress, build};
 
-/// The paper's scene, the same file as in scenes/.
+/// The paper's scene, identical to the file in scenes/.
 const SCENE: &str = include_str!("../copper-on-steel.toml");
 
-/// A ball on glass, whose waves are seen apart.
+/// A ball on glass, with well separated waves.
 const WAVES: &str = include_str!("../waves.toml");
 
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Example:\n  hertzlamb demo -o demo-out\n\nThe kernel table is made when it is missing; results and pictures of an earlier demo are replaced."
+    after_help = "Example:\n  hertzlamb demo -o demo-out\n\nBuilds the kernel table unless it exists in the folder, and replaces results and pictures of an earlier demo."
 )]
 pub(crate) struct Arguments {
     /// Folder for the table, results and pictures.
@@ -35,11 +35,13 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let folder = &arguments.output;
     let shown = folder.display();
     std::fs::create_dir_all(folder)
-        .map_err(|error| Failure::input(format!("cannot make the folder {shown}: {error}")))?;
+        .map_err(|error| Failure::input(format!("cannot create the folder {shown}: {error}")))?;
     let table = folder.join("kernels.h5");
     if !table.exists() {
         let shown = table.display();
-        say(format!("making the demo kernel table {shown} (once)"));
+        say(format!(
+            "building the demo kernel table {shown} (only the first time)"
+        ));
         let summary = build(&Grid::demo(), &table, &Bar::new())?;
         let (points, took_s, bytes) = (summary.points, summary.wall_s, summary.bytes);
         say(format!("{points} points in {took_s:.1} s, {bytes} bytes"));
@@ -66,7 +68,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let files = [&numbers, &results, &picture, &waves, &drawn];
     let [numbers, results, picture, waves, drawn] = files.map(|path| line(path.display()));
     print(format!(
-        "\nall numbers, with reasons  {numbers}\nthe paper's impact         {results}, {picture}\nwaves under a ball         {waves}, {drawn}"
+        "\nall numbers, explained     {numbers}\nthe paper's impact         {results}, {picture}\nwaves under a ball         {waves}, {drawn}"
     ))
 }
 
@@ -74,7 +76,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
 fn waves(folder: &Path) -> Result<[PathBuf; 2], Failure> {
     let scene = parse_scene(WAVES, Path::new(".")).map_err(Failure::work)?;
     say(format!(
-        "waves under a 2 mm steel ball that falls 20 cm on glass, at {} points",
+        "computing the waves under a 2 mm steel ball that falls 20 cm onto glass, at {} points",
         scene.points()
     ));
     let bar = Bar::new();
@@ -88,7 +90,7 @@ fn waves(folder: &Path) -> Result<[PathBuf; 2], Failure> {
     kept(&scene, &outcome, folder.join("waves.vtkhdf"))
 }
 
-/// Writes a results file, and beside it a picture as `hertzlamb plot` draws it; gives both.
+/// Writes a results file and its picture as drawn by `hertzlamb plot`; returns both paths.
 fn kept(scene: &Scene, outcome: &Outcome, results: PathBuf) -> Result<[PathBuf; 2], Failure> {
     write_results(&results, scene, outcome, Existing::Replace)?;
     let (figure, _) = compose(std::slice::from_ref(&results), &Request::default())?;

@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 use tabulator::Progress;
 
-/// An impact that takes longer says how far it is.
+/// An impact that takes longer shows its progress.
 const PATIENCE: Duration = Duration::from_secs(1);
 
 #[derive(Debug, Args)]
@@ -31,17 +31,17 @@ pub(crate) struct Arguments {
     /// Results file (HDF5, see data-schema/results.md).
     #[arg(short, long, value_name = "OUT.h5")]
     output: Option<PathBuf>,
-    /// The time series and the traces of the probes as text, one line a sample.
+    /// Also write the time series and the traces of the probes as text, one line per sample.
     #[arg(long, value_name = "OUT.csv")]
     csv: Option<PathBuf>,
-    /// Succeed at once where the output is whole and of the same scene, kernels and version; fail with 1 where it is not.
+    /// If the output exists: succeed at once if it is complete and of the same scene, kernels and version, fail with exit code 1 otherwise.
     #[arg(long, requires = "output", conflicts_with = "force")]
     skip_complete: bool,
     #[command(flatten)]
     overwrite: Overwrite,
     #[command(flatten)]
     memory: MemoryLimit,
-    /// Say what the scene takes, once its force is known, and compute no more.
+    /// Solve the contact only and print the time, memory and disk space that the fields would need.
     #[arg(long, conflicts_with_all = ["output", "csv"])]
     dry_run: bool,
     /// Print one JSON object instead of text.
@@ -76,7 +76,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         found => found?,
     };
     drop(progress);
-    // all of them, or none where one fails
+    // all outputs get their names, or none if one fails
     let stage = |output| stage_results(output, &scene, &outcome);
     let results = output.as_ref().map(stage).transpose()?;
     let stage = |csv| stage_results_csv(csv, &scene, &outcome);
@@ -113,7 +113,7 @@ impl Display for ImpactReport<'_> {
     }
 }
 
-/// Prints what a scene takes.
+/// Prints the cost of a scene.
 fn plan(arguments: &Arguments, scene: &Scene, forecast: &Forecast) -> Result<(), Failure> {
     let report = ScenePlan {
         points: forecast.points,
@@ -135,7 +135,7 @@ fn plan(arguments: &Arguments, scene: &Scene, forecast: &Forecast) -> Result<(),
     show(arguments.json, &report)
 }
 
-/// Time, memory and disk that a scene takes.
+/// Time, memory and disk space that a scene needs.
 #[derive(Serialize)]
 struct ScenePlan {
     points: usize,
@@ -149,7 +149,7 @@ struct ScenePlan {
     text: String,
 }
 
-/// How the fields of a probe, numbered from 1, or of the section are computed.
+/// Method for the fields of a probe (numbered from 1) or of the section.
 #[derive(Serialize)]
 struct PlannedRoad {
     probe: Option<usize>,
@@ -175,7 +175,7 @@ impl From<&Road> for PlannedRoad {
     }
 }
 
-/// A line on how the fields of a probe or of the section are computed.
+/// One line about the method for a probe or the section.
 fn along(road: &Road) -> String {
     let name = match road.probe {
         Some(probe) => format!("probe {}", probe + 1),
@@ -201,7 +201,7 @@ fn along(road: &Road) -> String {
         short if short < 1.0 => format!("{:.0} ms", (1e3 * short).max(1.0)),
         long => format!("{long:.1} s"),
     };
-    format!("{name}: {discs}{integrated}; {time} of one thread")
+    format!("{name}: {discs}{integrated}; {time} on one thread")
 }
 
 impl Display for ScenePlan {
@@ -210,14 +210,14 @@ impl Display for ScenePlan {
     }
 }
 
-/// The output that may stay and is there already, as this command would write it.
+/// The output, if `--skip-complete` is set and the output exists as this command would write it.
 fn complete<'a>(arguments: &'a Arguments, scene: &Scene) -> Result<Option<&'a Path>, Failure> {
     let may_stay = |path: &&Path| arguments.skip_complete && path.exists();
     let Some(output) = arguments.output.as_deref().filter(may_stay) else {
         return Ok(None);
     };
     HDF5.check(output)?;
-    // also removes what a killed run has left beside them
+    // also removes temporary files that a killed run has left next to them
     for path in iter::once(output).chain(arguments.csv.as_deref()) {
         Output::claim(path, Existing::Replace)?;
     }
@@ -225,7 +225,7 @@ fn complete<'a>(arguments: &'a Arguments, scene: &Scene) -> Result<Option<&'a Pa
     check_results(output, scene, direct, id.as_deref()).map_err(Failure::work)?;
     match &arguments.csv {
         Some(csv) if !csv.exists() => Err(Failure::work(format!(
-            "{} is whole, but {} is not there: leave --skip-complete out to add it",
+            "{} is complete, but {} does not exist: leave --skip-complete out to add it",
             output.display(),
             csv.display()
         ))),
@@ -233,8 +233,8 @@ fn complete<'a>(arguments: &'a Arguments, scene: &Scene) -> Result<Option<&'a Pa
     }
 }
 
-/// Whether the first of two outputs is there and whole, and the second is not: a run that was killed between their names, or
-/// could not write the second, has left it so, and the same command goes on.
+/// Whether the first of two outputs exists and is complete and the second does not exist. A run that was killed between
+/// the two renames, or could not write the second, leaves this state, and the same command may resume from it.
 fn is_half_done(arguments: &Arguments, scene: &Scene) -> bool {
     let (Some(output), Some(csv)) = (&arguments.output, &arguments.csv) else {
         return false;
@@ -247,7 +247,7 @@ fn is_half_done(arguments: &Arguments, scene: &Scene) -> bool {
             .is_ok_and(|(direct, id)| check_results(output, scene, direct, id.as_deref()).is_ok())
 }
 
-/// The results file and the table as text, where they are asked for.
+/// Claims the results file and the text file, as far as they are requested.
 fn outputs(
     arguments: &Arguments,
     scene: &Scene,
@@ -268,12 +268,12 @@ fn outputs(
         });
         claimed.transpose()
     };
-    // both, also where one is refused: claiming removes what a killed run has left beside it
+    // claims both, even if one is rejected: claiming removes temporary files that a killed run has left next to the output
     let (output, csv) = (claim(&arguments.output, HDF5), claim(&arguments.csv, CSV));
     Ok([output?, csv?])
 }
 
-/// Seconds from which on a scene says what it will take.
+/// A scene that takes more seconds than this prints its cost first.
 const LONG_S: f64 = 5.0;
 
 fn takes(forecast: &Forecast) -> String {

@@ -1,4 +1,4 @@
-//! `hertzlamb infer`: yield pressure or velocity from a rebound.
+//! `hertzlamb infer`: yield pressure or velocity from a measured rebound.
 
 use crate::failure::{Failure, lines, show};
 use crate::report::si;
@@ -19,28 +19,28 @@ const EXAMPLES: &str = "Examples:
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES, group(ArgGroup::new("measured").required(true)))]
 pub(crate) struct Arguments {
-    /// The scene (TOML) with a plasticity; what is sought is not taken from it.
+    /// Scene file (TOML) with contact.plasticity; its value of the unknown is ignored.
     scene: PathBuf,
-    /// Velocity of departure over that of approach.
+    /// Measured ratio of the rebound velocity to the impact velocity.
     #[arg(long, group = "measured", value_name = "E")]
     restitution: Option<f64>,
-    /// Times in s between three bounces: the second over the first is the restitution of the bounce between, whose
-    /// velocity follows from the first.
+    /// Measured times in s between three bounces. Their ratio is the restitution of the middle bounce, whose velocity
+    /// follows from the first time.
     #[arg(long, group = "measured", value_name = "T1,T2", value_delimiter = ',')]
     bounces: Option<Vec<f64>>,
-    /// Duration of the contact in s.
+    /// Measured duration of the contact in s.
     #[arg(long, group = "measured", value_name = "SECONDS")]
     contact_time: Option<f64>,
-    /// Largest force in N.
+    /// Measured largest force in N.
     #[arg(long, group = "measured", value_name = "NEWTONS")]
     peak_force: Option<f64>,
-    /// Absolute error of what was measured, of both times for bounces.
+    /// Absolute error of the measured value; for bounces, of each of the two times.
     #[arg(long, default_value_t = 0.0)]
     error: f64,
-    /// What is sought.
+    /// Scene key to infer.
     #[arg(long, value_name = "KEY", default_value = "yield_pressure_pa", value_parser = PossibleValuesParser::new(Unknown::ALL.iter().map(|unknown| unknown.name())))]
     unknown: String,
-    /// Print a JSON object.
+    /// Print one JSON object instead of text.
     #[arg(long)]
     json: bool,
 }
@@ -68,11 +68,11 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     show(arguments.json, &report)
 }
 
-/// Yield pressure or velocity that was found.
+/// The inferred yield pressure or velocity.
 struct InferReport {
     unknown: Unknown,
     found: Inferred,
-    /// Name of the law of flow.
+    /// Name of the plasticity law.
     law: &'static str,
     value: Value,
 }
@@ -98,15 +98,14 @@ impl Display for InferReport {
             (unknown.words(), format!("{value} ({low} to {high})")),
             (
                 "yield",
-                format!("from {yields} on, {over:.4} times that here"),
+                format!("{over:.4} times the onset velocity, {yields}"),
             ),
             ("restitution", format!("{:.6}", results.restitution)),
             ("contact time", si(results.contact_time_s, "s")),
             ("peak force", si(results.peak_force_n, "N")),
         ];
         if found.elastic {
-            let told =
-                "the measure is that of an elastic contact: any higher yield pressure has it";
+            let told = "the measured value is that of an elastic contact: any higher yield pressure gives it";
             text.push(("note", told.to_owned()));
         }
         if let Some(over) = results
@@ -115,7 +114,7 @@ impl Display for InferReport {
             .filter(|&over| over > 1.0)
         {
             let told = format!(
-                "{over:.1} times as fast as plasticity = \"{}\" is trusted",
+                "{over:.1} times the largest velocity for which plasticity = \"{}\" is valid",
                 self.law
             );
             text.push(("note", told));

@@ -1,4 +1,4 @@
-//! `hertzlamb materials`: lists and searches the library.
+//! `hertzlamb materials`: lists and searches the materials library.
 
 use crate::failure::{Failure, line, print};
 use clap::Args;
@@ -14,7 +14,7 @@ use std::path::PathBuf;
 pub(crate) struct Arguments {
     /// Part of a name, group or source.
     search: Option<String>,
-    /// A file of further materials (TOML, see data-schema/scene.md).
+    /// File with further materials (TOML, see data-schema/scene.md).
     #[arg(long, value_name = "FILE")]
     file: Option<PathBuf>,
     /// Print a JSON array instead of a table.
@@ -22,7 +22,7 @@ pub(crate) struct Arguments {
     json: bool,
 }
 
-/// Over the columns of [`text`].
+/// Header over the columns of [`text`].
 const HEAD: &str = "\
 name                     group            E     nu    rho     c1     c2     Ry     Rm    KIc  source
                                         GPa         kg/m3    m/s    m/s    MPa    MPa  MPa√m";
@@ -56,7 +56,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let found: Vec<&Material> = library.search(word).collect();
     if found.is_empty() {
         return Err(Failure::input(format!(
-            "no material matches \"{word}\"; hertzlamb materials lists them all"
+            "no material matches \"{word}\"; `hertzlamb materials` lists all"
         )));
     }
     if arguments.json {

@@ -1,4 +1,4 @@
-//! One file per subcommand; the arguments, the call of the library, and what is printed.
+//! One file per subcommand: its arguments, the call of the library, and its printed report.
 
 pub(crate) mod chart;
 pub(crate) mod demo;

@@ -1,4 +1,4 @@
-//! `hertzlamb paper`: the source paper's numbers and figures beside those of this program.
+//! `hertzlamb paper`: comparison of the source paper's numbers and figures with those of this program.
 
 use crate::arguments::Overwrite;
 use crate::failure::{Failure, line, print};
@@ -10,8 +10,8 @@ use std::path::PathBuf;
 const EXAMPLES: &str = "Example:
   hertzlamb paper -o paper
 
-The folder gets report.md, numbers.csv, claims.csv, and an SVG, a PNG and a CSV of curves for each of the Figures 4 to 11
-and for the time step.";
+Writes report.md, numbers.csv and claims.csv.
+Also writes an SVG, a PNG and a CSV for each of Figures 4 to 11 and for a figure of the time step.";
 
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]

@@ -1,4 +1,4 @@
-//! `hertzlamb plot`: pictures of what was computed.
+//! `hertzlamb plot`: pictures of results.
 
 use crate::arguments::Overwrite;
 use crate::failure::{Failure, line, print, say};
@@ -22,73 +22,73 @@ const EXAMPLES: &str = "Examples:
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Arguments {
-    /// Files of impacts or sweeps, or a kernel table; several impacts are drawn over each other.
+    /// Results of impacts or of a sweep, or a kernel table; several impacts share one picture.
     #[arg(required = true, value_name = "FILE.h5")]
     files: Vec<PathBuf>,
-    /// The picture; its ending, .svg, .png, .pdf or .gif (an animation), says what it becomes.
+    /// Picture to write. The file extension sets the format: .svg, .png, .pdf or .gif (an animation).
     #[arg(short, long, value_name = "PICTURE")]
     output: PathBuf,
-    /// What is shown; without it what suits the file.
+    /// Kind of picture. Default: the one that suits the file.
     #[arg(long, value_name = "KIND", value_parser = kinds())]
     kind: Option<String>,
-    /// Quantities by their names in the file, divided by commas.
+    /// Quantities by their names in the file, comma-separated.
     #[arg(long, value_name = "NAME", value_delimiter = ',')]
     quantity: Vec<String>,
-    /// Times in s at which fields are shown, divided by commas.
+    /// Times in s at which fields are shown, comma-separated.
     #[arg(long, value_name = "SECONDS", value_delimiter = ',', value_parser = number)]
     times: Vec<f64>,
     /// Number of frames of a section. Default: 4 in a picture, up to 120 in an animation.
     #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u16).range(1..=2000))]
     frames: Option<u16>,
-    /// Times in s from and to which the time axis runs, or the frames of a section.
+    /// Limits in s of the time axis, or of the frames of a section.
     #[arg(long, value_name = "FROM:TO", value_parser = interval, allow_hyphen_values = true)]
     span: Option<(f64, f64)>,
-    /// The key of a sweep along x; without it the one with the most numbers.
+    /// Key of a sweep on the x axis. Default: the key with the most numbers.
     #[arg(long, value_name = "KEY")]
     along: Option<String>,
-    /// A key of a sweep with the value at which it is held; may be given again.
+    /// Fixed value of a key of a sweep; may be repeated for other keys.
     #[arg(long, value_name = "KEY=VALUE", value_parser = held)]
     at: Vec<(String, String)>,
     /// Limits of the colour scale, or of the y axis if there are no colours, in SI units.
     #[arg(long, value_name = "LOW:HIGH", value_parser = interval, allow_hyphen_values = true)]
     limits: Option<(f64, f64)>,
-    /// Use a logarithmic colour scale or y axis, or axis of values of a histogram; of values with a sign, it shows the sizes.
+    /// Use a logarithmic scale for colours, the y axis or the values of a histogram. Signed values are shown by their magnitude.
     #[arg(long)]
     log: bool,
-    /// Use a linear colour scale or y axis, or axis of values of a histogram, and linear keys of a sweep.
+    /// Use a linear scale for colours, the y axis, the values of a histogram and the keys of a sweep.
     #[arg(long, conflicts_with = "log")]
     linear: bool,
-    /// Title; without it one that says what strikes what.
+    /// Title of the picture. Default: a description of the impact.
     #[arg(long)]
     title: Option<String>,
-    /// Width in pixels of 1/96 inch; 321 is a column of a journal.
+    /// Width in pixels of 1/96 inch; 321 fits a journal column.
     #[arg(long, value_name = "PIXELS", value_parser = clap::value_parser!(u16).range(160..=8000))]
     width: Option<u16>,
-    /// Pixels of a PNG for each of its own. Default: 2.
+    /// Resolution of a PNG as a multiple of 96 pixels per inch. Default: 2.
     #[arg(long, value_name = "FACTOR", value_parser = clap::value_parser!(u8).range(1..=4))]
     scale: Option<u8>,
     #[command(flatten)]
     overwrite: Overwrite,
 }
 
-/// A key and its value.
+/// Parses KEY=VALUE.
 fn held(text: &str) -> Result<(String, String), String> {
     let both = text.split_once('=');
     let both = both.map(|(key, value)| (key.trim().to_owned(), value.trim().to_owned()));
     both.ok_or_else(|| format!("{text} is not KEY=VALUE, such as target.material=steel"))
 }
 
-/// Two numbers.
+/// Parses LOW:HIGH.
 fn interval(text: &str) -> Result<(f64, f64), String> {
     let ends = text.split_once(':');
     let ends = ends.and_then(|(low, high)| Some((number(low).ok()?, number(high).ok()?)));
     ends.ok_or_else(|| format!("{text} is not LOW:HIGH, such as -2e6:2e6"))
 }
 
-/// A finite number.
+/// Parses a finite number.
 fn number(text: &str) -> Result<f64, String> {
     let found = text.trim().parse().ok().filter(|x: &f64| x.is_finite());
-    found.ok_or_else(|| format!("{text} is no finite number"))
+    found.ok_or_else(|| format!("{text} is not a finite number"))
 }
 
 fn kinds() -> PossibleValuesParser {
@@ -97,12 +97,16 @@ fn kinds() -> PossibleValuesParser {
     PossibleValuesParser::new(PictureKind::ALL.iter().map(value))
 }
 
-/// The end of a picture's name, which says what it becomes.
+/// The file extension of a picture, which sets its format.
 fn ending(path: &Path) -> Result<String, Failure> {
     let ending = path.extension().map(|e| e.to_string_lossy().to_lowercase());
     let known = ending.filter(|end| ["svg", "png", "pdf", "gif"].contains(&end.as_str()));
     let path = path.display();
-    let otherwise = || Failure::input(format!("{path} does not end in .svg, .png, .pdf or .gif"));
+    let otherwise = || {
+        Failure::input(format!(
+            "{path} does not have the extension .svg, .png, .pdf or .gif"
+        ))
+    };
     known.ok_or_else(otherwise)
 }
 
@@ -110,7 +114,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let ending = ending(&arguments.output)?;
     if ending != "png" && arguments.scale.is_some() {
         let output = arguments.output.display();
-        let sentence = format!("{output} does not use --scale: only a .png has pixels of its own");
+        let sentence = format!("--scale does not apply to {output}: only a .png has a resolution");
         return Err(Failure::input(sentence));
     }
     let files = arguments.files.iter().cloned();
@@ -158,7 +162,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     print(line(arguments.output.display()))
 }
 
-/// A picture that was not drawn, with what to do.
+/// Failure to draw a picture, with a hint.
 fn failure(error: PlotError) -> Failure {
     let hint = match &error {
         PlotError::NoAxis(_) => "; sweep --csv writes its rows".to_owned(),
@@ -166,22 +170,22 @@ fn failure(error: PlotError) -> Failure {
             example: Some(example),
             ..
         } => format!(", such as by --at {example}"),
-        PlotError::NoSlice(_) => ": hertzlamb table verify says what is wrong with it".to_owned(),
+        PlotError::NoSlice(_) => ": `hertzlamb table verify` lists the defects".to_owned(),
         _ => String::new(),
     };
     Failure::from(error).hint_if(true, &hint)
 }
 
-/// Pixels of a PNG for each of its own, unless asked for.
+/// Default of `--scale`.
 const PNG_SCALE: u8 = 2;
 
-/// How long a frame of an animation is shown in s.
+/// Time in s for which a frame of an animation is shown.
 const FRAME_S: f64 = 0.06;
 
-/// Narrower than this, panels stand below one another.
+/// In pictures narrower than this, panels are stacked in one column.
 const COLUMN: f64 = 480.0;
 
-/// Of another width, with text that suits it.
+/// The figure with another width and a text size that suits it.
 fn sized(mut figure: Figure, width: f64) -> Figure {
     if width < COLUMN {
         figure.columns = 1;

@@ -1,4 +1,4 @@
-//! `hertzlamb table`: looks at finished tables and joins shards.
+//! `hertzlamb table`: inspects finished tables and joins shards.
 
 use crate::arguments::Overwrite;
 use crate::commands::tabulate;
@@ -32,27 +32,27 @@ pub(crate) struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum TableAction {
-    /// Says what a table covers, how it was made and how exact it is.
+    /// Prints the range, origin and accuracy of a table.
     Info {
         /// Kernel table.
         table: PathBuf,
     },
-    /// Checks checksums, completeness and finiteness, and computes a sample of nodes again.
+    /// Checks checksums, completeness and finite values, and recomputes a sample of nodes.
     Verify {
         /// Kernel table.
         table: PathBuf,
-        /// Nodes to compute again.
+        /// Number of nodes to recompute.
         #[arg(long, default_value_t = 50)]
         sample: usize,
-        /// Picks the nodes; another one at each call unless given, and said.
+        /// Seed of the sample. Default: a different one at each call, which the report prints.
         #[arg(long)]
         seed: Option<u64>,
     },
-    /// Compares two tables, apart from their creation time; exit code 1 if they differ.
+    /// Compares two tables except for their creation times; exit code 1 if they differ.
     Diff {
-        /// Kernel table.
+        /// First kernel table.
         first: PathBuf,
-        /// Kernel table.
+        /// Second kernel table.
         second: PathBuf,
     },
     /// Joins the shards of one table.
@@ -60,7 +60,7 @@ enum TableAction {
         /// Files made with `hertzlamb tabulate --shard`.
         #[arg(required = true)]
         shards: Vec<PathBuf>,
-        /// The table to write.
+        /// Table to write.
         #[arg(short, long, value_name = "OUT.h5")]
         output: PathBuf,
         #[command(flatten)]
@@ -91,7 +91,7 @@ fn info(path: &Path, json: bool) -> Result<(), Failure> {
     show(json, &TableInfo { path, table, value })
 }
 
-/// A table, how it was made and how exact it is.
+/// Range, origin and accuracy of a table.
 struct TableInfo<'a> {
     path: &'a Path,
     table: Table,
@@ -121,7 +121,7 @@ impl Display for TableInfo<'_> {
              Poisson ratios  {:?}\n\
              r               0 .. {} r0, {} nodes\n\
              z               0 .. {} r0, {} nodes\n\
-             time            cells of {} r0/c1, {cells} of them, then a tail\n\
+             time            {cells} cells of {} r0/c1 per slice, then a tail\n\
              interpolation   {} points\n{}",
             line(self.path.display()),
             value["bytes"].as_f64().unwrap_or(0.0) / 1e6,
@@ -142,7 +142,7 @@ impl Display for TableInfo<'_> {
 }
 
 fn verify(path: &Path, sample: usize, seed: Option<u64>, json: bool) -> Result<(), Failure> {
-    // another one at each call: the time in seconds
+    // the time in seconds differs at each call
     let time = || std::time::UNIX_EPOCH.elapsed();
     let seed = seed.unwrap_or_else(|| time().map_or(1, |time| time.as_secs()));
     let found = check_table(path, sample, seed).map_err(tabulate::failure)?;
@@ -165,7 +165,7 @@ fn verify(path: &Path, sample: usize, seed: Option<u64>, json: bool) -> Result<(
     Err(Failure::work(report.wrong(sample)))
 }
 
-/// A table whose checksums were compared, with a sample of nodes computed again.
+/// Report of a verified table.
 #[derive(Serialize)]
 struct Verified {
     file: String,
@@ -180,7 +180,7 @@ struct Verified {
 impl Display for Verified {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let text = format!(
-            "{}: complete, checksum right, {} nodes of seed {} computed again, largest difference {:.1e}",
+            "{}: complete, checksum right, {} nodes (seed {}) recomputed, largest relative difference {:.1e}",
             self.file, self.nodes_checked, self.seed, self.largest_relative_difference
         );
         f.write_str(&line(text))
@@ -188,7 +188,7 @@ impl Display for Verified {
 }
 
 impl Verified {
-    /// Everything that is wrong, in one line.
+    /// All defects, in one line.
     fn wrong(&self, sample: usize) -> String {
         let first = |list: &[String]| match list.split_at_checked(5) {
             Some((first, more @ [_, ..])) => {
@@ -200,14 +200,14 @@ impl Verified {
         let mut parts = Vec::new();
         if !damaged.is_empty() {
             let patches = first(damaged);
-            parts.push(format!("damaged, nodes that cannot be read: {patches}"));
+            parts.push(format!("damaged, unreadable nodes: {patches}"));
         } else if !self.hash_right {
-            parts.push("the content is not that of content_sha256, it was changed".to_owned());
+            parts.push("the content was changed, it does not match content_sha256".to_owned());
         }
         if !bad.is_empty() {
             parts.push(format!("{} wrong: {}", bad.len(), first(bad)));
         } else if damaged.is_empty() {
-            let advice = format!("no wrong node among {sample}, try a larger --sample");
+            let advice = format!("no wrong node in a sample of {sample}, try a larger --sample");
             parts.push(advice);
         }
         format!("{}: {}", self.file, parts.join("; "))
@@ -239,7 +239,7 @@ struct Compared {
 impl Display for Compared {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         if self.same {
-            return f.write_str("the tables hold the same");
+            return f.write_str("the tables are identical");
         }
         let found: Vec<String> = self.differences.iter().map(line).collect();
         f.write_str(&found.join("\n"))
@@ -260,7 +260,7 @@ fn join(shards: &[PathBuf], output: &Path, existing: Existing, json: bool) -> Re
     show(json, &report)
 }
 
-/// A table that was joined from shards.
+/// Report of a table joined from shards.
 #[derive(Serialize)]
 struct Joined {
     file: String,

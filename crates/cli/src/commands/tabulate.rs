@@ -24,46 +24,48 @@ const EXAMPLES: &str = "Examples:
   hertzlamb tabulate --grid standard --shard 2/4 -o 2.shard
   hertzlamb tabulate --grid wide --plan
 
-An interrupted build goes on where it stopped when the same command is given again.";
+To resume an interrupted build, run the same command again.";
 
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Arguments {
-    /// A preset (demo, standard, wide) or a grid file (TOML, see data-schema/kernel-table.md); demo if the output is new.
+    /// Grid of a new table: a preset (demo, standard, wide) or a grid file (TOML, see data-schema/kernel-table.md).
+    /// Default: demo.
     #[arg(long, value_name = "PRESET|FILE.toml")]
     grid: Option<String>,
-    /// Poisson ratios, comma-separated: instead of those of the grid, or, without --grid, slices to add to the output if it exists.
+    /// Poisson ratios, comma-separated. They replace those of the grid; without --grid they are added to an existing output.
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = ratio)]
     nu: Option<Vec<f64>>,
-    /// Serve radii up to this, in r0; extends the output if it exists.
+    /// Largest radius in units of r0; extends an existing output.
     #[arg(long, value_name = "R0")]
     r_max: Option<f64>,
-    /// Serve depths up to this, in r0; extends the output if it exists.
+    /// Largest depth in units of r0; extends an existing output.
     #[arg(long, value_name = "R0")]
     z_max: Option<f64>,
-    /// End the time cells at this multiple of the last arrival; extends the output if it exists.
+    /// End of the time cells as a multiple of the last arrival; extends an existing output.
     #[arg(long, value_name = "FACTOR")]
     time_factor: Option<f64>,
-    /// Choose the spacing so that off-grid errors over the peak in time stay below this.
+    /// Choose the spacing such that errors between grid points, relative to the peak in time, stay below ERROR.
     #[arg(long, value_name = "ERROR", requires = "pulse")]
     tol: Option<f64>,
-    /// Length of the pulses that --tol is meant for, in r0/c1.
+    /// Pulse length for --tol, in units of r0/c1.
     #[arg(long, value_name = "LENGTH", requires = "tol")]
     pulse: Option<f64>,
-    /// The table to write.
+    /// Table to write.
     #[arg(short, long, value_name = "OUT.h5", required_unless_present = "plan")]
     output: Option<PathBuf>,
-    /// Compute a few points and print the time, memory and size of the table; nothing is written.
+    /// Compute a few points and print the time, memory and size that the table needs; write nothing.
     #[arg(long, conflicts_with_all = ["output", "shard", "skip_complete", "force"])]
     plan: bool,
-    /// Succeed at once where the output is a whole table of this grid and version; fail with 1 where it is not.
+    /// If the output exists: succeed at once if it is a complete table of this grid and version, fail with exit code 1
+    /// otherwise.
     #[arg(long, conflicts_with = "force")]
     skip_complete: bool,
     #[command(flatten)]
     overwrite: Overwrite,
     #[command(flatten)]
     memory: MemoryLimit,
-    /// Compute part I of N into the output, which is then a shard for `hertzlamb table merge`.
+    /// Compute part I of N into the output, a shard for `hertzlamb table merge`.
     #[arg(long, value_name = "I/N", conflicts_with = "force")]
     shard: Option<Shard>,
     /// Print one JSON object instead of text.
@@ -85,9 +87,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
 }
 
-/// Prints what the table of a grid takes.
+/// Prints the cost of a table.
 fn plan(arguments: &Arguments) -> Result<(), Failure> {
-    /// Time in s of the measurement, about.
+    /// Approximate time of the measurement in s.
     const MEASURED_S: f64 = 2.0;
     let found = grid(arguments)?
         .cost(MEASURED_S, processor_s)
@@ -105,7 +107,7 @@ fn plan(arguments: &Arguments) -> Result<(), Failure> {
     show(arguments.json, &report)
 }
 
-/// Time, memory and disk that a table takes.
+/// Time, memory and disk space that a table needs.
 #[derive(Serialize)]
 struct TablePlan {
     points: usize,
@@ -125,8 +127,8 @@ impl Display for TablePlan {
             "{:.0} s on {} threads, from {} points",
             self.seconds, self.threads, self.measured_points
         );
-        let memory = format!("{memory:.2} GB; a shard takes its part of it");
-        let size = format!("{size:.2} GB at most, a third of it as a rule: the file is compressed");
+        let memory = format!("{memory:.2} GB; a shard needs its fraction of it");
+        let size = format!("at most {size:.2} GB, usually a third of that: the file is compressed");
         f.write_str(&lines([
             ("points", points),
             ("time", time),
@@ -160,7 +162,7 @@ fn tabulate(arguments: &Arguments, output: &Path) -> Result<(), Failure> {
     let beside = arguments.shard.map_or(".journal", |_| "");
     let place = format!("{}{beside}", output.display());
     process::say_then(move || {
-        format!("what is finished is kept in {place}; the same command goes on with it")
+        format!("finished blocks are kept in {place}; run the same command again to resume")
     });
     if let Some(extension) = extension(arguments, output) {
         let summary = extend(output, &extension, &Bar::new()).map_err(failure)?;
@@ -170,14 +172,14 @@ fn tabulate(arguments: &Arguments, output: &Path) -> Result<(), Failure> {
         return show(arguments.json, &report);
     }
     let grid = grid(arguments)?;
-    // ends at once where it has all its blocks
+    // ends at once if the shard has all its blocks
     if let Some(shard) = arguments.shard {
         let blocks = build_shard(&grid, shard, output, &Bar::new()).map_err(failure)?;
         let file = output.display().to_string();
         return show(arguments.json, &ShardReport { file, blocks });
     }
     if arguments.skip_complete && output.exists() {
-        // also removes what a killed run has left beside it
+        // also removes temporary files that a killed run has left next to the output
         Output::claim(output, Existing::Replace)?;
         check_complete(output, &grid)?;
         return say_complete(output, arguments.json);
@@ -190,7 +192,7 @@ fn tabulate(arguments: &Arguments, output: &Path) -> Result<(), Failure> {
     show(arguments.json, &TableReport::new(&grid, output, summary))
 }
 
-/// Fails where a file is not the whole table of a grid, made by this version.
+/// Fails if a file is not the complete table of a grid, made by this version.
 fn check_complete(path: &Path, grid: &Grid) -> Result<(), Failure> {
     let origin = lookup::check_whole(path).map_err(Failure::work)?;
     let (version, revision) = (&origin.software_version, origin.numbers_revision);
@@ -200,7 +202,7 @@ fn check_complete(path: &Path, grid: &Grid) -> Result<(), Failure> {
         format!("was made by version {version}")
     } else if revision != NUMBERS_REVISION {
         format!(
-            "has numbers of revision {revision}, where this version computes revision {NUMBERS_REVISION}"
+            "has numbers of revision {revision}, but this version computes revision {NUMBERS_REVISION}"
         )
     } else {
         return Ok(());
@@ -209,7 +211,7 @@ fn check_complete(path: &Path, grid: &Grid) -> Result<(), Failure> {
     Err(Failure::work(format!("{path} is a table that {other}")))
 }
 
-/// What to add to the output, if it exists and no new table was asked for.
+/// The extension of an existing output, if no new table is requested.
 fn extension(arguments: &Arguments, output: &Path) -> Option<Extension> {
     let extension = Extension {
         exact_ratios: arguments.nu.clone().unwrap_or_default(),
@@ -226,7 +228,7 @@ fn extension(arguments: &Arguments, output: &Path) -> Option<Extension> {
     (more && !new && output.exists()).then_some(extension)
 }
 
-/// The settings of a new table.
+/// The grid of a new table.
 fn grid(arguments: &Arguments) -> Result<Grid, Failure> {
     let most = [arguments.r_max, arguments.z_max, arguments.time_factor];
     let name = arguments.grid.as_deref().unwrap_or("demo");
@@ -249,7 +251,7 @@ fn grid(arguments: &Arguments) -> Result<Grid, Failure> {
     Ok(grid)
 }
 
-/// A table that was written.
+/// Report of a written table.
 #[derive(Serialize)]
 struct TableReport {
     file: String,
@@ -305,10 +307,10 @@ impl Display for TableReport {
     }
 }
 
-/// The errors of the worst field in each region, for each length of the pulse.
+/// The errors of the worst field in each region, for each pulse length.
 pub(crate) fn errors_in_words(accuracy: &[Accuracy]) -> String {
     let mut text =
-        "measured off the grid, error over the peak in time, of the worst field: 50 %, 99 %, most"
+        "errors measured between grid points, relative to the peak in time, of the worst field: median, 99 %, maximum"
             .to_owned();
     for measured in accuracy {
         let length = measured.pulse_length;
@@ -326,12 +328,12 @@ pub(crate) fn errors_in_words(accuracy: &[Accuracy]) -> String {
     text
 }
 
-/// Whether the name of a grid is that of a file.
+/// Whether a grid is named by a file.
 fn is_file(name: &str) -> bool {
     name.ends_with(".toml")
 }
 
-/// A table that was not built.
+/// Failure to build a table.
 pub(crate) fn failure(error: BuildError) -> Failure {
     let other = matches!(error, BuildError::Output(OutputError::Begun(..)));
     Failure::from(error).hint_if(other, "; a new table with --force replaces it")

@@ -81,7 +81,7 @@ impl Material {
         Ok(())
     }
 
-    /// The density in kg/m^3, or the error that says what needs it.
+    /// The density in kg/m^3, or the error with the purpose that requires it.
     pub(crate) fn density_for(&self, purpose: &'static str) -> Result<f64, BodyError> {
         self.density_kg_m3.ok_or_else(|| BodyError::NoDensity {
             material: self.name.clone(),
@@ -136,7 +136,7 @@ pub fn from_wave_speeds(longitudinal_m_s: f64, shear_m_s: f64, density_kg_m3: f6
 #[non_exhaustive]
 pub enum BodyError {
     /// A material without a density where waves or a mass need one.
-    #[error("the material {material} has no density, which {purpose} needs")]
+    #[error("the material {material} has no density, which {purpose} requires")]
     NoDensity {
         /// Name of the material.
         material: String,

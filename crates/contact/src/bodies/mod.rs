@@ -1,7 +1,7 @@
 //! The two bodies of an impact, and how fast one falls.
 //!
-//! `material` and `library` are what they are made of, `shape` is that from which mass and tip follow, `strength` has the strengths,
-//! `wave_speeds` when waves and echoes arrive.
+//! `material` and `library` describe their materials, `shape` determines mass and tip, `strength` has the strengths,
+//! and `wave_speeds` the arrival times of waves and echoes.
 
 pub(crate) mod library;
 pub(crate) mod material;
@@ -118,7 +118,7 @@ impl Striker {
             Shape::Ball { .. } | Shape::Rod { .. } => ("diameter_m", diameter_m),
         };
         let has_mass = mass_kg > 0.0 && mass_kg < f64::INFINITY;
-        let range = "the sizes whose mass is in [1e-30, 1e30] kg";
+        let range = "the range of sizes with a mass in [1e-30, 1e30] kg";
         check(has_mass, quantity, size_m, range)?;
         let mut striker = Self::new(material, mass_kg, shape.tip_radius_m())?;
         striker.length_m = shape.length_m();

@@ -129,7 +129,7 @@ pub(crate) struct Relaxation<F> {
 /// Steps of memory up to which only its zeroth moment counts.
 const SHORT_MEMORY: f64 = 0.1;
 
-/// Steps of memory beyond which the samples resolve what happens at the touch and at the end.
+/// Number of memory steps above which the samples resolve the beginning and the end of the contact.
 pub(crate) const RESOLVED: f64 = 3.0;
 
 impl Relaxation<()> {

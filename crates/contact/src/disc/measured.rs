@@ -78,7 +78,7 @@ impl Summary {
 
 /// Velocity of departure and loss.
 ///
-/// Hertz's spring gives back what it takes, so the loss is the work int p dw: an error of this sum
+/// Hertz's spring returns its work, so the loss is the work int p dw: an error of this sum
 /// is relative to the loss however small it is, that of the momentum is relative to all energy.
 fn departure(velocity: f64, history: &History) -> (f64, f64) {
     let loss = (1.0 - velocity) * (1.0 + velocity);

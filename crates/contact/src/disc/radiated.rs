@@ -19,7 +19,7 @@ const SAMPLES_OF_WORK: f64 = 256.0;
 
 /// Work left in the half-space by a force on a fixed disc: int p dw with the pressure-weighted mean of w.
 ///
-/// The static part of w gives back what it takes, so only the dynamic part is integrated.
+/// The static part of w returns its work, so only the dynamic part is integrated.
 /// With [`Deflection::Mean`] in the contact law this equals the striker's loss; with
 /// [`Deflection::Centre`] the contact law does another work than the pressure, and the ledger shows
 /// the difference as its residual.

@@ -176,7 +176,7 @@ mod tests {
     use crate::summary::Summary;
     use halfspace::{Deflection, Medium, SurfaceResponse};
 
-    /// The memory of the half-space is what a step sees least of, so its whole effect is in the end.
+    /// A step resolves the memory of the half-space least of all, so its whole effect is at the end.
     #[test]
     fn the_end_is_known_at_steps_longer_than_the_memory() {
         for (nu, deflection) in [

@@ -199,7 +199,7 @@ impl Branch {
     fn work_of_cut(&self, edge: f64, top: f64, a: f64) -> f64 {
         let kink = (top * top - edge * edge).max(0.0).sqrt();
         let part = |turn: f64| {
-            // smooth in the turn: roots at the kink, and a steep place of the width of y beside it
+            // smooth in the turn: roots at the kink, and a steep place of the width of y next to it
             let q = edge / kink * turn.sinh();
             let here = self.at(kink * (1.0 - q * q));
             2.0 * edge * q * turn.cosh() * here.force * here.depth_slope

@@ -257,9 +257,11 @@ impl Chosen {
     /// Why this model, in words.
     pub fn reason(&self, settings: &Settings) -> String {
         let yields = match (settings.plasticity, settings.yield_pressure_pa) {
-            (Plasticity::JacksonGreen, _) => "the contact yields by the fit for the yield strength",
+            (Plasticity::JacksonGreen, _) => {
+                "the contact yields according to the fit for the yield strength"
+            }
             (Plasticity::None | Plasticity::Thornton | Plasticity::Recovery, Some(_)) => {
-                "the contact yields at the yield_pressure_pa given"
+                "the contact yields at the given yield_pressure_pa"
             }
             (Plasticity::None | Plasticity::Thornton | Plasticity::Recovery, None) => {
                 "the contact yields at 2.8 times the lower yield strength"
@@ -279,14 +281,14 @@ impl Chosen {
         };
         match self.by_auto {
             Some((_, error)) if yielding && error > settings.tolerance => {
-                format!("{physics}; the fit has a dashpot at most, which leaves out {error:.1e}")
+                format!("{physics}; the fit allows only a dashpot, whose error is {error:.1e}")
             }
             Some((memory, _)) => format!("{physics}; {}", self.choice(memory, &accuracy(settings))),
             None if settings.model == Model::Auto => {
-                "the explicit scheme marches a fixed disc".to_owned()
+                "the explicit scheme requires a fixed disc".to_owned()
             }
-            None if yielding => format!("asked for by the scene; {physics}"),
-            None => "asked for by the scene".to_owned(),
+            None if yielding => format!("set in the scene; {physics}"),
+            None => "set in the scene".to_owned(),
         }
     }
 
@@ -304,16 +306,16 @@ impl Chosen {
                 format!("{change}, below the tolerance {tolerance:.1e}: no waves needed")
             }
             (Memory::FirstOrder, _) => format!(
-                "{change}; what its first order leaves out, {second:.1e}, is below the tolerance {tolerance:.1e}"
+                "{change}; the error of its first order, {second:.1e}, is below the tolerance {tolerance:.1e}"
             ),
             (Memory::Dashpot, _) => format!(
-                "{change}; what the area dashpot leaves out, {second:.1e} and {loss:.1e} of the loss, is below the tolerance {tolerance:.1e}: no memory needed"
+                "{change}; the errors of the area dashpot, {second:.1e} and {loss:.1e} of the loss, are below the tolerance {tolerance:.1e}: no memory needed"
             ),
             (Memory::Full, Some(asked)) if second <= tolerance => format!(
-                "{best} alone would miss the loss by {loss:.1e} of it, above the loss_tolerance {asked:.1e}: full memory"
+                "the loss of {best} alone has a relative error of {loss:.1e}, above the loss_tolerance {asked:.1e}: full memory"
             ),
             (Memory::Full, _) => format!(
-                "{change}; {best} alone would miss them by {second:.1e}, above the tolerance {tolerance:.1e}: full memory"
+                "{change}; {best} alone has an error of {second:.1e}, above the tolerance {tolerance:.1e}: full memory"
             ),
         }
     }

@@ -63,8 +63,8 @@ const FIRST_OF_LATTICE: f64 = 512.0;
 impl Tabulated {
     /// For any number of Poisson's ratios, as random draws have: responses of a lattice, linear between two of them.
     ///
-    /// The lattice has steps of 1/4096 in sqrt(1/2 - nu); what lies between is off by less than 1e-6, of punches in their
-    /// first instants by 1e-5.
+    /// The lattice has steps of 1/4096 in sqrt(1/2 - nu). Values between its points have relative errors below 1e-6,
+    /// and 1e-5 for punches in their first instants.
     pub fn on_lattice() -> Self {
         Self {
             lattice: true,

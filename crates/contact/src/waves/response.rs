@@ -46,7 +46,7 @@ fn moments(response: &SurfaceResponse, integral: impl Fn(f64) -> f64) -> [f64; 4
     [relaxation, moment(1), moment(2), moment(3)]
 }
 
-/// Cells of the memory between which int W is a cubic: what it is asked for is small and asked for often.
+/// Number of cells of the memory, between which int W is a cubic: it is evaluated often, at small arguments.
 const COARSE_CELLS: usize = 6;
 
 impl DiscResponse for SurfaceResponse {
@@ -251,7 +251,7 @@ mod tests {
                     let found = table.integrals(t);
                     worst = worst.max((found[0] - once).abs() / m);
                     assert!((table.integral(t) - once).abs() < 1e-8 * m);
-                    // the trapezoid beside it is good to 1e-9
+                    // the trapezoid next to it is accurate to 1e-9
                     assert!(
                         (found[1] - twice).abs() < 3e-9 * m * m,
                         "nu = {nu}, t = {t}"

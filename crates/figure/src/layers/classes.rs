@@ -6,12 +6,12 @@ use crate::error::FigureError;
 use crate::geometry::Rect;
 use crate::look::fills;
 
-/// A few classes on a regular grid of cells that fills the panel, at most five.
+/// At most five classes on a regular grid of cells that fills the panel.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Classes {
-    /// Cells along x and y.
+    /// Number of cells along x and y.
     pub shape: [usize; 2],
-    /// Class of each cell from the low end of both axes, x runs fastest.
+    /// Class of each cell, beginning at the low end of both axes; x varies fastest.
     pub class: Vec<usize>,
     /// Names of the classes, from light to dark.
     pub names: Vec<String>,
@@ -30,8 +30,8 @@ impl Classes {
         self.names.iter().map(String::as_str).zip(fills).collect()
     }
 
-    /// One shape a class, each over the lighter ones: it covers the cells of its own class and of all darker ones, so
-    /// that no background shines through where two classes meet.
+    /// One shape per class, over those of the lighter classes. It covers the cells of its own class and of all darker
+    /// ones, so that the background is not visible between two classes.
     pub(super) fn draw(&self, drawing: &mut Drawing, area: Rect) {
         let [columns, rows] = self.shape;
         if columns == 0 || rows == 0 {

@@ -1,20 +1,20 @@
-//! Which values get the colours at the ends of a map.
+//! Limits of a colour map.
 
 use crate::axis::{Axis, Interval, Scale};
 use crate::colour::ColourMap;
 
-/// What the colours of some images mean.
+/// Meaning of the colours of some images.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Colours {
     pub(crate) axis: Axis,
     pub(crate) map: ColourMap,
     pub(crate) limits: Interval,
-    /// Whether values lie below and above the limits.
+    /// Whether there are values below and above the limits.
     pub(crate) beyond: [bool; 2],
 }
 
 impl Colours {
-    /// The colours of a map for some values; the range of the axis, if it has one, limits them.
+    /// The colours of a map for some values; the range of the axis, if given, sets the limits.
     pub(super) fn new(
         axis: &Axis,
         map: ColourMap,
@@ -33,16 +33,16 @@ impl Colours {
         }
     }
 
-    /// The colour of a value; none for one that is not shown.
+    /// The colour of a value; none if it is not shown.
     pub(crate) fn of_value(&self, value: f64) -> Option<u32> {
         let is_shown = self.limits.scale.shows(value) || value.is_infinite() && value > 0.0;
         is_shown.then(|| self.map.at(self.limits.fraction(value)))
     }
 }
 
-/// The values whose colours are at the ends of a map: those of the axis, or all that it can show.
+/// The values at the ends of a colour map: those of the axis, or the range of all values that it can show.
 ///
-/// A diverging map is linear, and its limits are equal in size: white is zero whatever was asked for.
+/// A diverging map is linear with limits of equal magnitude, so that zero is always white.
 fn limits(axis: &Axis, map: ColourMap, values: impl Iterator<Item = f64>) -> Interval {
     let scale = match map {
         ColourMap::Diverging => Scale::Linear,
@@ -54,7 +54,7 @@ fn limits(axis: &Axis, map: ColourMap, values: impl Iterator<Item = f64>) -> Int
         ColourMap::Diverging => Interval::linear(-a.abs().max(b.abs()), a.abs().max(b.abs())),
         ColourMap::Sequential => Interval::new(scale, a.min(b), a.max(b)),
     };
-    // one value only, or none, becomes an interval
+    // a single value, or none, becomes an interval
     match scale {
         Scale::Logarithmic if found.low <= 0.0 => Interval::logarithmic(1.0, 1.0).with_air(0.0),
         Scale::Linear | Scale::Logarithmic => found.with_air(0.0),

@@ -1,4 +1,4 @@
-//! Curves: lines, points, the bars of a histogram, and the bands around them.
+//! Curves: lines, points, the bars of a histogram, and their bands.
 
 use super::Swatch;
 use crate::axis::{Interval, Scale};
@@ -7,19 +7,19 @@ use crate::drawing::{Drawing, DrawnPath, Stroke};
 use crate::geometry::{Frame, Point, Rect};
 use crate::look::{Look, Style};
 
-/// How much a band hides.
+/// Opacity of a band.
 pub(crate) const BAND: f64 = 0.22;
 
 /// One curve.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Line {
-    /// Its name in the legend; empty for none.
+    /// Name in the legend; empty for none.
     pub name: String,
-    /// Its points; the line breaks at those that the axes cannot show, such as NaN.
+    /// Points; the line is interrupted at points that the axes cannot show, such as NaN.
     pub points: Vec<(f64, f64)>,
-    /// How it is drawn.
+    /// Style.
     pub style: Style,
-    /// What it may be wrong by, in its colour: the lower and the upper side, over the same places; empty for none.
+    /// Error band in its colour: lower and upper side over the same x; empty for none.
     pub band: [Vec<(f64, f64)>; 2],
 }
 
@@ -34,9 +34,9 @@ impl Line {
         }
     }
 
-    /// A histogram: counts of values over `bins` bins that are equally long on an axis of the given scale.
+    /// A histogram: counts of values in `bins` bins of equal length on an axis of the given scale.
     ///
-    /// Values that such an axis cannot show (NaN, or negative on a logarithmic one) are not counted. The curve runs along
+    /// Values that the axis cannot show (NaN, or not positive on a logarithmic axis) are not counted. The curve follows
     /// the tops of the bars, from zero to zero.
     pub fn histogram(name: &str, values: &[f64], bins: usize, scale: Scale) -> Self {
         let bins = bins.max(1);
@@ -55,7 +55,7 @@ impl Line {
         Self::new(name, Style::Bars, points)
     }
 
-    /// Its points on the axes of a plot: a logarithmic axis has no zero, bars stand on its end.
+    /// Its points on the axes of a plot: on a logarithmic axis, which has no zero, bars begin at its end.
     fn standing(&self, frame: &Frame) -> Vec<Point> {
         let mut points = self.points.clone();
         if self.style == Style::Bars {
@@ -84,7 +84,7 @@ impl Line {
         [self.band.concat(), self.points.clone()].concat()
     }
 
-    /// Whole bars, not only their tops.
+    /// Range of whole bars, including their bottoms.
     pub(super) fn curves(&self, frame: &Frame) -> Vec<Vec<Point>> {
         let points = self.standing(frame);
         let mut curves = self.band.to_vec();
@@ -111,7 +111,7 @@ impl Line {
                 draw_run(drawing, run, &look, frame.area);
             }
             for &at in runs.iter().flatten() {
-                // whole markers at the sides of a plot, none of points beyond them
+                // markers at the sides of a plot are drawn completely, those of points outside are not
                 if frame.area.grown(0.01).has(at) {
                     look.mark(drawing, at);
                 }
@@ -120,7 +120,7 @@ impl Line {
     }
 }
 
-/// Draws a line through points in pixels, over its rim or the light filling of its bars, which lie over one another.
+/// Draws a line through points in pixels, over its rim or over the light filling of histogram bars, which may overlap.
 pub(crate) fn draw_run(drawing: &mut Drawing, run: &[Point], look: &Look, clip: Rect) {
     if look.style == Style::Bars {
         let fill = DrawnPath::polygon(run).filled(look.stroke.colour, 0.18);

@@ -1,4 +1,4 @@
-//! A field as colours.
+//! A field shown by colours.
 
 use super::{Colours, count};
 use crate::axis::Axis;
@@ -7,25 +7,26 @@ use crate::drawing::Bitmap;
 use crate::error::FigureError;
 use crate::geometry::{Frame, Point};
 
-/// A field on a grid, which need not be even.
+/// A field on a grid, which may be nonuniform.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Image {
-    /// Nodes along x, rising.
+    /// Nodes along x, ascending.
     pub x: Vec<f64>,
-    /// Nodes along y, rising.
+    /// Nodes along y, ascending.
     pub y: Vec<f64>,
-    /// Values at the nodes, x runs fastest; NaN is left white.
+    /// Values at the nodes, x varies fastest; NaN is shown white.
     pub values: Vec<f64>,
-    /// What colours mean; its range has the values at their ends, equal in size where they have a sign.
+    /// Axis of the colours. Its range has the values at the ends of the colour map, of equal magnitude for signed
+    /// values.
     pub colours: Axis,
     /// Colours.
     pub map: ColourMap,
-    /// Whether each node colours its own cell; colours change evenly between the nodes otherwise.
+    /// Whether each node colours its own cell; otherwise colours are interpolated between nodes.
     pub has_cells: bool,
 }
 
 impl Image {
-    /// A field whose colours change evenly between its nodes.
+    /// A field with colours that are interpolated between its nodes.
     pub fn new(x: Vec<f64>, y: Vec<f64>, values: Vec<f64>, colours: Axis, map: ColourMap) -> Self {
         Self {
             x,
@@ -37,7 +38,7 @@ impl Image {
         }
     }
 
-    /// The field at a place; NaN outside its grid.
+    /// The field at a point; NaN outside its grid.
     fn at(&self, x: f64, y: f64) -> f64 {
         let across = locate(&self.x, x, self.has_cells);
         let place = across.zip(locate(&self.y, y, self.has_cells));
@@ -49,11 +50,11 @@ impl Image {
         blend(row(k), b, || row(k + 1))
     }
 
-    /// A pixel for every place of the plot, so that uneven grids, logarithmic axes and mirrors need nothing else.
+    /// A pixel for each point of the plot, which handles nonuniform grids, logarithmic axes and mirroring.
     pub(super) fn pixels(&self, frame: &Frame, colours: &Colours) -> Bitmap {
-        /// Pixels of the image for each pixel of the canvas.
+        /// Pixels of the image per pixel of the canvas.
         const FINE: f64 = 2.0;
-        /// Most pixels along a side.
+        /// Largest number of pixels along a side.
         const MOST_PIXELS: f64 = 2000.0;
         let count = |length: f64| (FINE * length).ceil().clamp(1.0, MOST_PIXELS);
         let (columns, rows) = (count(frame.area.width()), count(frame.area.height()));
@@ -77,7 +78,7 @@ impl Image {
         for (side, nodes) in [("x", &self.x), ("y", &self.y)] {
             let rising = nodes.windows(2).all(|pair| pair[0] < pair[1]);
             if nodes.is_empty() || !rising || nodes.iter().any(|n| !n.is_finite()) {
-                let must = "nodes of an image must be finite and rise";
+                let must = "nodes of an image must be finite and ascending";
                 return Err(FigureError(format!("panel {panel}: the {side} {must}")));
             }
         }
@@ -85,7 +86,7 @@ impl Image {
         count(panel, "values of an image", expected, self.values.len())
     }
 
-    /// Two opposite corners of what it covers.
+    /// Two opposite corners of its area.
     pub(super) fn corners(&self) -> Vec<Point> {
         let [x, y] = [&self.x, &self.y].map(|nodes| extent(nodes, self.has_cells));
         vec![(x.0, y.0), (x.1, y.1)]
@@ -100,7 +101,7 @@ fn blend(a: f64, fraction: f64, b: impl Fn() -> f64) -> f64 {
     }
 }
 
-/// What the nodes of an axis cover.
+/// Range covered by the nodes of an axis.
 fn extent(nodes: &[f64], has_cells: bool) -> (f64, f64) {
     let n = nodes.len();
     match nodes {
@@ -114,7 +115,7 @@ fn extent(nodes: &[f64], has_cells: bool) -> (f64, f64) {
     }
 }
 
-/// The node below a place and the fraction of the way to the next one.
+/// The node below a position, and the fraction of the way to the next one.
 fn locate(nodes: &[f64], at: f64, has_cells: bool) -> Option<(usize, f64)> {
     let (low, high) = extent(nodes, has_cells);
     if !(low..=high).contains(&at) {

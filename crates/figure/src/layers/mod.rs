@@ -1,7 +1,6 @@
-//! What a panel shows, one kind of layer a file: what it is, and how it is drawn.
+//! Layers of a panel, one file per kind: data and drawing.
 //!
-//! Begin with [`Layer`]; `curves` has lines with their bands and histograms, `colours` what the colours of an image
-//! mean.
+//! Begin with [`Layer`]; `curves` has lines with their bands and histograms, `colours` the limits of colour maps.
 
 mod classes;
 mod colours;
@@ -25,24 +24,24 @@ use crate::look::{Look, Style};
 pub enum Layer {
     /// A curve.
     Line(Line),
-    /// A field as colours.
+    /// A field shown by colours.
     Image(Image),
     /// A few classes on a regular grid of cells.
     Classes(Classes),
-    /// A vertical line with a label above the panel: an arrival, the end of validity.
+    /// A vertical line with a label above the panel, such as an arrival time or the end of validity.
     Mark {
-        /// Its place; not drawn outside the axis.
+        /// Its x value; not drawn outside the axis.
         x: f64,
-        /// What is written above it.
+        /// Label above the line.
         label: String,
     },
     /// A point with a label; not drawn outside the axes.
     Point {
-        /// Its place on both axes.
+        /// Its position on both axes.
         at: (f64, f64),
-        /// What is written at it.
+        /// Label of the point.
         label: String,
-        /// Whether a star stands there; otherwise the label itself does, the name of a curve or of a region.
+        /// Whether a star marks the point; otherwise the label is placed there, such as the name of a curve or region.
         is_starred: bool,
     },
 }
@@ -59,17 +58,17 @@ impl Layer {
         Self::Mark { x, label }
     }
 
-    /// A star with a label beside it.
+    /// A star with a label next to it.
     pub fn star(at: (f64, f64), label: &str) -> Self {
         Self::point(at, label, true)
     }
 
-    /// A label alone, on the point or near it.
+    /// A label without a star, at the point or near it.
     pub fn text(at: (f64, f64), label: &str) -> Self {
         Self::point(at, label, false)
     }
 
-    /// The curve, if it is one.
+    /// The curve, if the layer is one.
     pub fn as_line(&self) -> Option<&Line> {
         match self {
             Self::Line(line) => Some(line),
@@ -77,7 +76,7 @@ impl Layer {
         }
     }
 
-    /// The image, if it is one.
+    /// The image, if the layer is one.
     fn as_image(&self) -> Option<&Image> {
         match self {
             Self::Image(image) => Some(image),
@@ -93,7 +92,7 @@ impl Layer {
         }
     }
 
-    /// Whether it can be drawn in the panel of a number.
+    /// Checks that it can be drawn in the panel with a number.
     pub(crate) fn check(&self, panel: usize) -> Result<(), FigureError> {
         match self {
             Self::Image(image) => image.check(panel),
@@ -102,19 +101,19 @@ impl Layer {
         }
     }
 
-    /// Every place that an automatic axis has to hold; what has no x or y of its own gives NaN for it.
+    /// All points that an automatic axis must show; layers without an own x or y return NaN for it.
     pub(crate) fn places(&self) -> Vec<Point> {
         match self {
             Self::Line(line) => line.places(),
             Self::Image(image) => image.corners(),
-            // they fill whatever the panel shows
+            // these layers fill any range of the panel
             Self::Classes(_) => Vec::new(),
             Self::Mark { x, .. } => vec![(*x, f64::NAN)],
             Self::Point { at, .. } => vec![*at],
         }
     }
 
-    /// What of it must stay readable in a frame, as curves.
+    /// Parts of the layer that must remain visible, as curves.
     pub(crate) fn curves(&self, frame: &Frame) -> Vec<Vec<Point>> {
         match self {
             Self::Line(line) => line.curves(frame),
@@ -133,7 +132,7 @@ impl Layer {
         }
     }
 
-    /// Draws it, an image in the colours of its panel; labels come later, over everything else.
+    /// Draws the layer, an image in the colours of its panel; labels are drawn later, over everything else.
     pub(crate) fn draw(
         &self,
         drawing: &mut Drawing,
@@ -161,7 +160,7 @@ pub(crate) fn colours_of<'a>(layers: impl IntoIterator<Item = &'a Layer>) -> Opt
     Some(Colours::new(&first.colours, first.map, &values))
 }
 
-/// The sample beside a name.
+/// Sample in front of a name in the legend.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Swatch {
     /// A class.
@@ -170,9 +169,9 @@ pub(crate) enum Swatch {
     Curve { look: Look, has_band: bool },
 }
 
-/// Whether a list is as long as it must be.
+/// Checks the length of a list.
 fn count(panel: usize, what: &str, needed: usize, found: usize) -> Result<(), FigureError> {
-    let fault = || format!("panel {panel}: {found} {what}, and {needed} are needed");
+    let fault = || format!("panel {panel}: {found} {what}, but {needed} are required");
     let is_right = needed == found;
     is_right.then_some(()).ok_or_else(|| FigureError(fault()))
 }

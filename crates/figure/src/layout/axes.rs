@@ -8,7 +8,7 @@ use crate::geometry::Frame;
 use crate::text::{LINE, Typeface, width as width_of, wrap};
 use crate::ticks::{Room, Ticks, shown, ticks};
 
-/// Pixels on each side of a plot.
+/// Space on each side of a plot in pixels.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Needs {
     pub(crate) left: f64,
@@ -28,7 +28,7 @@ pub(super) struct FittedAxis {
 }
 
 impl FittedAxis {
-    /// Of a panel or of colours.
+    /// Ticks of a panel or of a colour bar.
     pub(super) fn new(axis: &Axis, interval: &Interval, room: &Room<'_>, faces: &Typeface) -> Self {
         let (label, factor) = shown(axis, interval);
         let ticks = ticks(interval, factor, room);
@@ -40,7 +40,7 @@ impl FittedAxis {
         }
     }
 
-    /// Places of all ticks, with their lengths.
+    /// Positions of all ticks, with their lengths.
     pub(super) fn lengths(&self, faces: &Typeface) -> impl Iterator<Item = (f64, f64)> {
         let (long, short) = (faces.tick_length(), 0.23 * faces.tick);
         let major = self.ticks.major.iter().map(move |tick| (tick.0, long));
@@ -49,7 +49,7 @@ impl FittedAxis {
     }
 }
 
-/// The thin line around a plot and of its ticks.
+/// Width of the frame of a plot and of its ticks.
 pub(super) const THIN: Stroke = Stroke::solid(BLACK, 1.0);
 
 /// Both axes fitted to a plot.
@@ -57,12 +57,12 @@ pub(super) const THIN: Stroke = Stroke::solid(BLACK, 1.0);
 pub(crate) struct PlotAxes {
     x: FittedAxis,
     y: FittedAxis,
-    /// Whether numbers and labels are written, which a panel may leave to another one.
+    /// Whether numbers and labels are written; with shared axes another panel may do so.
     labelled: [bool; 2],
 }
 
 impl PlotAxes {
-    /// Fits the axes to a plot of a size.
+    /// Fits the axes to a plot of a given size.
     pub(super) fn new(plan: &PanelPlan<'_>, [width, height]: [f64; 2], faces: &Typeface) -> Self {
         let beside = Room {
             length: width,
@@ -82,7 +82,7 @@ impl PlotAxes {
         }
     }
 
-    /// What numbers and labels need around a plot of a width.
+    /// Space for numbers and labels around a plot of a given width.
     pub(super) fn needs(&self, plan: &PanelPlan<'_>, width: f64, faces: &Typeface) -> Needs {
         let mut needs = Needs::default();
         if self.labelled[1] {
@@ -93,7 +93,7 @@ impl PlotAxes {
             needs.top = 0.5 * LINE * faces.tick;
         }
         if self.labelled[0] {
-            // how far the numbers at the ends reach beyond the nearer end of the axis
+            // overhang of the numbers at the ends beyond the nearer end of the axis
             let ends = [self.x.ticks.major.first(), self.x.ticks.major.last()].map(|tick| {
                 tick.map_or(0.0, |(value, label)| {
                     let fraction = plan.intervals[0].fraction(*value);
@@ -111,7 +111,7 @@ impl PlotAxes {
         needs
     }
 
-    /// Draws lines at the ticks, below everything else.
+    /// Draws grid lines at the ticks, below everything else.
     pub(crate) fn draw_grid(&self, drawing: &mut Drawing, frame: &Frame) {
         let area = frame.area;
         let upright = self.x.ticks.major.iter().map(|tick| {
@@ -157,7 +157,7 @@ impl PlotAxes {
                 let at = (right, frame.down(*value) + 0.35 * faces.tick);
                 drawing.text(Text::new(label, at, faces.tick, END));
             }
-            // upward text stands on its right side, its first line at the left
+            // upward text stands on its right side, with its first line at the left
             let mut line = right - self.y.numbers - faces.gap() - 0.25 * faces.label;
             for label in self.y.label.iter().rev() {
                 drawing.text(Text::upward(label, (line, middle.1), faces.label));

@@ -1,4 +1,4 @@
-//! The colour bar beside a panel or beside all of them, fitted and drawn.
+//! The colour bar next to a panel or to all panels, fitted and drawn.
 
 use super::axes::{FittedAxis, THIN};
 use crate::drawing::{Bitmap, Drawing, DrawnPath, Item, START, Text};
@@ -10,15 +10,15 @@ use crate::ticks::Room;
 /// Width of the strip of colours in pixels.
 const STRIP: f64 = 14.0;
 
-/// Height of the arrow at an end beyond which values go on.
+/// Height of the arrow at an end with values beyond it.
 fn arrow(is_beyond: bool) -> f64 {
     if is_beyond { 0.8 * STRIP } else { 0.0 }
 }
 
-/// Colours of the strip from its bottom to its top.
+/// Colours of the strip from bottom to top.
 const STRIP_COLOURS: u32 = 256;
 
-/// A colour bar of a known height; x from the right side of the plot.
+/// A colour bar of a given height; x is measured from the right side of the plot.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct ColourBar {
     colours: Colours,
@@ -26,16 +26,16 @@ pub(crate) struct ColourBar {
     axis: FittedAxis,
     /// Left and right side of the strip.
     strip: [f64; 2],
-    /// Where the numbers start.
+    /// Start of the numbers.
     numbers: f64,
     /// Middle of the label's first line.
     text: f64,
-    /// Everything, from the side of the plot on.
+    /// Total width, measured from the side of the plot.
     pub(super) width: f64,
 }
 
 impl ColourBar {
-    /// Fits a bar of a height.
+    /// Fits a bar to a height.
     pub(super) fn new(colours: &Colours, height: f64, faces: &Typeface) -> Self {
         let room = Room {
             length: height - colours.beyond.map(arrow).iter().sum::<f64>(),
@@ -82,7 +82,7 @@ impl ColourBar {
         }
     }
 
-    /// The strip of colours with arrows where values go on beyond its limits; gives the strip between the arrows.
+    /// Draws the strip of colours with arrows for values beyond its limits; returns the strip between the arrows.
     fn draw_strip(&self, drawing: &mut Drawing, strip: Rect) -> Rect {
         let at = |fraction: f64| self.colours.map.at(fraction);
         let Rect { left, right, .. } = strip;

@@ -1,4 +1,4 @@
-//! From a figure to a drawing: panels fitted around their plots, their areas on the canvas, and everything drawn.
+//! From a figure to a drawing: fits the panels around their plots, places them on the canvas, and draws everything.
 
 use super::axes::{Needs, PlotAxes};
 use super::bar::ColourBar;
@@ -12,7 +12,7 @@ use crate::figure::Figure;
 use crate::geometry::{Frame, Rect};
 use crate::text::{LINE, Typeface, wrap};
 
-/// Everything that a figure shows, with places in pixels: no two texts overlap, and none leaves the canvas.
+/// The drawing of a figure, with positions in pixels. Texts do not overlap and do not leave the canvas.
 ///
 /// # Errors
 /// [`FigureError`] for a figure that cannot be drawn.
@@ -22,7 +22,7 @@ pub fn draw(figure: &Figure) -> Result<Drawing, FigureError> {
     let plans = plan(figure);
     let first = plans.first().filter(|_| figure.has_common_bar);
     let common = first.and_then(|plan| plan.colours.as_ref());
-    // a bar needs the width of its numbers, which depend on the height, which depends on the width
+    // a bar needs the width of its numbers, which depends on the height, which depends on the width
     let mut reserved = 0.0;
     let (mut drawing, panels, plots, bar) = loop {
         let (drawing, panels) = arrange(figure, &plans, reserved);
@@ -41,10 +41,9 @@ pub fn draw(figure: &Figure) -> Result<Drawing, FigureError> {
     Ok(drawing)
 }
 
-/// The canvas with the title and the line below it, and each panel with its place; the common colour bar gets a width at
-/// the right.
+/// The canvas with title and subtitle, and each panel with its position; a shared colour bar gets space at the right.
 ///
-/// All plots are equally wide; the width of the figure is exceeded rather than that they vanish.
+/// All plots have the same width; the figure becomes wider if they would otherwise vanish.
 fn arrange<'a>(
     figure: &Figure,
     plans: &'a [PanelPlan<'a>],
@@ -55,12 +54,12 @@ fn arrange<'a>(
     let legend_width = (0.34 * figure.width / count as f64).min(22.0 * faces.tick);
     let gap = 1.4 * faces.tick;
     let mut plot = (figure.width - bar) / count as f64;
-    // needed at the left and at the right of each column
+    // space needed at the left and at the right of each column
     let (mut left, mut right) = (vec![0.0_f64; count], vec![0.0_f64; count]);
-    // what is reserved at the sides only grows, so that it is enough for the plots at the end
+    // the reserved space at the sides only increases, so that it suffices for the final plots
     let (mut fitted, width) = loop {
         let fit = |(i, plan): (usize, &'a PanelPlan<'a>)| {
-            // beside the last column alone: elsewhere it would tear the columns apart
+            // next to the last column only: elsewhere it would separate the columns
             let most_right = legend_width * f64::from(u8::from((i + 1) % count == 0));
             Fitted::new(plan, plot, faces, most_right)
         };
@@ -106,8 +105,8 @@ fn arrange<'a>(
     (drawing, fitted)
 }
 
-/// Gives every panel its place in columns that start at some places, row below row from `top` on; and the bottom of the
-/// last row.
+/// Places the panels in columns that start at given positions, row below row from `top` on; returns their positions and
+/// the bottom of the last row.
 fn place(fitted: &mut [Fitted<'_>], starts: &[f64], mut top: f64, gap: f64) -> f64 {
     for row in fitted.chunks_mut(starts.len()) {
         let most = |of: fn(&Fitted<'_>) -> f64| row.iter().map(of).fold(0.0, f64::max);
@@ -121,7 +120,7 @@ fn place(fitted: &mut [Fitted<'_>], starts: &[f64], mut top: f64, gap: f64) -> f
     top - gap
 }
 
-/// From the first plot to the last, with what the last column needs at its right.
+/// Width from the first plot to the last, with the space at the right of the last column.
 fn plots(panels: &[Fitted<'_>]) -> Rect {
     let areas = panels.iter().map(|Fitted { frame, needs, .. }| Rect {
         right: frame.area.right + needs.right,
@@ -130,15 +129,15 @@ fn plots(panels: &[Fitted<'_>]) -> Rect {
     areas.reduce(Rect::union).unwrap_or_default()
 }
 
-/// Distance from the sides of the canvas.
+/// Margin of the canvas.
 const PAD: f64 = 14.0;
 
-/// Narrowest plot.
+/// Smallest width of a plot.
 const NARROWEST: f64 = 60.0;
 
-/// Size of the plot of a panel in a column of plots of a width.
+/// Size of the plot of a panel in a column with a given plot width.
 ///
-/// Equal lengths give the height; a section that is much deeper than wide is narrower than its column.
+/// Equal scales determine the height; a section much deeper than wide is narrower than its column.
 fn size(plan: &PanelPlan<'_>, width: f64) -> [f64; 2] {
     const TALLEST: f64 = 1.5;
     if !plan.panel.has_equal_lengths {
@@ -166,9 +165,9 @@ pub(super) struct Fitted<'a> {
 }
 
 impl<'a> Fitted<'a> {
-    /// Fits a panel around a plot in a column of plots of a width, with its upper left corner at 0, 0.
+    /// Fits a panel around its plot in a column with a given plot width, with its upper left corner at 0, 0.
     ///
-    /// A legend at the right has `legend_width` pixels at most.
+    /// A legend at the right has at most `legend_width` pixels.
     fn new(plan: &'a PanelPlan<'a>, plot: f64, faces: &Typeface, legend_width: f64) -> Self {
         let [width, height] = size(plan, plot);
         let frame = plan.frame(Rect::new(0.0, 0.0, width, height));

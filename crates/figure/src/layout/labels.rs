@@ -1,5 +1,5 @@
-//! What is written over a plot and above it: vertical lines with their labels side by side above the panel, and single
-//! points with labels beside them, where a plot is empty.
+//! Labels in and above a plot: vertical lines with labels side by side above the panel, and single points with labels
+//! in empty places nearby.
 
 use super::plan::PanelPlan;
 use crate::colour::{MARK, WHITE};
@@ -13,17 +13,17 @@ use crate::text::{LINE, Typeface, width as width_of, wrap};
 /// The label of a vertical line.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Label {
-    /// The line, from the left side of the plot.
+    /// The line, measured from the left side of the plot.
     line: f64,
     /// Middle of the label.
     centre: f64,
-    /// Row of the label, 0 the nearest to the plot.
+    /// Row of the label, 0 next to the plot.
     row: usize,
     /// One line of text.
     text: String,
 }
 
-/// The vertical lines of a panel, with their labels.
+/// The vertical lines of a panel with their labels.
 fn lines<'a>(plan: &PanelPlan<'a>) -> impl Iterator<Item = (f64, &'a str)> {
     let interval = plan.intervals[0];
     let layers = plan.panel.layers.iter();
@@ -33,12 +33,12 @@ fn lines<'a>(plan: &PanelPlan<'a>) -> impl Iterator<Item = (f64, &'a str)> {
     })
 }
 
-/// How many rows labels have.
+/// Number of rows of labels.
 pub(super) fn rows(labels: &[Label]) -> usize {
     labels.iter().map(|label| label.row + 1).max().unwrap_or(0)
 }
 
-/// Labels over a plot at 0, 0, in as few rows as hold them, none over another.
+/// Places labels over a plot at 0, 0, in as few rows as possible and without overlap.
 pub(super) fn of_marks(plan: &PanelPlan<'_>, frame: &Frame, faces: &Typeface) -> Vec<Label> {
     let named = lines(plan).filter(|(_, label)| !label.trim().is_empty());
     let mut found: Vec<_> = named.map(|(x, label)| (frame.across(x), label)).collect();
@@ -46,17 +46,16 @@ pub(super) fn of_marks(plan: &PanelPlan<'_>, frame: &Frame, faces: &Typeface) ->
     placed(&found, frame.area.width(), faces)
 }
 
-/// Labels of lines from the left side, rising.
+/// Labels of lines, ascending from the left side.
 ///
-/// A label that has no room above its line is moved aside; one wider than the plot is broken, its lines one above
-/// the other.
+/// A label without space above its line is moved aside; one that is wider than the plot is broken into lines.
 fn placed(marks: &[(f64, &str)], width: f64, faces: &Typeface) -> Vec<Label> {
     let gap = 0.7 * faces.mark;
     let size = |label: &str| width_of(label, faces.mark) + gap;
     if marks.iter().any(|(_, label)| size(label) > width) {
         return stacked(marks, width - gap, faces);
     }
-    // labels by turns
+    // labels alternate between the rows
     let row = |row: usize, rows: usize| marks.iter().skip(row).step_by(rows);
     let boxes = |i: usize, rows: usize| -> Vec<Point> {
         let row = row(i, rows);
@@ -79,7 +78,7 @@ fn placed(marks: &[(f64, &str)], width: f64, faces: &Typeface) -> Vec<Label> {
     placed
 }
 
-/// One below the other, each broken to the width of the plot.
+/// Labels below one another, each broken to the width of the plot.
 fn stacked(marks: &[(f64, &str)], width: f64, faces: &Typeface) -> Vec<Label> {
     let mut placed = Vec::new();
     for (line, label) in marks.iter().rev() {
@@ -124,10 +123,10 @@ pub(super) fn draw_marks(
     }
 }
 
-/// Centres of boxes side by side, each with the centre that it wishes and its width, as near their wishes as they get,
-/// within 0 to `width`.
+/// Centres of boxes side by side within 0 to `width`, as close as possible to the desired centres. Each input has a
+/// desired centre and a width.
 fn spread(boxes: &[Point], width: f64) -> Vec<f64> {
-    // groups of boxes that touch: members, sum of the wishes for the group's left side, width
+    // groups of touching boxes: members, sum of the desired left sides of the group, width
     let mut groups: Vec<(usize, f64, f64)> = Vec::new();
     let left = |&(count, sum, size): &(usize, f64, f64)| {
         (sum / count as f64).clamp(0.0, (width - size).max(0.0))
@@ -138,7 +137,7 @@ fn spread(boxes: &[Point], width: f64) -> Vec<f64> {
             if left(before) + before.2 <= left(&group) {
                 break;
             }
-            // its members wish the group's left side to be further left by the width before them
+            // each member's desired left side of the group is reduced by the width before it
             let shifted = group.1 - group.0 as f64 * before.2;
             group = (before.0 + group.0, before.1 + shifted, before.2 + group.2);
             groups.pop();
@@ -159,7 +158,7 @@ fn spread(boxes: &[Point], width: f64) -> Vec<f64> {
 /// Half of a star's width.
 const STAR: f64 = 7.0;
 
-/// Draws the points of a panel, each label where it covers least and no place that is taken, such as by the legend.
+/// Draws the points of a panel. Each label is placed where it covers least, and not over the legend or other labels.
 pub(super) fn draw_points(
     drawing: &mut Drawing,
     (plan, frame): (&PanelPlan<'_>, &Frame),
@@ -203,7 +202,7 @@ pub(super) fn draw_points(
         };
         let candidates = candidates(point, frame.area, size).into_iter();
         let best = candidates.filter(is_free).min_by_key(cost);
-        // a plot too small for all labels shows the stars alone
+        // a plot too small for all labels shows only the stars
         for mut text in best.into_iter().flatten() {
             written.push(text.bounds());
             text.has_rim = true;
@@ -212,7 +211,7 @@ pub(super) fn draw_points(
     }
 }
 
-/// Labels around a point, the nearest first, moved into the plot and broken to its width.
+/// Candidate labels around a point, the nearest first, moved into the plot and broken to its width.
 fn candidates(point: (&str, bool, Point), area: Rect, size: f64) -> Vec<Vec<Text>> {
     let (label, is_starred, (x, y)) = point;
     let lines = wrap(label, size, area.width() - 4.0);
@@ -220,7 +219,7 @@ fn candidates(point: (&str, bool, Point), area: Rect, size: f64) -> Vec<Vec<Text
     let rises = [0.0, -1.2, 1.2, -2.4, 2.4, -4.0, 4.0, -6.0, 6.0, -9.0, 9.0];
     let (side, near) = match is_starred {
         true => (STAR + 0.35 * size, rises.len()),
-        // a name of its own that has moved away names something else
+        // a name that has moved away from its curve would name another one
         false => (0.5 * size, 3),
     };
     for rise in rises.into_iter().take(near) {
@@ -229,7 +228,7 @@ fn candidates(point: (&str, bool, Point), area: Rect, size: f64) -> Vec<Vec<Text
         let places = match is_starred {
             true if rise == 0.0 => beside.to_vec(),
             true => vec![beside[0], beside[1], above],
-            // further aside where the curve that it names is steep
+            // further aside if its curve is steep
             false => {
                 let aside = [(x + 2.0 * side, START), (x - 2.0 * side, END)];
                 [&[above], beside.as_slice(), &aside].concat()
@@ -264,7 +263,7 @@ fn bounds(lines: &[Text]) -> Rect {
     all.reduce(Rect::union).unwrap_or_default()
 }
 
-/// Points along everything that is drawn in a plot, in pixels, at most four apart.
+/// Points along everything that is drawn in a plot, in pixels, at most four pixels apart.
 pub(super) fn occupied(panel: &Panel, frame: &Frame) -> Vec<Point> {
     const OCCUPIED_SPACING: f64 = 4.0;
     let near = frame.area.grown(OCCUPIED_SPACING);
@@ -291,7 +290,7 @@ pub(super) fn occupied(panel: &Panel, frame: &Frame) -> Vec<Point> {
     found
 }
 
-/// The part of a segment that lies in a rectangle, as fractions of it.
+/// The part of a segment inside a rectangle, as fractions of the segment.
 fn inside(area: Rect, (ax, ay): Point, (bx, by): Point) -> Option<Point> {
     let (mut from, mut to) = (0.0_f64, 1.0_f64);
     let across = (ax, bx - ax, area.left, area.right);
@@ -307,7 +306,7 @@ fn inside(area: Rect, (ax, ay): Point, (bx, by): Point) -> Option<Point> {
     (from <= to).then_some((from, to))
 }
 
-/// A place for a box of a size in a plot that no curve enters: corners first, then along the sides.
+/// A position for a box in a plot that no curve enters: corners first, then along the sides.
 pub(super) fn free(area: Rect, (width, height): Point, air: f64, taken: &[Point]) -> Option<Rect> {
     let wide = area.width() - width - 2.0 * air;
     let high = area.height() - height - 2.0 * air;

@@ -1,4 +1,4 @@
-//! The legend of a panel: its entries, broken into lines and columns, in the plot or beside it.
+//! The legend of a panel: its entries, broken into lines and columns, inside or outside the plot.
 
 use super::axes::Needs;
 use super::labels::{free, occupied};
@@ -14,7 +14,7 @@ use crate::text::{LINE, Typeface, width as width_of, wrap};
 /// Width of the sample of a curve.
 const SWATCH: f64 = 30.0;
 
-/// A name with its sample, and their place from the upper left corner of the legend.
+/// A name with its sample, and their position relative to the upper left corner of the legend.
 #[derive(Debug, Clone, PartialEq)]
 struct Entry {
     swatch: Swatch,
@@ -24,18 +24,18 @@ struct Entry {
     top: f64,
 }
 
-/// Where a legend is.
+/// Position of a legend.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum LegendPlace {
     /// In the plot, which starts at 0, 0.
     Inside(Rect),
-    /// At its right, so far from the side of the plot.
+    /// At the right of the plot, at a distance from its side.
     Right(f64),
-    /// Below the label of the x axis, so far below the plot.
+    /// Below the label of the x axis, at a distance from the plot.
     Below(f64),
 }
 
-/// A legend with its place.
+/// A legend with its position.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct LegendBox {
     entries: Vec<Entry>,
@@ -45,7 +45,8 @@ pub(crate) struct LegendBox {
 }
 
 impl LegendBox {
-    /// The legend around a plot at 0, 0, at its right no wider than `most_right`; it is added to the needs of the plot.
+    /// The legend around a plot at 0, 0, at its right at most `most_right` wide; it is added to the space around the
+    /// plot.
     pub(super) fn new(
         plan: &PanelPlan<'_>,
         frame: &Frame,
@@ -58,7 +59,7 @@ impl LegendBox {
             return None;
         }
         let (width, height) = (frame.area.width(), frame.area.height());
-        // the other half of a mirrored section is full as well
+        // the other half of a mirrored section is filled as well
         let may_be_inside = !plan.panel.is_filled() && !plan.panel.is_mirrored;
         if plan.panel.legend == Wish::Auto && may_be_inside {
             let mut legend = Self::block(&named, 0.62 * width, 1, faces.legend);
@@ -85,7 +86,7 @@ impl LegendBox {
         Some(legend)
     }
 
-    /// Names in columns within a width, without a place.
+    /// Names in columns within a width, without a position.
     fn block(named: &[(&str, Swatch)], width: f64, most_columns: usize, size: f64) -> Self {
         let indent = SWATCH + 0.5 * size;
         let room = (width - indent).max(2.0 * size);
@@ -122,7 +123,7 @@ impl LegendBox {
         }
     }
 
-    /// What it covers of a plot.
+    /// The part of a plot that it covers.
     pub(crate) fn covered(&self, plot: Rect) -> Option<Rect> {
         let LegendPlace::Inside(found) = self.place else {
             return None;
@@ -157,7 +158,7 @@ impl LegendBox {
     }
 }
 
-/// Names of a panel with their samples, each curve once.
+/// Names in a panel with their samples, each curve once.
 fn named<'a>(plan: &PanelPlan<'a>) -> Vec<(&'a str, Swatch)> {
     let mut found: Vec<(&str, Swatch)> = Vec::new();
     let layers = plan.panel.layers.iter().zip(&plan.numbers);
@@ -171,7 +172,7 @@ fn named<'a>(plan: &PanelPlan<'a>) -> Vec<(&'a str, Swatch)> {
     found
 }
 
-/// Draws the sample of an entry, from a place at its left to the right.
+/// Draws the sample of an entry to the right of a position.
 fn sample(drawing: &mut Drawing, swatch: &Swatch, (x, y): Point, size: f64) {
     let patch = Rect::new(x + 2.0, y - 0.45 * size, SWATCH - 4.0, 0.9 * size);
     match swatch {

@@ -1,7 +1,7 @@
-//! Where everything is, and the parts around a plot: axes, legends, colour bars, labels.
+//! Layout: positions of all elements, and the parts around a plot: axes, legends, colour bars, labels.
 //!
-//! `plan` has what is known of a panel without its size, `grid` fits each around a plot, gives it its area and draws it.
-//! A part (`axes`, `legend`, `bar`, `labels`) is fitted and drawn in its own file.
+//! `plan` determines the properties of panels that do not depend on their sizes. `grid` fits each panel around its
+//! plot, places and draws it. Each part (`axes`, `legend`, `bar`, `labels`) is fitted and drawn in its own file.
 
 mod axes;
 mod bar;

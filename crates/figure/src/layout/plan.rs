@@ -1,4 +1,4 @@
-//! What is known of each panel before its size: the intervals of its axes, the limits of its colours, the looks of its
+//! Properties of each panel that do not depend on its size: intervals of its axes, limits of its colours, looks of its
 //! curves.
 
 use crate::axis::Interval;
@@ -7,7 +7,7 @@ use crate::geometry::{Frame, Point, Rect};
 use crate::layers::{Colours, Layer, colours_of};
 use std::collections::BTreeMap;
 
-/// A panel with everything that is known before its size.
+/// A panel with its properties that do not depend on its size.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct PanelPlan<'a> {
     pub(crate) panel: &'a Panel,
@@ -15,18 +15,18 @@ pub(crate) struct PanelPlan<'a> {
     pub(crate) intervals: [Interval; 2],
     /// Whether numbers and labels are written along x and y.
     pub(crate) labelled: [bool; 2],
-    /// What the colours of its images mean.
+    /// Meaning of the colours of its images.
     pub(crate) colours: Option<Colours>,
-    /// Whether it explains them itself.
+    /// Whether it has its own colour bar.
     pub(crate) has_bar: bool,
-    /// Numbers of each layer, from which its look follows: of its name in the figure, by order of first appearance,
-    /// and the least that no other name has in any panel where it appears, so that the first curve of a panel is a
-    /// whole line. The first ones for those without a colour of their own.
+    /// Numbers of each layer that determine its look. The first counts the names of the figure in order of appearance.
+    /// The second is the smallest one that no other name has in any panel with this name, so that the first curve of a
+    /// panel is a solid line. Layers without a colour of their own have the first numbers.
     pub(crate) numbers: Vec<[usize; 2]>,
 }
 
 impl PanelPlan<'_> {
-    /// Its values in an area.
+    /// The map to pixels in an area.
     pub(crate) fn frame(&self, area: Rect) -> Frame {
         Frame {
             area,
@@ -62,8 +62,8 @@ pub(crate) fn plan(figure: &Figure) -> Vec<PanelPlan<'_>> {
     plans
 }
 
-/// Gives the axes of all panels of a line the same interval: the x axes of a column, written at its last panel, or the y
-/// axes of a row, written at its first.
+/// Gives the axes of all panels in a column or row the same interval. Shared x axes are written at the last panel of a
+/// column, shared y axes at the first panel of a row.
 fn share(plans: &mut [PanelPlan<'_>], side: usize, line: impl Fn(usize) -> usize) {
     for i in 0..plans.len() {
         let beside: Vec<usize> = (0..plans.len()).filter(|&k| line(k) == line(i)).collect();
@@ -74,11 +74,11 @@ fn share(plans: &mut [PanelPlan<'_>], side: usize, line: impl Fn(usize) -> usize
     }
 }
 
-/// The values that the axes of a panel show: those that they are given, or those of its layers; along y only what lies
-/// within a given x axis, and along x both sides where the panel is mirrored.
+/// The ranges of the axes of a panel: given, or those of its layers. The range along y considers only points within a
+/// given x range, and the range along x both sides of a mirrored panel.
 ///
-/// Along x curves run from end to end, and images fill their panel, whatever is drawn over them: there is air
-/// above and below curves alone.
+/// Curves extend from end to end along x, and images fill their panel. Therefore only curves get a margin, above and
+/// below.
 fn intervals(panel: &Panel) -> [Interval; 2] {
     let is_image = |layer: &&Layer| matches!(layer, Layer::Image(_));
     let has_image = panel.layers.iter().any(|layer| is_image(&layer));
@@ -120,7 +120,8 @@ fn numbers(figure: &Figure) -> Vec<Vec<[usize; 2]>> {
     panels.iter().map(of_panel).collect()
 }
 
-/// The name of each layer of a panel that has a colour of its own; one without a name is named by its number among them.
+/// The name of each layer of a panel with a colour of its own; a layer without a name is named by its number among
+/// them.
 fn names(panel: &Panel) -> Vec<Option<String>> {
     let mut coloured = 0;
     let names = panel.layers.iter().map(|layer| {
@@ -193,7 +194,7 @@ mod tests {
             );
         let numbers = numbers(&figure);
         assert_eq!(numbers[0], [[0, 0], [0, 0], [1, 1]]);
-        // a name keeps its numbers, and no dash comes twice in a panel
+        // a name keeps its numbers, and no dash pattern occurs twice in a panel
         assert_eq!(numbers[1], [[1, 1], [2, 0]]);
     }
 }

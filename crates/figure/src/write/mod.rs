@@ -1,4 +1,4 @@
-//! From a figure to the bytes of a file, one format a file; `png` writes the frames of a GIF too.
+//! Writes a figure as the bytes of a file, one format per file; `png` also writes the frames of a GIF.
 
 mod pdf;
 mod png;

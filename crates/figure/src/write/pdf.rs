@@ -1,4 +1,4 @@
-//! PDF: one page, shapes as shapes and text as text in an embedded font.
+//! PDF: one page, with vector shapes and with text in an embedded font.
 
 use crate::colour::{self, BLACK, WHITE};
 use crate::drawing::{Bitmap, Drawing, DrawnPath, Item, OutlinePart, Text};
@@ -14,13 +14,13 @@ use pdf_writer::{Content, Filter, Finish, Name, Pdf, Rect, Ref, Str};
 use std::collections::{BTreeMap, BTreeSet};
 use subsetter::GlyphRemapper;
 
-/// Points over pixels: 96 pixels and 72 points are an inch.
+/// Points per pixel: 96 pixels and 72 points are an inch.
 const POINT: f32 = 0.75;
 
 /// Name of the font in the page's resources.
 const FONT: Name<'_> = Name(b"F");
 
-/// Marked as a part of a font by the six letters that the format asks for.
+/// The six letters that the format requires for a subset of a font.
 const FONT_NAME: Name<'_> = Name(b"FIGURE+Ubuntu-Light");
 
 const SYSTEM: SystemInfo<'_> = SystemInfo {
@@ -29,7 +29,7 @@ const SYSTEM: SystemInfo<'_> = SystemInfo {
     supplement: 0,
 };
 
-/// The figure as PDF: a page of its size, with its font.
+/// The figure as PDF: a page of its size with an embedded font.
 ///
 /// # Errors
 /// [`FigureError`] for a figure that cannot be drawn.
@@ -54,7 +54,7 @@ pub fn to_pdf(figure: &Figure) -> Result<Vec<u8>, FigureError> {
             Item::DrawnPath(shape) => opacities.extend(draw_shape(&mut painted, shape)),
             Item::Bitmap(picture) => {
                 let area = picture.area;
-                // a picture stands on its lower side in a unit square
+                // a picture is drawn upright in a unit square
                 let (width, height) = (area.width() as f32, area.height() as f32);
                 let place = [area.left as f32, area.bottom as f32];
                 painted.transform([width, 0.0, 0.0, -height, place[0], place[1]]);
@@ -101,7 +101,7 @@ fn compressed(bytes: &[u8]) -> Vec<u8> {
     compress_to_vec_zlib(bytes, 6)
 }
 
-/// The pixels of a picture; white where there is nothing.
+/// The pixels of a picture; transparent ones are white.
 fn write_picture(pdf: &mut Pdf, id: Ref, picture: &Bitmap) {
     let colours = picture.pixels.iter().map(|pixel| pixel.unwrap_or(WHITE));
     let bytes: Vec<u8> = colours.flat_map(colour::rgb).collect();
@@ -117,7 +117,7 @@ fn write_picture(pdf: &mut Pdf, id: Ref, picture: &Bitmap) {
 /// The letters of the font that a drawing uses, embedded.
 struct Subset {
     file: Vec<u8>,
-    /// Number of each letter in the part, and its width over the font's size.
+    /// Number of each letter in the subset, and its width relative to the size of the font.
     letters: BTreeMap<char, (u16, f64)>,
 }
 
@@ -192,7 +192,7 @@ fn rgb(colour: u32) -> [f32; 3] {
     colour::rgb(colour).map(|c| f32::from(c) / 255.0)
 }
 
-/// Draws a shape; and how much its filling hides, in thousandths, which name the state for it.
+/// Draws a shape; returns the opacity of its filling in thousandths, which names the graphics state for it.
 fn draw_shape(content: &mut Content, shape: &DrawnPath) -> Option<u32> {
     let opacity = shape.fill.map(|fill| (1000.0 * fill.1).round() as u32);
     if let Some(area) = shape.clip {
@@ -241,7 +241,7 @@ fn draw_text(content: &mut Content, text: &Text, font: &Subset) {
     content.set_stroke_rgb(r, g, b);
     content.set_line_width(3.0);
     content.set_line_join(LineJoinStyle::RoundJoin);
-    // the rim below, then the letters
+    // the rim first, then the letters
     let rim = text.has_rim.then_some(TextRenderingMode::Stroke);
     for pass in rim.into_iter().chain([TextRenderingMode::Fill]) {
         content.begin_text();

@@ -14,7 +14,7 @@ use tiny_skia::{
     SpreadMode, Stroke, StrokeDash, Transform,
 };
 
-/// The figure as PNG, at `scale` pixels for each of its own.
+/// The figure as PNG, with `scale` pixels of the PNG per pixel of the figure.
 ///
 /// # Errors
 /// [`FigureError`] for a figure that cannot be drawn, or a picture that is too large.
@@ -24,7 +24,7 @@ pub fn to_png(figure: &Figure, scale: f32) -> Result<Vec<u8>, FigureError> {
 
 /// Width and height in pixels.
 fn size(drawing: &Drawing, scale: f32) -> [u32; 2] {
-    // a hundredth of a pixel more is none
+    // ignores up to a hundredth of a pixel
     let pixels = |side: f64| (f64::from(scale) * (side - 0.005)).ceil() as u32;
     [drawing.canvas.width(), drawing.canvas.height()].map(pixels)
 }
@@ -47,13 +47,14 @@ fn rendered(drawing: &Drawing, scale: f32) -> Result<Pixmap, FigureError> {
     Ok(canvas.map)
 }
 
-/// How long it takes to find the colours of a frame: 1 is the best, 30 the fastest.
+/// Effort for finding the colours of a frame: 1 is the best, 30 the fastest.
 const SPEED: i32 = 10;
 
-/// Figures as an animated GIF that repeats: a frame each, all of the size of the first, `frame_s` long, to the hundredth.
+/// Figures as an endless animated GIF: one frame per figure, all of the size of the first, shown for `frame_s` rounded
+/// to 0.01 s.
 ///
 /// # Errors
-/// [`FigureError`] for a figure that cannot be drawn, or frames that are not of one size.
+/// [`FigureError`] for a figure that cannot be drawn, or frames of different sizes.
 pub fn to_gif(figures: &[Figure], scale: f32, frame_s: f64) -> Result<Vec<u8>, FigureError> {
     let drawings = figures.iter().map(draw).collect::<Result<Vec<_>, _>>()?;
     let first = drawings
@@ -64,9 +65,11 @@ pub fn to_gif(figures: &[Figure], scale: f32, frame_s: f64) -> Result<Vec<u8>, F
     encoder.set_repeat(Repeat::Infinite).map_err(no_gif)?;
     for drawing in &drawings {
         if size(drawing, scale) != [width, height].map(u32::from) {
-            return Err(no_gif("its frames are not of one size, below 65536 pixels"));
+            return Err(no_gif(
+                "its frames must have the same size, below 65536 pixels",
+            ));
         }
-        // the page is white throughout: no pixel is transparent
+        // the page is white everywhere: no pixel is transparent
         let mut rgba = rendered(drawing, scale)?.take();
         let mut frame = Frame::from_rgba_speed(width, height, &mut rgba, SPEED);
         frame.delay = (100.0 * frame_s).round().clamp(2.0, 6000.0) as u16;
@@ -79,7 +82,7 @@ fn no_gif(why: impl Display) -> FigureError {
     FigureError(format!("the GIF cannot be encoded: {why}"))
 }
 
-/// A white page, to its last row: a drawing may end within a pixel.
+/// A white page, including the last row, which the drawing may fill only partly.
 fn page(width: u32, height: u32) -> Result<Pixmap, FigureError> {
     let mut map = pixmap(width, height)?;
     let [red, green, blue] = rgb(WHITE);
@@ -87,13 +90,13 @@ fn page(width: u32, height: u32) -> Result<Pixmap, FigureError> {
     Ok(map)
 }
 
-/// Room for pixels.
+/// Allocates the pixels.
 fn pixmap(width: u32, height: u32) -> Result<Pixmap, FigureError> {
-    let fault = || format!("a picture of {width} by {height} pixels cannot be made");
+    let fault = || format!("a picture of {width} by {height} pixels cannot be created");
     Pixmap::new(width, height).ok_or_else(|| FigureError(fault()))
 }
 
-/// A picture's pixels, transparent where nothing is to be seen.
+/// A picture's pixels.
 pub(super) fn pixels(picture: &Bitmap) -> Result<Pixmap, FigureError> {
     let mut map = pixmap(picture.columns, picture.rows)?;
     for (to, from) in map.pixels_mut().iter_mut().zip(&picture.pixels) {
@@ -112,9 +115,9 @@ pub(super) fn encode(map: &Pixmap) -> Result<Vec<u8>, FigureError> {
 
 struct Canvas {
     map: Pixmap,
-    /// From a drawing's pixels to those of the map.
+    /// Map from a drawing's pixels to those of the picture.
     place: Transform,
-    /// The last area outside of which nothing was drawn; shapes of a plot follow one another.
+    /// The last clipping area; the shapes of a plot follow one another.
     clip: Option<(Rect, Mask)>,
 }
 

@@ -16,13 +16,13 @@ use tiny_skia::PathSegment;
 
 /// The figure as SVG.
 ///
-/// Letters are outlines, each defined once, so that no viewer needs the font; what a text says stands in `aria-label`.
+/// Letters are outlines, each defined once, so that viewers do not need the font; `aria-label` contains the text.
 ///
 /// # Errors
 /// [`FigureError`] for a figure that cannot be drawn.
 pub fn to_svg(figure: &Figure) -> Result<String, FigureError> {
     let drawing = draw(figure)?;
-    // the different areas outside of which something is not drawn
+    // the different clipping areas
     let mut clips: Vec<Rect> = Vec::new();
     let mut letters: BTreeSet<char> = BTreeSet::new();
     let mut drawn: Vec<Box<dyn Node>> = Vec::with_capacity(drawing.items.len());
@@ -52,7 +52,7 @@ pub fn to_svg(figure: &Figure) -> Result<String, FigureError> {
         .set("viewBox", format!("0 0 {width} {height}"))
         .set("width", width)
         .set("height", height)
-        // the older name of a link, which every viewer knows
+        // the older name of a link, which all viewers support
         .set("xmlns:xlink", "http://www.w3.org/1999/xlink")
         .add(definitions);
     let document = drawn.into_iter().fold(document, Document::add);
@@ -115,7 +115,7 @@ fn image(picture: &Bitmap) -> Result<Image, FigureError> {
         .set("xlink:href", data))
 }
 
-/// Letters are outlined in so many units of their size.
+/// Units per font size in the outlines of letters.
 const OUTLINE_UNITS: f64 = 1000.0;
 
 fn letter_id(letter: char) -> String {
@@ -136,7 +136,7 @@ fn letter_outline(letter: char) -> Option<String> {
     Some(segments.collect())
 }
 
-/// A text, its raised and lowered parts each on its own; a rim lies below all letters.
+/// A text with its superscripts and subscripts as separate parts; a rim lies below all letters.
 fn label(text: &Text, used: &mut BTreeSet<char>) -> Group {
     let plain = text.plain();
     used.extend(plain.chars());
@@ -175,7 +175,7 @@ fn letters((text, size, (x, y)): (&str, f64, Point), is_upward: bool) -> Group {
     group
 }
 
-/// To a hundredth of a pixel.
+/// Rounds to a hundredth of a pixel.
 fn number(value: f64) -> String {
     let text = format!("{value:.2}");
     let short = text.trim_end_matches('0').trim_end_matches('.');

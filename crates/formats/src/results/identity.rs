@@ -1,4 +1,4 @@
-//! What makes the results of two scenes the same, and whether a results file is the whole result of a scene.
+//! Identity of the results of a scene, and the check that a results file is complete.
 
 use crate::error::SceneError;
 use crate::scene::resolved;
@@ -10,10 +10,10 @@ use impact::{Load, Scene};
 use ledger::Identity;
 use std::path::Path;
 
-/// Identity of the resolved scene with the samples of its force record, of the program's version, of the
-/// revisions of its numbers and of the format.
+/// SHA-256 over the resolved scene with the samples of its force record, the program's version, the revisions of its
+/// numbers and the file format.
 pub fn scene_sha256(scene: &Scene) -> String {
-    // wherever its record lies
+    // the path of its record does not matter
     let mut placeless = scene.clone();
     let mut samples = Vec::new();
     if let Load::Record(record) = &mut placeless.load {
@@ -30,11 +30,11 @@ pub fn scene_sha256(scene: &Scene) -> String {
         .hex()
 }
 
-/// Why the file at `path` is not the whole result of a scene, whose fields may have computed kernels where `direct` says
-/// so, and those of the table with an id where there is one.
+/// Checks that the file at `path` is the complete result of a scene. Its fields may have computed kernels if `direct`,
+/// and kernels of the table `id` if there is one.
 ///
 /// # Errors
-/// One sentence.
+/// One sentence with the reason.
 pub fn check_results(
     path: &Path,
     scene: &Scene,
@@ -43,10 +43,10 @@ pub fn check_results(
 ) -> Result<(), String> {
     let told = |error: SceneError| error.to_string();
     let found = StoredImpact::open(path).map_err(told)?;
-    // files of versions before 1.7 do not say which scene they are of
+    // files of versions before 1.7 do not store the hash of their scene
     if found.stored.text(schema::SCENE_SHA256) != Ok(scene_sha256(scene)) {
         return Err(format!(
-            "{} is of another scene, or of this one before its files or the program changed",
+            "{} is the result of another scene, or of this scene before its files or the program changed",
             path.display()
         ));
     }
@@ -68,7 +68,7 @@ pub fn check_results(
         format!(" of the table {table}")
     };
     Err(format!(
-        "{} has fields with other kernels than are asked for: {kernel}{of_table}",
+        "{} has fields with other kernels than requested: {kernel}{of_table}",
         path.display()
     ))
 }

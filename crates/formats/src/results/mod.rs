@@ -1,7 +1,7 @@
-//! The results file: HDF5, or its histories as text, as `data-schema/results.md` writes it down.
+//! The results file: HDF5, or its histories as text; `data-schema/results.md` describes it.
 //!
-//! Every name on disk is a constant of [`schema`](crate::schema::results) or of the table of quantities. The file is written beside its final
-//! name and renamed when it is complete.
+//! Every name on disk is a constant of [`schema`](crate::schema::results) or in the table of quantities. The file is
+//! written under a temporary name next to its final one and renamed when it is complete.
 
 mod identity;
 mod section;

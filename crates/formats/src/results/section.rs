@@ -1,6 +1,6 @@
 //! The section in a results file: `/VTKHDF` for ParaView and pyvista, `/map` for everything else.
 //!
-//! Both are the same data: the fields in `/map` are hard links to those in `/VTKHDF`.
+//! Both contain the same data: the fields in `/map` are hard links to those in `/VTKHDF`.
 
 use crate::hdf::{
     array, attach_scales, describe, numbers, scalar, scale, set_scale, text, texts, vector,
@@ -11,7 +11,7 @@ use hdf5::types::FixedAscii;
 use hdf5::{Dataset, File, Group};
 use impact::{Peaks, SectionFields};
 
-/// How the name of a largest value ends.
+/// Suffix of the names of largest values.
 const PEAK: &str = schema::PEAK_SUFFIXES[0];
 
 pub(super) fn write_section(file: &File, map: &SectionFields) -> Result<(), hdf5::Error> {
@@ -30,7 +30,7 @@ pub(super) fn write_section(file: &File, map: &SectionFields) -> Result<(), hdf5
         Some(_) => Some(scale(&file.group(schema::VTK)?, &schema::WHOLE, &[0_i64])?),
         None => None,
     };
-    // netCDF looks for the scales of a dataset in its group and in those above it
+    // netCDF looks for the scales of a dataset in its group and in the parent groups
     for (name, ..) in schema::MAP_SCALES {
         link(file, &[schema::MAP, name], &[schema::VTK, name])?;
     }
@@ -52,7 +52,7 @@ pub(super) fn write_section(file: &File, map: &SectionFields) -> Result<(), hdf5
             let dataset = numbers(&group, &row.labels(), &[nz, nr], found)?;
             attach_scales(&dataset, &[&z, &r])?;
             if let Some(whole) = whole.as_ref().filter(|_| row.name.ends_with(PEAK)) {
-                // every step begins at the first and only one
+                // all steps refer to the first and only value
                 let single: Vec<f32> = found.iter().map(|&value| value as f32).collect();
                 let dataset = numbers(&points, &row.labels(), &[1, nz, nr], &single)?;
                 attach_scales(&dataset, &[whole, &z, &r])?;
@@ -63,8 +63,8 @@ pub(super) fn write_section(file: &File, map: &SectionFields) -> Result<(), hdf5
     Ok(())
 }
 
-/// What stands beside a quantity, one number a place: the estimate of its error and, where they are known, its largest
-/// value over time and when it is reached.
+/// Datasets of a quantity with one number per place: the estimate of its error and, if recorded, its largest value over
+/// time and the time of it.
 pub fn beside<'v>(
     row: Labels<'_>,
     errors: &'v [f64],
@@ -85,13 +85,14 @@ pub(super) fn waves(group: &Group) -> Result<Dataset, hdf5::Error> {
     Ok(dataset)
 }
 
-/// A second name for a dataset.
+/// Adds a second name for a dataset.
 fn link(file: &File, from: &[&str], to: &[&str]) -> Result<(), hdf5::Error> {
     let path = |parts: &[&str]| format!("/{}", parts.join("/"));
     file.link_hard(&path(from), &path(to))
 }
 
-/// The group that VTK reads, as temporal image data; returns the groups of its point data and of where their steps begin.
+/// Creates the group that VTK reads, as temporal image data; returns the groups of its point data and of the offsets of
+/// its steps.
 ///
 /// x is the distance from the axis, y is minus the depth.
 fn vtk_image(file: &File, map: &SectionFields) -> Result<(Group, Group), hdf5::Error> {
@@ -100,7 +101,7 @@ fn vtk_image(file: &File, map: &SectionFields) -> Result<(Group, Group), hdf5::E
     let spacing = |x: &[f64]| (x[x.len() - 1] - x[0]).abs() / (x.len() - 1) as f64;
     array(&vtk, "Version", &[2], &[2, 1])?;
     let kind = FixedAscii::<9>::from_ascii("ImageData")
-        .map_err(|_| hdf5::Error::from("the type is not ASCII"))?;
+        .map_err(|_| hdf5::Error::from("the type of the VTK group is not ASCII"))?;
     scalar(&vtk, "Type", kind)?;
     let extent = [0, nr as i64 - 1, 0, nz as i64 - 1, 0, 0];
     array(&vtk, "WholeExtent", &[6], &extent)?;
@@ -114,7 +115,7 @@ fn vtk_image(file: &File, map: &SectionFields) -> Result<(Group, Group), hdf5::E
     let described = ("Values", "s", "time of each frame");
     let values = vector(&steps, &described, &map.time_s)?;
     text(&values, "axis", "time")?;
-    // a step of a field begins where the one before it ends; some readers count in 64 bits only
+    // a step of a field begins at the end of the previous step; some readers need 64-bit offsets
     let offsets = steps.create_group(schema::VTK_OFFSETS)?;
     let numbered: Vec<i64> = (0..map.time_s.len() as i64).collect();
     for (name, _, meaning) in labels_of(&map.quantities) {

@@ -1,4 +1,4 @@
-//! Writing results files, and the same as text: one table of everything over time.
+//! Writes results files, and their histories as text: one table of all quantities over time.
 
 use super::identity::scene_sha256;
 use super::section::{beside, waves, write_section};
@@ -24,7 +24,7 @@ pub fn write_results(
     stage_results(&output, scene, outcome)?.commit()
 }
 
-/// The same into an output that was claimed before the work, under its name when it is committed.
+/// Writes into an output that was claimed before the work; committing it gives the file its name.
 pub fn stage_results<'a>(
     output: &'a Output,
     scene: &Scene,
@@ -80,7 +80,7 @@ fn write_probes(
     let group = file.create_group(schema::PROBES)?;
     let rows = fields.r_m.len();
     let numbered: Vec<i64> = (1..=rows as i64).collect();
-    // scales of its own: a group is opened by itself
+    // a group may be opened on its own, so it has its own scales
     let probe = scale(&group, &schema::PROBE, &numbered)?;
     let time = scale(&group, &schema::SERIES[0], time_s)?;
     let wave = waves(&group)?;
@@ -110,7 +110,7 @@ fn write_probes(
     Ok(())
 }
 
-/// The largest values over time at each probe, where a scene asks for them.
+/// The largest values over time at each probe, if the scene requests them.
 pub fn peaks_of(scene: &Scene, time_s: &[f64], values: &[Vec<f64>]) -> Option<Peaks> {
     scene.peaks.then(|| {
         let mut found = Peaks::default();
@@ -134,10 +134,10 @@ fn write_attributes(file: &File, scene: &Scene, outcome: &Outcome) -> Result<(),
     Ok(())
 }
 
-/// Writes the time series and the traces of the probes, one line a sample, into an output that was claimed.
+/// Writes the time series and the traces of the probes into a claimed output, one line per sample.
 ///
-/// Lines that begin with `#` say where the probes are. The first line after them names the columns with their units,
-/// such as `time_s`, `force_n` and `probe1_stress_zz_pa`.
+/// Lines that begin with `#` contain the positions of the probes. The next line has the names of the columns with their
+/// units, such as `time_s`, `force_n` and `probe1_stress_zz_pa`.
 pub fn stage_results_csv<'a>(
     output: &'a Output,
     scene: &Scene,
@@ -163,7 +163,7 @@ pub fn stage_results_csv<'a>(
     })
 }
 
-/// Names, which end with the unit, and samples.
+/// Column names, which end with the unit, and samples.
 fn columns(outcome: &Outcome) -> Vec<(String, &[f64])> {
     let series = schema::samples(&outcome.series);
     let mut found: Vec<_> = series
@@ -178,7 +178,7 @@ fn columns(outcome: &Outcome) -> Vec<(String, &[f64])> {
     found
 }
 
-/// A unit as names carry it: `m/s` is `_m_s`.
+/// Suffix of a name for a unit: `m/s` becomes `_m_s`.
 fn ending(unit: &str) -> String {
     if unit == "1" {
         return String::new();
@@ -189,8 +189,8 @@ fn ending(unit: &str) -> String {
     )
 }
 
-/// The text attributes of the root that say what the file is and how its scene was computed: its [`choices`], its kernel,
-/// and what is known of the kernel.
+/// Text attributes of the root that identify the file and the method of the scene: its [`choices`], its kernel, and the
+/// source of the kernel.
 fn texts<'a>(scene: &Scene, outcome: &'a Outcome) -> [(&'static str, &'a str); 13] {
     let [model, scheme, static_share, deflection, reason] = choices(scene, outcome);
     let used = outcome.used.as_ref();

@@ -1,5 +1,5 @@
-//! Bodies as sections of keys: an elastic one, in scenes and in files of materials, and a striker, which is a mass with a
-//! tip, a ball or a rod, with its velocity.
+//! Sections with the keys of a body: an elastic material, in scenes and in materials files, and a striker with its
+//! velocity, which is a mass with a tip, a ball or a rod.
 
 use super::keys::{Form, Set, keys_of};
 use super::section::read_text;
@@ -11,10 +11,10 @@ use halfspace::DomainError;
 use impact::Strike;
 use std::path::Path;
 
-/// Relative difference up to which quantities given twice are taken as rounded, not different.
+/// Relative difference up to which two values of the same quantity count as equal but rounded.
 const ROUNDED_DIFFERENCE: f64 = 0.02;
 
-/// Reads a file of materials: one section a material, the keys of a scene's bodies plus `group` and `source`.
+/// Reads a materials file: one section per material, with the keys of a scene's bodies plus `group` and `source`.
 ///
 /// # Errors
 /// [`SceneError`] with the file, the section and the key at fault.
@@ -33,13 +33,13 @@ pub fn parse_materials(text: &str) -> Result<Library, SceneError> {
         if name.is_empty() || name.contains(char::is_control) {
             let key = "the name of a material".to_owned();
             let shown = format!("\"{}\"", name.escape_default());
-            let expected = "one or more printed letters";
+            let expected = "one or more printable characters";
             return Err(SceneError::wrong_kind(key, shown, expected));
         }
         let section = root.subsection(name, "a section")?;
         let allowed = keys_of("body").map(|key| key.name);
         section.allow(allowed.chain(["group", "source"]))?;
-        let source = section.needed_text("source", "say where the numbers come from")?;
+        let source = section.needed_text("source", "add the source of the numbers")?;
         let mut material = elastic(&section, None)?;
         material.name = section.name.to_owned();
         material.group = section.text("group")?.unwrap_or("other").to_owned();
@@ -49,16 +49,16 @@ pub fn parse_materials(text: &str) -> Result<Library, SceneError> {
     own.collect()
 }
 
-/// The body of a section that may name a material of a library.
+/// The material of a section that may name a material of a library.
 pub(super) fn body(section: &TomlSection<'_>, library: &Library) -> Result<Material, SceneError> {
     let named = section.text("material")?.map(|name| library.find(name));
     let unknown = |unknown| SceneError::unknown_material(section.key("material"), unknown);
     elastic(section, named.transpose().map_err(unknown)?)
 }
 
-/// The elastic body of a section: the numbers of `base` with those given replaced.
+/// The elastic material of a section: the numbers of `base`, replaced by the given ones.
 ///
-/// E and nu may be given by both wave speeds and the density instead.
+/// E and nu may be replaced by both wave speeds and the density.
 fn elastic(section: &TomlSection<'_>, base: Option<&Material>) -> Result<Material, SceneError> {
     let mut material = base.cloned().unwrap_or_else(|| {
         let mut given = Material::given(f64::NAN, f64::NAN);
@@ -83,12 +83,12 @@ fn elastic(section: &TomlSection<'_>, base: Option<&Material>) -> Result<Materia
             Some((value, size)) if (*own - value).abs() > ROUNDED_DIFFERENCE * size => {
                 let (name, by) = (section.name, "longitudinal_speed_m_s and shear_speed_m_s");
                 let sentence = format!(
-                    "[{name}] gives {quantity} twice: {own} from {key} and {value} from {by}; leave one pair out"
+                    "[{name}] defines {quantity} twice: {own} from {key} and {value} from {by}; remove one of them"
                 );
                 return Err(SceneError::of_number(by, value, sentence));
             }
             None if own.is_nan() => {
-                return Err(section.missing(key, "give a material, youngs_modulus_pa and poisson_ratio, or both wave speeds and density_kg_m3"));
+                return Err(section.missing(key, "add a material, youngs_modulus_pa and poisson_ratio, or both wave speeds and density_kg_m3"));
             }
             Some(_) | None => {}
         }
@@ -96,13 +96,13 @@ fn elastic(section: &TomlSection<'_>, base: Option<&Material>) -> Result<Materia
     Ok(material)
 }
 
-/// Young's modulus in Pa and Poisson's ratio from the wave speeds, where they are given, each with the size that differences are
-/// compared with.
+/// Young's modulus in Pa and Poisson's ratio from the wave speeds, if given, each with the scale for comparing
+/// differences.
 fn from_speeds(
     section: &TomlSection<'_>,
     density: Option<f64>,
 ) -> Result<Option<[(f64, f64); 2]>, SceneError> {
-    let both = "both wave speeds are needed";
+    let both = "both wave speeds are required";
     let c1 = section.number("longitudinal_speed_m_s")?;
     let c2 = section.number("shear_speed_m_s")?;
     let (c1, c2) = match (c1, c2) {
@@ -111,9 +111,9 @@ fn from_speeds(
         (None, Some(_)) => return Err(section.missing("longitudinal_speed_m_s", both)),
         (Some(c1), Some(c2)) => (c1, c2),
     };
-    let hint = "wave speeds give moduli only with a density";
+    let hint = "wave speeds determine the moduli only with a density";
     let density = density.ok_or_else(|| section.missing("density_kg_m3", hint))?;
-    // nu in (-1, 1/2) needs c2/c1 < sqrt(3)/2
+    // nu in (-1, 1/2) requires c2/c1 < sqrt(3)/2
     if c2 * c2 >= 0.75 * c1 * c1 {
         let key = section.key("shear_speed_m_s");
         let range = "(0, sqrt(3)/2) times longitudinal_speed_m_s";
@@ -132,7 +132,7 @@ pub(super) fn read_strike(
     let striker = match section.choice("shape")? {
         Some(form) => of_form(section, library, form)?,
         None if section.value("diameter_m").is_some() => {
-            let hint = "say whose diameter_m it is: \"ball\" or \"rod\"";
+            let hint = "diameter_m requires the shape \"ball\" or \"rod\"";
             return Err(section.missing("shape", hint));
         }
         None => Striker {
@@ -149,7 +149,7 @@ pub(super) fn read_strike(
     })
 }
 
-/// A body whose mass follows from lengths and a density.
+/// A striker whose mass follows from its lengths and density.
 fn of_form(
     section: &TomlSection<'_>,
     library: &Library,
@@ -189,7 +189,7 @@ fn of_form(
     })
 }
 
-/// Velocity of approach in m/s: as given, or after a fall.
+/// Velocity of approach in m/s, given directly or by the height of a fall.
 fn velocity(section: &TomlSection<'_>) -> Result<f64, SceneError> {
     match section.number("drop_height_m")? {
         None => section.needed("velocity_m_s"),

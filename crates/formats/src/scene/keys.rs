@@ -1,5 +1,5 @@
-//! The keys of a scene, each listed once: where it stands, what a number may be, what is told where it is missing, how it is
-//! written in a scene that is spelled out, and how it is set, by the reader or by a sweep in a scene that is parsed already.
+//! The keys of a scene, each listed once: section, name, range of a number, hint if it is missing, how it is written in
+//! a resolved scene, and how the reader or a sweep sets it in a parsed scene.
 
 use crate::error::SceneError;
 use contact::{
@@ -33,31 +33,30 @@ pub(crate) const TOLERANCE: Range = Range::new("[1e-9, 0.1]", |x| (1e-9..=0.1).c
 
 /// A key of a scene.
 pub(crate) struct Key {
-    /// Its section; `body` for both bodies.
+    /// Section; `body` for keys of both bodies.
     section: &'static str,
     pub(crate) name: &'static str,
     /// None for words, lists and flags.
     pub(crate) range: Option<Range>,
-    /// What to give, where it is needed.
+    /// Hint if the key is required and missing.
     pub(crate) hint: &'static str,
-    /// Its value in a scene that is spelled out, from the scene and the material of the key's section; none where it is not
-    /// written.
+    /// Value in a resolved scene, from the scene and the material of the key's section; none if the key is not written.
     pub(super) get: fn(&Scene, &Material) -> Option<Value>,
-    /// How it is set in a scene.
+    /// How the key is set in a scene.
     pub(crate) set: Option<Set>,
-    /// A number that stands in for one that a sweep sets after a scene is parsed.
+    /// Placeholder for a number that a sweep sets after the scene is parsed.
     pub(crate) stand_in: Option<f64>,
 }
 
-/// Where a value goes.
+/// Target of a value.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Set {
     Settings(fn(&mut Settings, f64)),
-    /// A word; where it is none of them, these come back.
+    /// A word; the function returns all choices if the word is unknown.
     Choice(fn(&mut Settings, &str) -> Result<(), String>),
     Strike(fn(&mut Strike, f64)),
     Body(fn(&mut Material, Option<&mut Shape>, f64)),
-    /// The mass of a striker follows from it, and it is plain for a ball only.
+    /// A key that determines the mass of a striker; can be set directly for a ball only.
     Ball(fn(&mut Material, Option<&mut Shape>, f64)),
 }
 use Set::{Ball, Body, Choice as Choose, Settings as Setting, Strike as Approach};
@@ -83,8 +82,8 @@ macro_rules! keys {
     };
 }
 
-/// All of them, in the order in which messages list them: section, name, range, hint, how it is written, how it is set, and what
-/// stands in for it.
+/// All keys, in the order in which messages list them: section, name, range, hint, value in a resolved scene, setter,
+/// and placeholder.
 const KEYS: &[Key] = keys! {
     target.material = |_, m| known(m)?.name.as_str();
     target.thickness_m: POSITIVE = |s, _| s.target.thickness_m?;
@@ -160,7 +159,7 @@ const KEYS: &[Key] = keys! {
     materials.file;
 };
 
-/// What a striker is said to be, where mass and tip follow from it.
+/// Shapes of a striker whose mass and tip follow from lengths.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Form {
     Ball,
@@ -169,7 +168,7 @@ pub(crate) enum Form {
 
 choice!(Form: Ball = "ball", Rod = "rod");
 
-/// The value of a word, or all words that there are.
+/// The value of a word, or else the list of all words.
 pub(super) fn named<T: Choice>(word: &str) -> Result<T, String> {
     T::named(word).ok_or_else(|| {
         let names: Vec<&str> = T::ALL.iter().map(|choice| choice.name()).collect();
@@ -181,20 +180,20 @@ fn striker(scene: &Scene) -> Option<&Striker> {
     scene.strike().map(|strike| &strike.striker)
 }
 
-/// The file of a record, empty for one that a program made; none where its samples stand in the scene.
+/// The file of a record, empty for a record made by a program; none if its samples are in the scene.
 fn file_of(record: &ForceRecord) -> Option<String> {
     let file = record.file.as_ref();
     let named = file.map_or_else(String::new, |path| path.display().to_string());
     record.reading.samples.is_none().then_some(named)
 }
 
-/// The material of the library whose name a spelled-out body keeps; its numbers replace all of it.
+/// The library material whose name a resolved body keeps; the numbers of the body replace all of it.
 fn known(material: &Material) -> Option<&'static Material> {
     let named = Library::built_in().get(&material.name);
     named.filter(|_| material.density_kg_m3.is_some())
 }
 
-/// A strength; where it is unknown, but that of the named material is known, 0 says so.
+/// A strength of a body. 0 marks a strength that is unknown although the named material has one.
 fn strength(material: &Material, of: fn(&Material) -> Option<f64>) -> Option<f64> {
     of(material).or(known(material).and_then(of).map(|_| 0.0))
 }
@@ -211,21 +210,21 @@ pub(crate) const SECTIONS: [&str; 8] = [
     "materials",
 ];
 
-/// The keys of a section; those of an elastic body follow the others.
+/// The keys of a section; those of an elastic body come last.
 pub(crate) fn keys_of(section: &str) -> impl Iterator<Item = &'static Key> {
     let bodies = ["target", "striker"].contains(&section);
     KEYS.iter()
         .filter(move |key| key.section == section || (bodies && key.section == "body"))
 }
 
-/// A key with its section, where one has a key of this name.
+/// The full name of a key, with the first section that has it.
 pub(super) fn full_name(name: &str) -> Option<String> {
     let has = |section: &&str| keys_of(section).any(|key| key.name == name);
     let section = SECTIONS.into_iter().find(has)?;
     Some(format!("{section}.{name}"))
 }
 
-/// A number of a scene; its name means the same in every section.
+/// The key of a number; a name has the same meaning in every section.
 pub(super) fn number(name: &str) -> Option<&'static Key> {
     KEYS.iter().find(|key| key.name == name)
 }
@@ -242,7 +241,7 @@ pub(super) fn number(name: &str) -> Option<&'static Key> {
 /// ```
 ///
 /// # Errors
-/// [`SceneError`] where none of them has it, with the nearest name of a key or of `others`, which may stand in its place.
+/// [`SceneError`] if none of them has it, with the nearest name of a key or of `others`, which are also accepted.
 pub fn sections_of(key: &str, others: &[&str]) -> Result<Vec<&'static str>, SceneError> {
     let contact = &SECTIONS[..3];
     let has = |section: &&str| keys_of(section).any(|known| known.name == key);
@@ -251,18 +250,18 @@ pub fn sections_of(key: &str, others: &[&str]) -> Result<Vec<&'static str>, Scen
         let keys = contact.iter().flat_map(|section| keys_of(section));
         let names = keys.map(|key| key.name).chain(others.iter().copied());
         let near = nearest(key, names);
-        let otherwise = "it is in none of [target], [striker] and [contact]";
+        let otherwise = "it does not exist in [target], [striker] or [contact]";
         return Err(SceneError::unknown_key(key.to_owned(), near, otherwise));
     }
     Ok(found)
 }
 
-/// The scene with every default and material spelled out, as TOML.
+/// The scene as TOML with all defaults and materials spelled out.
 pub fn resolved(scene: &Scene) -> String {
     resolved_table(scene).to_string()
 }
 
-/// The same as a table.
+/// The resolved scene as a table.
 pub fn resolved_table(scene: &Scene) -> Table {
     let mut root = Table::new();
     for section in SECTIONS {
@@ -290,7 +289,7 @@ pub fn resolved_table(scene: &Scene) -> Table {
 }
 
 impl Set {
-    /// Sets a number that is in its range; false where it makes no body.
+    /// Sets a number that is in its range; returns false if the body becomes impossible.
     pub(crate) fn apply(self, scene: &mut Scene, section: &str, x: f64) -> bool {
         match (self, section, &mut scene.load) {
             (Self::Body(set) | Self::Ball(set), "target", _) => {
@@ -307,7 +306,7 @@ impl Set {
                 let changed = striker.change_shape(|material, shape| set(material, shape, x));
                 return changed.is_ok();
             }
-            // the first template was checked for a striker, and words are not set so
+            // the first template was checked for a striker, and words are not set this way
             (Self::Strike(_) | Self::Body(_) | Self::Ball(_) | Self::Choice(_), ..) => {}
         }
         true
@@ -318,14 +317,14 @@ impl Set {
 mod tests {
     use super::*;
 
-    /// Every key has a row in its section of the document, which gives the range of a number.
+    /// Every key has a row in its section of the document, with the range of a number.
     #[test]
     fn the_document_has_every_key_with_its_range() {
         let document = include_str!("../../../../data-schema/scene.md");
         for section in SECTIONS {
             let own = document.split("\n## ").filter(|part| {
                 let heading = part.lines().next().unwrap_or_default();
-                // the striker has the elastic keys of the target
+                // the striker shares the elastic keys of the target
                 let bodies = section == "striker" && heading.contains("[target]");
                 heading.contains(&format!("[{section}]")) || bodies
             });
@@ -335,7 +334,7 @@ mod tests {
                     |row: &&&str| row.starts_with('|') && row.contains(&format!("`{}`", key.name));
                 let mut found = rows.iter().filter(names).peekable();
                 assert!(found.peek().is_some(), "{section}.{}", key.name);
-                // those of a record are told in words
+                // the ranges of a record are described in words
                 if let Some(range) = key.range.filter(|_| section != "force") {
                     let name = key.name;
                     assert!(

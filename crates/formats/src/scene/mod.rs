@@ -1,7 +1,8 @@
-//! Scene files: what hits what, and what is asked, in TOML and SI units, as `data-schema/scene.md` writes it down.
+//! Scene files in TOML and SI units: bodies, contact settings and requested output; `data-schema/scene.md` describes
+//! them.
 //!
-//! `keys` lists what a scene can have and spells one out, `section` reads typed values, `read` makes a scene of them with
-//! `body`; `record` is the file beside it.
+//! `keys` lists all keys of a scene and writes resolved scenes, `section` reads typed values, `read` and `body` build a
+//! scene, and `record` reads force records.
 
 pub(crate) mod body;
 pub(crate) mod keys;

@@ -1,4 +1,4 @@
-//! Reading scenes.
+//! Reads scenes.
 
 use super::body::{body, read_materials, read_strike};
 use super::keys::{SECTIONS, Set, keys_of};
@@ -12,14 +12,14 @@ use output::{Role, is_standard};
 use std::path::Path;
 use toml::{Table, Value};
 
-/// Sections of a scene with a key `file`, and what that file is.
+/// Sections of a scene with a key `file`, and the kind of that file.
 const FILES: [(&str, &str); 2] = [
     ("materials", "the materials file"),
     ("force", "the force record"),
 ];
 
-/// The scene of a file, of `-` for standard input, and the files that it names, itself among them: none of them may be an
-/// output.
+/// Reads a scene from a file, or from standard input if the path is `-`. Also returns all input files, the scene itself
+/// among them, which must not be overwritten.
 ///
 /// # Errors
 /// [`SceneError`], with the path of the file at fault.
@@ -44,7 +44,7 @@ pub fn read_with_inputs(path: &Path) -> Result<(Scene, Vec<Role>), SceneError> {
     Ok((scene, found))
 }
 
-/// Reads a scene file; other files it names are found beside it.
+/// Reads a scene file. Relative paths in it start at its folder.
 ///
 /// # Errors
 /// [`SceneError`], with the path of the file at fault.
@@ -61,7 +61,7 @@ pub fn parse_scene(text: &str, directory: &Path) -> Result<Scene, SceneError> {
     scene_of(&parse(text)?, directory)
 }
 
-/// Reads a scene from a parsed table, as sweeps make them.
+/// Reads a scene from a parsed table, as sweeps do.
 pub fn scene_of(table: &Table, directory: &Path) -> Result<Scene, SceneError> {
     let root = TomlSection::root(table);
     let of_sweeps = ["product", "list", "random"];
@@ -74,7 +74,7 @@ pub fn scene_of(table: &Table, directory: &Path) -> Result<Scene, SceneError> {
     scene_with(table, directory, &library)
 }
 
-/// Reads a scene whose materials are known already.
+/// Reads a scene with a library of materials that was read before.
 pub(crate) fn scene_with(
     table: &Table,
     directory: &Path,
@@ -104,7 +104,7 @@ pub(crate) fn scene_with(
     })
 }
 
-/// Refuses to be asked for a field that is written in any case.
+/// Rejects requests for fields that are always written.
 fn always_there(output: &TomlSection<'_>) -> Result<(), SceneError> {
     let asked = output.value("quantities").and_then(Value::as_array);
     let mut words = asked.into_iter().flatten().filter_map(Value::as_str);
@@ -114,11 +114,11 @@ fn always_there(output: &TomlSection<'_>) -> Result<(), SceneError> {
     Err(SceneError::superfluous(
         format!("output.quantities = \"{word}\""),
         "the six fields",
-        "displacements and stresses are always written; leave it out",
+        "displacements and stresses are always written: remove it",
     ))
 }
 
-/// The half-space and the striker of a parsed scene; none for a force record, whose file is not read.
+/// The half-space and the striker of a parsed scene; no striker for a force record, whose file is not read.
 pub(crate) fn bodies_of(table: &Table) -> Result<(HalfSpace, Option<Strike>), SceneError> {
     let (root, library) = (TomlSection::root(table), Library::built_in());
     let target = read_target(&root, library)?;
@@ -133,8 +133,8 @@ fn read_target(root: &TomlSection<'_>, library: &Library) -> Result<HalfSpace, S
         .ok_or_else(|| root.missing("target", "describe the half-space in a section [target]"))?;
     target.allow_keys_of("target")?;
     let material = body(&target, library)?;
-    // the reader has checked the ranges: a density is all that can be missing
-    let hint = "the half-space needs a density for its waves";
+    // the reader has checked the ranges: only the density can be missing
+    let hint = "the waves in the half-space depend on its density";
     let made = HalfSpace::new(material);
     let mut half_space = made.map_err(|_| target.missing("density_kg_m3", hint))?;
     half_space.thickness_m = target.number("thickness_m")?;
@@ -177,18 +177,18 @@ fn read_settings(root: &TomlSection<'_>) -> Result<Settings, SceneError> {
         .map_or(Ok(settings), |conflict| Err(in_words(conflict)))
 }
 
-/// Settings that exclude each other, in the words of a scene.
+/// Conflicting settings, with the names of the keys in a scene.
 fn in_words(conflict: Conflict) -> SceneError {
     let (first, second, reason) = match conflict {
         Conflict::ExplicitDynamic => (
             "contact.scheme = \"explicit\"",
             "static_share = \"dynamic\"".to_owned(),
-            "the paper's kernel holds the static deflection",
+            "the paper's kernel includes the static deflection",
         ),
         Conflict::ExplicitModel(model) => (
             "contact.scheme = \"explicit\"",
             format!("model = \"{}\"", model.name()),
-            "the paper's scheme marches model wave only",
+            "the paper's scheme exists only for model wave",
         ),
         Conflict::GrowingDisc => (
             "contact.model = \"growing\"",
@@ -198,19 +198,19 @@ fn in_words(conflict: Conflict) -> SceneError {
         Conflict::PlasticDisc => (
             "contact.plasticity",
             "disc_radius_m".to_owned(),
-            "the radius of a contact that yields follows the load",
+            "the contact radius of a yielding contact follows the load",
         ),
         Conflict::PlasticModel(law, model) => {
             return SceneError::conflict(
                 format!("contact.plasticity = \"{}\"", law.name()),
                 format!("model = \"{}\"", model.name()),
-                "a contact that yields is solved by the implicit scheme with model auto, hertz, area_dashpot or growing, the fit of jackson_green without growing",
+                "plasticity requires the implicit scheme and model auto, hertz, area_dashpot or growing (jackson_green: not growing)",
             );
         }
         Conflict::PlasticPressure(law) => (
             "contact.yield_pressure_pa",
             format!("plasticity = \"{}\"", law.name()),
-            "thornton and recovery take it",
+            "only thornton and recovery use it",
         ),
     };
     SceneError::conflict(first.to_owned(), second, reason)
@@ -228,7 +228,7 @@ fn read_load(
             force.allow_keys_of("force")?;
             let source = read_source(&force)?;
             if settings.disc_radius_m.is_none() {
-                let hint = "a prescribed force needs the radius of the disc that it loads";
+                let hint = "a prescribed force requires the radius of the loaded disc";
                 return Err(SceneError::missing("contact.disc_radius_m", hint));
             }
             let baseline_s = force.number("baseline_s")?;
@@ -256,12 +256,12 @@ fn read_load(
         )),
         (None, None) => Err(root.missing(
             "striker",
-            "give a section [striker], or [force] with a prescribed history",
+            "add a section [striker], or [force] with a prescribed history",
         )),
     }
 }
 
-/// Where the samples of a record are.
+/// Source of the samples of a record.
 enum RecordSource<'a> {
     File(&'a str),
     /// In the scene itself: times in s and forces in N.
@@ -271,7 +271,7 @@ enum RecordSource<'a> {
 fn read_source<'a>(force: &TomlSection<'a>) -> Result<RecordSource<'a>, SceneError> {
     let (time_s, force_n) = (force.numbers("time_s")?, force.numbers("force_n")?);
     if time_s.is_none() && force_n.is_none() {
-        let hint = "name a CSV file with columns time_s,force_n or an HDF5 file with /time and /force, or give the lists time_s and force_n in its place";
+        let hint = "name a CSV file with columns time_s,force_n or an HDF5 file with /time and /force, or replace it by the lists time_s and force_n";
         return force.needed_text("file", hint).map(RecordSource::File);
     }
     let of_files = ["file", "columns", "units"];
@@ -284,13 +284,13 @@ fn read_source<'a>(force: &TomlSection<'a>) -> Result<RecordSource<'a>, SceneErr
             reason,
         ));
     }
-    let hint = "time_s and force_n are given together";
+    let hint = "time_s and force_n are required together";
     let time_s = time_s.ok_or_else(|| force.missing("time_s", hint))?;
     let force_n = force_n.ok_or_else(|| force.missing("force_n", hint))?;
     Ok(RecordSource::Samples([time_s, force_n]))
 }
 
-/// Refuses what lies outside the block.
+/// Rejects places outside the block.
 fn inside(
     block: &HalfSpace,
     probes: &[Probe],
@@ -364,10 +364,10 @@ fn read_section(root: &TomlSection<'_>) -> Result<Option<Section>, SceneError> {
     }))
 }
 
-/// Frames of a section, at most.
+/// Largest number of frames of a section.
 const MOST_SECTION_FRAMES: usize = 100_000;
 
-/// The times of the frames of a section, where it has some.
+/// The times of the frames of a section, if they are listed.
 fn frame_times(section: &TomlSection<'_>) -> Result<Vec<f64>, SceneError> {
     let key = "times_s";
     let expected = "a list of numbers that rise from 0 or later, such as [2e-6, 5e-6]";

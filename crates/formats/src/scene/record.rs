@@ -1,4 +1,4 @@
-//! Force records: text with columns of time and force, or HDF5 with `/time` and `/force`, which a results file has.
+//! Force records: text with columns of time and force, or HDF5 with `/time` and `/force`, such as a results file.
 
 use super::keys::FINITE;
 use super::section::{MOST_OF_RECORD, read_text_up_to};
@@ -10,20 +10,21 @@ use output::HDF5;
 use std::io::ErrorKind;
 use std::path::Path;
 
-/// Samples at most: they are held in memory several times.
+/// Largest number of samples: several copies are held in memory.
 const MOST_RECORD_SAMPLES: usize = 1 << 24;
 
-/// Samples that stand in a scene at most: results files hold their scene, so that all readers of a result parse them.
-/// So many take 5.7 MB of the 8 MB that a text has at most; tests/python/package/test_numbers.py has them read back.
+/// Largest number of samples in a scene. Results files contain their scene, so all readers of results parse the
+/// samples; this number needs 5.7 MB of the 8 MB limit for texts (test: tests/python/package/test_numbers.py reads them
+/// back).
 const MOST_IN_SCENE: usize = 1 << 17;
 
 /// Times in s and forces in N.
 type Rows = (Vec<f64>, Vec<f64>);
 
-/// Reads a record; the ending of its name says which of both it is.
+/// Reads a record; the file extension decides between text and HDF5.
 ///
 /// # Errors
-/// [`SceneError`] with the file, and the line at fault.
+/// [`SceneError`] with the file and the line.
 pub fn read_record(path: &Path, reading: Reading) -> Result<ForceRecord, SceneError> {
     let unreadable = |reason: String| SceneError::unreadable(path, reason);
     let (rows, name) = if HDF5.is_of(path) {
@@ -32,7 +33,7 @@ pub fn read_record(path: &Path, reading: Reading) -> Result<ForceRecord, SceneEr
             reading.sensitivity_v_per_n.is_some(),
         ];
         if of_text.contains(&true) {
-            let reason = "force.columns, force.units and force.sensitivity_v_per_n are for text, and it is an HDF5 file";
+            let reason = "force.columns, force.units and force.sensitivity_v_per_n apply to text, but this is an HDF5 file";
             return Err(unreadable(reason.to_owned()));
         }
         (from_hdf5(path).map_err(unreadable)?, "/time")
@@ -50,7 +51,7 @@ pub fn read_record(path: &Path, reading: Reading) -> Result<ForceRecord, SceneEr
     Ok(record)
 }
 
-/// The record whose samples stand in the scene.
+/// The record whose samples are in the scene.
 pub(super) fn record_of_samples(
     [time_s, force_n]: [Vec<f64>; 2],
     mut reading: Reading,
@@ -60,12 +61,12 @@ pub(super) fn record_of_samples(
     let (times, forces) = (time_s.len(), force_n.len());
     if times != forces || times < 2 {
         return Err(wrong(format!(
-            "force.time_s has {times} samples and force.force_n {forces}: as many of each are needed, at least 2"
+            "force.time_s has {times} samples and force.force_n {forces}: both need the same number, at least 2"
         )));
     }
     if times > MOST_IN_SCENE {
         return Err(wrong(format!(
-            "force.time_s has {times} samples, more than the {MOST_IN_SCENE} that a scene holds: write them to a file with the columns time_s,force_n and give its name as force.file"
+            "force.time_s has {times} samples, more than the {MOST_IN_SCENE} allowed in a scene: write them to a file with the columns time_s,force_n and set force.file to its name"
         )));
     }
     let pairs = [(name, &time_s), ("force.force_n", &force_n)];
@@ -83,7 +84,7 @@ pub(super) fn record_of_samples(
     record_of((time_s, force_n), reading, name, wrong)
 }
 
-/// Cuts what was read, turns its sign, and keeps how it was read; `wrong` is the error of a sentence.
+/// Cuts the samples, applies the sign and stores how they were read; `wrong` makes an error of a sentence.
 fn record_of(
     rows: Rows,
     reading: Reading,
@@ -113,10 +114,10 @@ fn record_of(
     }
 }
 
-/// What is said of times before zero, with what to do.
+/// Message about times before zero.
 fn before_zero(name: &str, time_s: f64) -> String {
     format!(
-        "{name} = {time_s} is outside [0, inf): give force.start_s, the time that is to be zero; what was before is cut off"
+        "{name} = {time_s} is outside [0, inf): set force.start_s to the time of the new zero; earlier samples are cut off"
     )
 }
 
@@ -125,10 +126,10 @@ fn not_ascending(name: &str, time_s: f64, before_s: f64) -> String {
 }
 
 fn too_few(rows: usize) -> String {
-    format!("{rows} rows of samples, at least 2 are needed")
+    format!("{rows} rows of samples, but at least 2 are required")
 }
 
-/// What is asked for of a record, from the time zero on: lines between the samples end at the cuts.
+/// The requested part of a record, shifted to start at time zero; the cuts interpolate between samples.
 fn cut((time_s, force_n): Rows, reading: &Reading) -> Result<Rows, SceneError> {
     let (Some(&first_s), Some(&last_s)) = (time_s.first(), time_s.last()) else {
         return Ok((time_s, force_n));
@@ -164,10 +165,10 @@ fn cut((time_s, force_n): Rows, reading: &Reading) -> Result<Rows, SceneError> {
     Ok(kept.map(|(t, force)| (t - zero_s, force)).unzip())
 }
 
-/// The columns of a record that is one as it stands.
+/// Column names of a record that needs no further keys.
 const PLAIN_COLUMNS: [&str; 2] = ["time_s", "force_n"];
 
-/// Units of time and force in s and N; the last of each are three ways to write the same letter.
+/// Units of time and force in s and N. The last of each list is another character for the same letter mu.
 const TIMES: [(&str, f64); 6] = [
     ("s", 1.0),
     ("ms", 1e-3),
@@ -186,15 +187,15 @@ const FORCES: [(&str, f64); 8] = [
     ("lbf", 4.448_221_615_260_5),
     ("\u{3bc}N", 1e-6),
 ];
-/// Units in V of the signal of a sensor, whose sensitivity makes a force of it.
+/// Units in V of a sensor signal, which the sensitivity converts to force.
 const SIGNALS: [(&str, f64); 2] = [("V", 1.0), ("mV", 1e-3)];
 
-/// What divides the columns of a line; blanks where nothing else does.
+/// The separator of columns in a line; none for blanks.
 fn separator(line: &str) -> Option<char> {
     ['\t', ';', ','].into_iter().find(|&c| line.contains(c))
 }
 
-/// The columns of a line, without blanks and quotes around them.
+/// The columns of a line, without surrounding blanks and quotes.
 fn columns(line: &str, by: Option<char>) -> Vec<&str> {
     let bare = |part| str::trim(part).trim_matches('"').trim();
     match by {
@@ -203,7 +204,7 @@ fn columns(line: &str, by: Option<char>) -> Vec<&str> {
     }
 }
 
-/// A finite number; with a decimal comma where commas do not divide columns.
+/// A finite number; accepts a decimal comma if commas do not separate columns.
 fn number(text: &str, by: Option<char>) -> Option<f64> {
     let number = match by {
         Some(',') => text.parse(),
@@ -212,13 +213,12 @@ fn number(text: &str, by: Option<char>) -> Option<f64> {
     number.ok().filter(|x: &f64| x.is_finite())
 }
 
-/// The number in a column of a line that has one.
+/// The number in a column of a line, if it has one.
 fn number_at(fields: &[&str], place: usize, by: Option<char>) -> Option<f64> {
     number(fields.get(place)?, by)
 }
 
-/// The unit of a column: that given, or the one that its name ends with, such as `Time [us]` or `F/kN`; empty where there is
-/// none.
+/// The unit of a column: given, or the last part of its name, as in `Time [us]` or `F/kN`; empty if there is none.
 fn unit<'a>(name: &'a str, given: Option<&'a String>, own: &'static str) -> &'a str {
     let named = || {
         let (_, end) = name.rsplit_once(['[', '(', '/'])?;
@@ -237,12 +237,12 @@ fn factor(name: &str, unit: &str, known: &[(&str, f64)], more: &str) -> Result<f
     factor.map(|(_, factor)| *factor).ok_or_else(|| {
         let names: Vec<&str> = known.iter().map(|(name, _)| *name).collect();
         let has = match unit {
-            "" => "names no unit".to_owned(),
+            "" => "has no unit".to_owned(),
             unit => format!("has the unit \"{unit}\""),
         };
         format!(
-            "the column \"{name}\" {has}, needed one of {}{more}: give force.units, such as [\"us\", \"kN\"]",
-            // the last is another letter mu
+            "the column \"{name}\" {has}, but one of {}{more} is required: set force.units, such as [\"us\", \"kN\"]",
+            // the last is another character for mu
             names[..names.len() - 1].join(", ")
         )
     })
@@ -254,10 +254,10 @@ fn force_factor(name: &str, unit: &str, sensitivity: Option<f64>) -> Result<f64,
     match (signal, sensitivity) {
         (Some((_, volts)), Some(v_per_n)) => Ok(volts / v_per_n),
         (Some(_), None) => Err(format!(
-            "the column \"{name}\" has the unit \"{unit}\": give force.sensitivity_v_per_n, the volts that the sensor gives per newton"
+            "the column \"{name}\" has the unit \"{unit}\": set force.sensitivity_v_per_n, the output of the sensor in V/N"
         )),
         (None, Some(_)) => Err(format!(
-            "the column \"{name}\" has the unit \"{unit}\", and force.sensitivity_v_per_n is for a signal: give force.units, such as [\"s\", \"V\"], or leave the sensitivity out"
+            "the column \"{name}\" has the unit \"{unit}\", but force.sensitivity_v_per_n applies to a signal: set force.units, such as [\"s\", \"V\"], or remove the sensitivity"
         )),
         (None, None) => factor(
             name,
@@ -268,7 +268,7 @@ fn force_factor(name: &str, unit: &str, sensitivity: Option<f64>) -> Result<f64,
     }
 }
 
-/// Where the columns of time and force are in a line that has them all.
+/// Positions of the columns of time and force in a line that has both.
 fn places(line: &str, wanted: &[String; 2]) -> Option<[usize; 2]> {
     let names = columns(line, separator(line));
     let place = |name: &String| {
@@ -279,7 +279,7 @@ fn places(line: &str, wanted: &[String; 2]) -> Option<[usize; 2]> {
     Some([place(&wanted[0])?, place(&wanted[1])?])
 }
 
-/// Rows of a text, or the line at fault, from 1, with what is wrong.
+/// Rows of a text, or the number of the line at fault, from 1, with the reason.
 fn from_text(text: &str, reading: &Reading) -> Result<Rows, (usize, String)> {
     let lines = || {
         let lines = text.trim_start_matches('\u{feff}').lines();
@@ -312,7 +312,7 @@ fn from_text(text: &str, reading: &Reading) -> Result<Rows, (usize, String)> {
         force_factor(names[1], of_force, reading.sensitivity_v_per_n).map_err(at_header)?,
     ];
     let (mut time_s, mut force_n): Rows = Default::default();
-    // some have a line of units below it
+    // some files have a line of units below it
     let is_row = |row: &str| {
         let fields = columns(row, by);
         is_number(&fields, time) || is_number(&fields, force)
@@ -341,8 +341,9 @@ fn from_text(text: &str, reading: &Reading) -> Result<Rows, (usize, String)> {
             return Err((line, not_ascending(&wanted[0], t, before)));
         }
         if time_s.len() == MOST_RECORD_SAMPLES {
-            let reason =
-                format!("there are more than {MOST_RECORD_SAMPLES} rows: cut or thin the record");
+            let reason = format!(
+                "there are more than {MOST_RECORD_SAMPLES} rows: cut or decimate the record"
+            );
             return Err((line, reason));
         }
         time_s.push(t);
@@ -354,9 +355,9 @@ fn from_text(text: &str, reading: &Reading) -> Result<Rows, (usize, String)> {
     Ok((time_s, force_n))
 }
 
-/// Where the header seems to be, directly above the first row of numbers, and what to do with it.
+/// Message about a missing header: the probable header, directly above the first row of numbers, and a way out.
 ///
-/// A file without such a row is not shown: it may be any file of whoever runs the program.
+/// The content of a file without such a row is not shown: it may be any file of the user.
 fn no_header<'a>(
     lines: impl Iterator<Item = (usize, &'a str)>,
     wanted: &[String; 2],
@@ -378,7 +379,8 @@ fn no_header<'a>(
     }
     let names = wanted.join(",");
     let Some(row) = row else {
-        let reason = format!("no header \"{names}\", and no row of two numbers: is it a record?");
+        let reason =
+            format!("no header \"{names}\", and no row with two numbers: is this a force record?");
         return (1, reason);
     };
     let count = fields(row.1).len();
@@ -386,18 +388,18 @@ fn no_header<'a>(
         .iter()
         .find(|name| name.parse().is_ok_and(|n: usize| n > count))
     {
-        let reason = format!("force.columns has {far}, and the rows have {count} columns");
+        let reason = format!("force.columns has {far}, but the rows have {count} columns");
         return (row.0, reason);
     }
     let Some((line, header)) = above else {
         let reason = format!(
-            "the first line is a row of numbers, not the header \"{names}\": name the columns of time and force by their places, force.columns = [1, 2] with force.units = [\"s\", \"N\"]"
+            "the first line is a row of numbers, not the header \"{names}\": set the columns of time and force by number, force.columns = [1, 2] with force.units = [\"s\", \"N\"]"
         );
         return (row.0, reason);
     };
     let way = match fields(header).as_slice() {
         [first, second, ..] => format!("such as force.columns = [\"{first}\", \"{second}\"]"),
-        _ => "in force.columns, or by their places".to_owned(),
+        _ => "in force.columns, by name or number".to_owned(),
     };
     let reason = format!(
         "the header is \"{header}\", not \"{names}\": name the columns of time and force, {way}"
@@ -405,22 +407,22 @@ fn no_header<'a>(
     (line, reason)
 }
 
-/// Reads the datasets `/time` (s) and `/force` (N) without the HDF5 library, which trusts what it reads.
+/// Reads the datasets `/time` (s) and `/force` (N) with a reader for untrusted files instead of the HDF5 library.
 fn from_hdf5(path: &Path) -> Result<Rows, String> {
     let file = HdfFile::open(path).map_err(|error| match &error {
         HdfError::Io(source) if source.kind() == ErrorKind::NotFound => {
-            "there is no such file".to_owned()
+            "the file does not exist".to_owned()
         }
         other => other.to_string(),
     })?;
     if is_unsealed(&file) {
-        return Err("it is a results file without its checksums: it was cut short, or something has written to it since it was made".to_owned());
+        return Err("it is a results file without its checksum trailer: it was truncated, or changed after it was written".to_owned());
     }
     let (time_s, force_n) = (samples(&file.root, "time")?, samples(&file.root, "force")?);
     let (times, forces) = (time_s.len(), force_n.len());
     if times != forces || times < 2 {
         return Err(format!(
-            "/time has {times} samples and /force {forces}; at least 2 and as many of each are needed"
+            "/time has {times} samples and /force {forces}; both need the same number, at least 2"
         ));
     }
     if let Some(i) = (1..times).find(|&i| !follows(&time_s[..i], time_s[i])) {
@@ -429,7 +431,7 @@ fn from_hdf5(path: &Path) -> Result<Rows, String> {
     Ok((time_s, force_n))
 }
 
-/// Whether a file is one of the program's results that has lost the checksums with which it was written.
+/// Whether a file is a results file of the program that has lost its checksum trailer.
 fn is_unsealed(file: &HdfFile) -> bool {
     let minor = || {
         let version = file.root.text("format_version").ok()?;
@@ -442,20 +444,22 @@ fn is_unsealed(file: &HdfFile) -> bool {
     is_own && !file.is_sealed() && minor().is_none_or(|minor| minor >= SEALED_FROM)
 }
 
-/// The numbers of a dataset of one dimension.
+/// The numbers of a dataset with one dimension.
 fn samples(root: &Group, name: &str) -> Result<Vec<f64>, String> {
     let failed = |error: HdfError| match error {
-        HdfError::Absent(_) => format!("it has no dataset /{name} of numbers"),
+        HdfError::Absent(_) => format!("it has no numeric dataset /{name}"),
         other => format!("/{name}: {other}"),
     };
     let data = root.dataset(name).map_err(failed)?;
     let (dimensions, count) = (data.shape().len(), data.count());
     if dimensions != 1 {
-        return Err(format!("/{name} has {dimensions} dimensions, needed 1"));
+        return Err(format!(
+            "/{name} has {dimensions} dimensions, but 1 is required"
+        ));
     }
     if count > MOST_RECORD_SAMPLES {
         return Err(format!(
-            "/{name} has {count} samples, more than {MOST_RECORD_SAMPLES}: cut or thin the record"
+            "/{name} has {count} samples, more than {MOST_RECORD_SAMPLES}: cut or decimate the record"
         ));
     }
     data.as_f64(8 * MOST_RECORD_SAMPLES as u64).map_err(failed)

@@ -1,6 +1,6 @@
-//! TOML files and typed reading of their tables: every error names the full key and the value found.
+//! Typed reading of TOML files and tables. Every error contains the full key and the value.
 //!
-//! A file is regular, of a bounded size, and UTF-8.
+//! Files must be regular, of limited size, and UTF-8.
 
 use super::keys::{FINITE, Range, full_name, keys_of, named, number};
 use crate::error::SceneError;
@@ -35,7 +35,7 @@ impl<'a> TomlSection<'a> {
         }
     }
 
-    /// Reports the first key that is not allowed here.
+    /// Fails for the first key that is not allowed.
     pub(crate) fn allow(
         &self,
         allowed: impl IntoIterator<Item = &'static str>,
@@ -49,7 +49,7 @@ impl<'a> TomlSection<'a> {
         Err(SceneError::unknown_key(self.key(key), near, &known))
     }
 
-    /// Reports the first key that the table of keys does not have in a section.
+    /// Fails for the first key that the table of keys does not list in a section.
     pub(super) fn allow_keys_of(&self, section: &str) -> Result<(), SceneError> {
         self.allow(keys_of(section).map(|key| key.name))
     }
@@ -59,12 +59,12 @@ impl<'a> TomlSection<'a> {
         self.table.keys().map(String::as_str)
     }
 
-    /// The value of a key, whatever it is.
+    /// The value of a key, of any type.
     pub(crate) fn value(&self, key: &str) -> Option<&'a Value> {
         self.table.get(key)
     }
 
-    /// What a key holds, where it is there; otherwise it is not what was expected.
+    /// The value of a key as `read` converts it; an error if the value is not `expected`.
     pub(crate) fn typed<T>(
         &self,
         key: &str,
@@ -75,13 +75,13 @@ impl<'a> TomlSection<'a> {
         self.value(key).map(typed).transpose()
     }
 
-    /// The table of a key that holds one.
+    /// The table of a key, if its value is a table.
     pub(crate) fn inner(&self, key: &'a str) -> Option<TomlSection<'a>> {
         let table = self.value(key)?.as_table()?;
         Some(TomlSection { name: key, table })
     }
 
-    /// The table of a key that is there.
+    /// The table of an existing key.
     pub(crate) fn subsection(
         &self,
         key: &'a str,
@@ -113,19 +113,19 @@ impl<'a> TomlSection<'a> {
         named.collect()
     }
 
-    /// A number of a scene, in the range that the table of keys gives it.
+    /// A number of a scene, in the range that the table of keys sets.
     pub(super) fn number(&self, key: &str) -> Result<Option<f64>, SceneError> {
         let range = number(key).and_then(|known| known.range);
         self.number_in(key, range.unwrap_or(FINITE))
     }
 
-    /// A number of a scene that is needed.
+    /// A required number of a scene.
     pub(super) fn needed(&self, key: &str) -> Result<f64, SceneError> {
         let hint = number(key).map_or("", |known| known.hint);
         self.number(key)?.ok_or_else(|| self.missing(key, hint))
     }
 
-    /// All subsections but for the keys `other`.
+    /// All subsections except the keys `other`.
     pub(crate) fn subsections(&self, other: &[&str]) -> Result<Vec<TomlSection<'a>>, SceneError> {
         let names = self.names().filter(|name| !other.contains(name));
         names
@@ -134,11 +134,11 @@ impl<'a> TomlSection<'a> {
     }
 
     pub(crate) fn number_in(&self, key: &str, range: Range) -> Result<Option<f64>, SceneError> {
-        // what varies in a sweep
+        // a value that varies in a sweep
         let many = |value: &&Value| value.is_array() || value.is_table();
         let expected = match self.value(key).filter(many) {
             Some(_) if number(key).is_some() => {
-                "a number; a sweep varies it: put the values below [product] of a sweep file"
+                "a number; to vary it, list its values in [product] of a sweep file"
             }
             Some(_) | None => "a number",
         };
@@ -163,7 +163,7 @@ impl<'a> TomlSection<'a> {
         self.typed(key, "a string", Value::as_str)
     }
 
-    /// A string that is needed.
+    /// A required string.
     pub(crate) fn needed_text(&self, key: &str, hint: &str) -> Result<&'a str, SceneError> {
         self.text(key)?.ok_or_else(|| self.missing(key, hint))
     }
@@ -200,7 +200,7 @@ impl<'a> TomlSection<'a> {
         })
     }
 
-    /// A pair of words; a whole number is one, too.
+    /// A pair of words; a whole number is accepted as a word.
     pub(crate) fn words(
         &self,
         key: &str,
@@ -238,7 +238,7 @@ impl<'a> TomlSection<'a> {
         word.map(|word| self.named(key, word, named)).transpose()
     }
 
-    /// What one of the words of a choice says, which are told where it is none of them.
+    /// The value of a word of a choice; the error lists all words.
     pub(super) fn named<T>(
         &self,
         key: &str,
@@ -248,7 +248,7 @@ impl<'a> TomlSection<'a> {
         by(word).map_err(|known| SceneError::unknown_choice(self.key(key), word, &known))
     }
 
-    /// Different values of a choice, as a list; none where the key is not there.
+    /// Different values of a choice, as a list; empty if the key is missing.
     pub(crate) fn choices<T: Choice>(&self, key: &str) -> Result<Vec<T>, SceneError> {
         let items = self.typed(key, "a list of words", Value::as_array)?;
         let mut found: Vec<T> = Vec::new();
@@ -260,7 +260,7 @@ impl<'a> TomlSection<'a> {
                 return Err(SceneError::conflict(
                     format!("{} = \"{word}\"", self.key(key)),
                     format!("\"{word}\""),
-                    "each word stands once",
+                    "each word may occur once",
                 ));
             }
             found.push(choice);
@@ -268,7 +268,7 @@ impl<'a> TomlSection<'a> {
         Ok(found)
     }
 
-    /// Whether a key says true; no where it is not there.
+    /// Whether a flag is true; false if the key is missing.
     pub(super) fn flag(&self, key: &str) -> Result<bool, SceneError> {
         let flag = self.typed(key, "true or false", Value::as_bool)?;
         Ok(flag.unwrap_or(false))
@@ -283,7 +283,7 @@ impl<'a> TomlSection<'a> {
     }
 }
 
-/// A whole number is a number.
+/// The value as a number; whole numbers count as numbers.
 pub(crate) fn as_number(value: &Value) -> Option<f64> {
     value.as_float().or(value.as_integer().map(|i| i as f64))
 }
@@ -300,34 +300,34 @@ pub fn parse(text: &str) -> Result<Table, SceneError> {
     })
 }
 
-/// What is said of a number such as 0,5.
+/// Hint for a number such as 0,5.
 fn decimal_comma(before: &str, after: &str) -> &'static str {
     let is_digit = |c: char| c.is_ascii_digit();
     let before = before.trim_end_matches([' ', '\t']);
     let after = after.strip_prefix(',').unwrap_or_default();
     if before.ends_with(is_digit) && after.starts_with(is_digit) {
-        "; numbers have a decimal point, no comma"
+        "; numbers need a decimal point, not a comma"
     } else {
         ""
     }
 }
 
-/// Bytes of a TOML file at most: a parsed one takes some fifty times its size.
+/// Largest size of a TOML file in bytes; the parsed table needs some fifty times as much memory.
 pub const MOST_OF_TOML: u64 = 8 << 20;
-/// Bytes of a force record at most.
+/// Largest size of a force record in bytes.
 pub(crate) const MOST_OF_RECORD: u64 = 256 << 20;
 
-/// How HDF5 files start.
+/// First bytes of HDF5 files.
 const HDF5: &[u8] = b"\x89HDF\r\n";
 
-/// Parses TOML that is no longer than a file of it may be.
+/// Parses TOML within the size limit of a file.
 ///
 /// # Errors
 /// [`SceneError`].
 pub fn parse_text(text: &str) -> Result<Table, SceneError> {
     if text.len() as u64 > MOST_OF_TOML {
         let (found, most) = (text.len() >> 20, MOST_OF_TOML >> 20);
-        let sentence = format!("the text has {found} MB, more than the {most} MB of a scene");
+        let sentence = format!("the text has {found} MB, but a scene has at most {most} MB");
         return Err(SceneError::told(sentence));
     }
     parse(text)
@@ -338,14 +338,14 @@ pub fn read_text(path: &Path) -> Result<String, SceneError> {
     read_text_up_to(path, MOST_OF_TOML)
 }
 
-/// The text of a regular file of at most so many bytes: a pipe would wait for its other end, a device never ends.
+/// The text of a regular file of at most `most` bytes: a pipe would block, and a device never ends.
 pub(crate) fn read_text_up_to(path: &Path, most: u64) -> Result<String, SceneError> {
     let system = |error: io::Error| SceneError::unreadable(path, error);
     let known = std::fs::metadata(path).map_err(system)?;
     if !known.is_file() {
         return Err(SceneError::unreadable(path, "it is not a regular file"));
     }
-    // files of the system itself say that they have nothing, and some, such as /proc/kmsg, wait for good
+    // files of /proc claim to be empty, and some, such as /proc/kmsg, block forever
     if known.len() == 0 {
         return Ok(String::new());
     }
@@ -353,12 +353,12 @@ pub(crate) fn read_text_up_to(path: &Path, most: u64) -> Result<String, SceneErr
     text_of(file, path, most)
 }
 
-/// The TOML that standard input has.
+/// The TOML text on standard input.
 pub(crate) fn read_standard() -> Result<String, SceneError> {
     text_of(io::stdin(), Path::new("standard input"), MOST_OF_TOML)
 }
 
-/// All text that a source of a name has, up to so many bytes.
+/// All text of a source, up to `most` bytes; `path` is its name in errors.
 fn text_of(source: impl Read, path: &Path, most: u64) -> Result<String, SceneError> {
     let fault = |reason: String| SceneError::unreadable(path, reason);
     let mut bytes = Vec::new();
@@ -368,21 +368,22 @@ fn text_of(source: impl Read, path: &Path, most: u64) -> Result<String, SceneErr
         return Err(fault(format!("it has more than {} MB", most >> 20)));
     }
     if let Some(text) = from_utf16(&bytes) {
-        return text.ok_or_else(|| fault("it begins as UTF-16, and is none".to_owned()));
+        return text
+            .ok_or_else(|| fault("it begins like UTF-16, but is not valid UTF-16".to_owned()));
     }
     String::from_utf8(bytes).map_err(|error| {
         let (bytes, valid) = (error.as_bytes(), error.utf8_error().valid_up_to());
         let line = bytes[..valid].split(|&byte| byte == b'\n').count();
         fault(if bytes.starts_with(HDF5) {
-            "it is an HDF5 file, needed text".to_owned()
+            "it is an HDF5 file, but text is required".to_owned()
         } else {
             format!("line {line} is not UTF-8")
         })
     })
 }
 
-/// The text of bytes that begin with a byte order mark of UTF-16, as those of LabVIEW and Excel do; none inside where it is
-/// damaged.
+/// The text of bytes with a byte order mark of UTF-16, as LabVIEW and Excel write them. The inner option is none for
+/// damaged text.
 fn from_utf16(bytes: &[u8]) -> Option<Option<String>> {
     let read: fn([u8; 2]) -> u16 = match bytes {
         [0xff, 0xfe, ..] => u16::from_le_bytes,

@@ -1,4 +1,4 @@
-//! Names and versions on disk, a file for each format.
+//! Names and versions on disk, one file per format.
 
 pub mod results;
 pub mod sweep;

@@ -5,9 +5,9 @@ use impact::{EnergySeries, ProbeFields, Series};
 
 /// Value of the attribute `file_type`.
 pub const FILE_TYPE: &str = "hertzlamb results";
-/// Version of the format: the first number changes when a reader of the old one would fail.
+/// Version of the format. The first number changes when older readers would fail.
 pub const FORMAT_VERSION: &str = "1.9";
-/// Minor version from which on files end with their checksums.
+/// Minor version since which files have a checksum trailer.
 pub(crate) const SEALED_FROM: u32 = 8;
 /// Datasets in the root, with unit and description.
 pub const SERIES: [(&str, &str, &str); 5] = labels! {
@@ -19,7 +19,7 @@ pub const SERIES: [(&str, &str, &str); 5] = labels! {
 };
 /// The force in [`SERIES`].
 pub const FORCE: &str = "force";
-/// Numbers at `/force` of a record that was treated.
+/// Numbers at `/force` of a treated record.
 pub const TREATMENT: [&str; 5] = [
     "baseline_s",
     "baseline_n",
@@ -29,12 +29,12 @@ pub const TREATMENT: [&str; 5] = [
 ];
 /// Group of the energy over time.
 pub const ENERGY: &str = "energy";
-/// Datasets in it; the first where there is a striker, the second where there is none.
+/// Datasets of the energy; the first only with a striker, the second only without one.
 pub const ENERGIES: [(&str, &str, &str); 5] = labels! {
     "kinetic", "J", "kinetic energy of the striker, by its momentum";
     "work", "J", "work of the force on the half-space";
-    "stored", "J", "elastic energy that is given back";
-    "radiated", "J", "work on the part of the deflection that lags behind the force";
+    "stored", "J", "recoverable elastic energy";
+    "radiated", "J", "work on the deflection that lags behind the force";
     "plastic", "J", "work of the plastic flow";
 };
 /// Group of the probes.
@@ -45,34 +45,34 @@ pub const PROBE: (&str, &str, &str) = ("probe", "1", "number of the probe, from 
 pub const WAVE: (&str, &str, &str) = ("wave", "1", "longitudinal, shear and Rayleigh wave");
 /// The names in it.
 pub const WAVES: [&str; 3] = ["P", "S", "R"];
-/// Attribute that names the coordinates of a dataset beside its scales, as the CF conventions have it.
+/// Attribute with the names of the coordinates of a dataset in addition to its scales, as in the CF conventions.
 pub const COORDINATES: &str = "coordinates";
 /// Coordinates of the probes.
 pub const PLACES: [(&str, &str, &str); 2] = labels! {
     "r", "m", "distance from the axis";
     "z", "m", "depth below the surface";
 };
-/// Appended to the name of a field: the estimate of its error.
+/// Suffix of a field: the estimate of its error.
 pub const ERROR_SUFFIX: &str = "_error";
-/// Appended to the name of a quantity: its largest value over time, and when it is reached.
+/// Suffixes of a quantity: its largest value over time, and the time of it.
 pub const PEAK_SUFFIXES: [&str; 2] = ["_peak", "_peak_time"];
 /// Arrivals of the first P, S and Rayleigh wave.
 pub const ARRIVALS: (&str, &str, &str) = (
     "arrival",
     "s",
-    "time at which the first P, S and Rayleigh wave arrive; infinite for a Rayleigh wave where there is none",
+    "arrival time of the first P, S and Rayleigh wave; infinite if there is no Rayleigh wave",
 );
-/// When the first echo from the faces of the block arrives.
+/// Arrival of the first echo from the faces of the block.
 pub const VALID_UNTIL: (&str, &str, &str) = (
     "valid_until",
     "s",
-    "time at which the first echo from the faces of the block arrives; infinite where no face is known",
+    "arrival time of the first echo from the faces of the block; infinite if the block has no faces",
 );
-/// Text attribute of the root: what is to be known of the results, one a line.
+/// Text attribute of the root: warnings about the results, one per line.
 pub const WARNINGS: &str = "warnings";
-/// The one that has the resolved scene.
+/// Text attribute with the resolved scene.
 pub const SCENE: &str = "scene";
-/// The text attribute that says which scene it is, whatever the kernels.
+/// Text attribute with the hash of the scene, which does not depend on the kernels.
 pub const SCENE_SHA256: &str = "scene_sha256";
 /// Group of the section.
 pub const MAP: &str = "map";
@@ -86,13 +86,13 @@ pub const MAP_SCALES: [(&str, &str, &str); 3] = labels! {
 pub const VTK: &str = "VTKHDF";
 /// Group of the fields in it.
 pub const VTK_POINTS: &str = "PointData";
-/// The scale of what has one value for all steps in it.
+/// Scale of datasets with one value for all time steps.
 pub const WHOLE: (&str, &str, &str) = ("whole", "1", "all samples in time together");
-/// Where in a field of it each step begins.
+/// Group with the offsets of the steps of a field.
 pub const VTK_OFFSETS: &str = "PointDataOffsets";
 
-/// What a file has under a name beside a quantity: the estimate of its error, its largest value over time, and when that is
-/// reached; `at` says where, if anywhere.
+/// Datasets that accompany a quantity: the estimate of its error, its largest value over time, and the time of it; `at`
+/// is the place, if any.
 pub(crate) fn beside(name: &str, (_, unit, meaning): Labels<'_>, at: &str) -> [Described; 3] {
     [
         (ERROR_SUFFIX, unit, "estimated absolute error"),
@@ -106,7 +106,7 @@ pub(crate) fn beside(name: &str, (_, unit, meaning): Labels<'_>, at: &str) -> [D
     })
 }
 
-/// The samples of [`SERIES`], without those of a striker where there is none.
+/// The samples of [`SERIES`], without those of the striker if there is no striker.
 pub fn samples(series: &Series) -> impl Iterator<Item = (&'static Labels<'static>, &[f64])> {
     let striker = series.striker.as_ref();
     let samples = [
@@ -120,7 +120,7 @@ pub fn samples(series: &Series) -> impl Iterator<Item = (&'static Labels<'static
     rows.filter_map(|(row, samples)| Some((row, samples?.as_slice())))
 }
 
-/// The samples of [`ENERGIES`] that there are.
+/// The samples of the existing [`ENERGIES`].
 pub fn energies(energy: &EnergySeries) -> impl Iterator<Item = (&'static Labels<'static>, &[f64])> {
     let samples = [
         energy.kinetic_j.as_ref(),
@@ -133,7 +133,7 @@ pub fn energies(energy: &EnergySeries) -> impl Iterator<Item = (&'static Labels<
     rows.filter_map(|(row, samples)| Some((row, samples?.as_slice())))
 }
 
-/// What probes have, over time at each, with its error at each.
+/// Histories at the probes with their errors.
 pub fn histories(
     fields: &ProbeFields,
 ) -> impl Iterator<Item = (Labels<'static>, &Vec<Vec<f64>>, &Vec<f64>)> {

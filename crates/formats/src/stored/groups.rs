@@ -1,4 +1,4 @@
-//! Groups of rows of a Parquet file: nothing is decoded before its hash was compared.
+//! Row groups of a Parquet file; the hash of a group is checked before it is decoded.
 
 use crate::schema::sweep::{FAILURE, MODEL};
 use crate::sweep::{Block, Footer, NO_MODEL, NOT_HELD, Part, Precision};
@@ -19,7 +19,7 @@ use std::fs::File;
 use std::io::{Read, Seek, SeekFrom};
 use std::sync::Arc;
 
-/// Shows the rows of a file, whose groups have these hashes.
+/// Visits the rows of a file whose groups have these hashes.
 pub(super) fn each(
     part: &Part,
     hashes: &[String],
@@ -45,7 +45,7 @@ pub(super) fn each(
     Err(damaged(format!("row {next} is missing")))
 }
 
-/// Compares the rows of a file with the hashes of their groups.
+/// Checks the rows of a file against the hashes of their groups.
 pub(super) fn check(part: &Part, hashes: &[String]) -> Result<(), OutputFault> {
     each_group(part, hashes, &metadata(part)?, |_, _| Ok(()))
 }
@@ -55,7 +55,7 @@ fn metadata(part: &Part) -> Result<ParquetMetaData, String> {
     ParquetMetaDataReader::decode_metadata(&footer).map_err(|error| error.to_string())
 }
 
-/// Shows the groups, each compared with its hash.
+/// Visits the groups after checking their hashes.
 fn each_group(
     part: &Part,
     hashes: &[String],
@@ -64,7 +64,9 @@ fn each_group(
 ) -> Result<(), OutputFault> {
     let mut file = File::open(&part.path)?;
     if metadata.num_row_groups() != hashes.len() {
-        return Err(OutputFault::from("it has other groups of rows".to_owned()));
+        return Err(OutputFault::from(
+            "its row groups are not those of its footer".to_owned(),
+        ));
     }
     let mut next = part.selection.rows.start;
     for (group, hash) in metadata.row_groups().iter().zip(hashes) {
@@ -83,7 +85,7 @@ fn each_group(
     Ok(())
 }
 
-/// Where a group begins and ends: its columns follow each other.
+/// Byte range of a group, whose columns are contiguous.
 fn span(group: &RowGroupMetaData) -> (u64, u64) {
     let mut ranges = (group.columns().iter()).map(ColumnChunkMetaData::byte_range);
     let first = ranges.next().unwrap_or_default();
@@ -91,7 +93,7 @@ fn span(group: &RowGroupMetaData) -> (u64, u64) {
     (first.0, begin.saturating_add(length).max(first.0))
 }
 
-/// Where the columns of a file are, by name.
+/// Positions of the columns of a file, by name.
 fn places(part: &Part, metadata: &ParquetMetaData) -> Result<HashMap<String, usize>, String> {
     let columns = metadata.file_metadata().schema_descr().columns();
     let places: HashMap<_, _> = (columns.iter().enumerate())
@@ -127,7 +129,7 @@ fn block(
     let model = |name: ByteArray| {
         let mut known = Model::ALL.iter();
         let found = known.position(|model| model.name().as_bytes() == name.data());
-        found.ok_or_else(|| wrong("a model is not known"))
+        found.ok_or_else(|| wrong("it has an unknown model"))
     };
     for (index, name) in block.models.iter_mut().zip(texts(read(MODEL.0)?, rows)?) {
         let model = name.map(model).transpose()?;
@@ -141,7 +143,7 @@ fn block(
     Ok(block)
 }
 
-/// The pages of a column of a group, of which the bytes are there.
+/// The pages of a column of a group, from its bytes.
 fn pages(
     group: &RowGroupMetaData,
     place: usize,
@@ -162,7 +164,7 @@ fn pages(
     Ok(get_column_reader(chunk.column_descr_ptr(), Box::new(pages)))
 }
 
-/// The numbers of a column, NaN where there is none.
+/// The numbers of a column, NaN for missing ones.
 fn numbers(
     pages: ColumnReader,
     rows: usize,
@@ -177,7 +179,7 @@ fn numbers(
             let found = all(pages, rows)?.into_iter();
             Ok(found.map(|x| or_nan(x.map(f64::from))).collect())
         }
-        _ => Err(wrong("its results are not of one precision")),
+        _ => Err(wrong("its results differ in precision")),
     }
 }
 
@@ -188,7 +190,7 @@ fn texts(pages: ColumnReader, rows: usize) -> Result<Vec<Option<ByteArray>>, Par
     }
 }
 
-/// For each row its value, where it has one.
+/// The value of each row, if it has one.
 fn all<T: DataType>(
     mut pages: ColumnReaderImpl<T>,
     rows: usize,
@@ -196,12 +198,12 @@ fn all<T: DataType>(
     let (mut there, mut values) = (Vec::new(), Vec::new());
     let found = pages.read_records(rows, Some(&mut there), None, &mut values)?;
     if found.0 != rows || there.len() != rows {
-        return Err(wrong("a column has not all rows"));
+        return Err(wrong("a column lacks rows"));
     }
     let mut values = values.into_iter();
     let value = |one: i16| match one {
         0 => Ok(None),
-        _ => (values.next().map(Some)).ok_or_else(|| wrong("a column has not all values")),
+        _ => (values.next().map(Some)).ok_or_else(|| wrong("a column lacks values")),
     };
     there.into_iter().map(value).collect()
 }

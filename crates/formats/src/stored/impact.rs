@@ -1,4 +1,4 @@
-//! The results of a scene, read back.
+//! Reads the results of a scene back.
 
 use super::open::{FileKind, Stored};
 use crate::error::SceneError;
@@ -14,7 +14,7 @@ use impact::{EnergySeries, Series, Strike, StrikerSeries};
 use std::path::Path;
 use toml::{Table, Value};
 
-/// An open results file with its time series; probes and section are read when they are asked for.
+/// An open results file with its time series; probes and section are read on request.
 #[derive(Debug, Clone)]
 pub struct StoredImpact {
     pub(crate) stored: Stored,
@@ -24,7 +24,7 @@ pub struct StoredImpact {
     pub static_share: String,
     /// The half-space.
     pub target: HalfSpace,
-    /// The striker; none where the force was given.
+    /// The striker; none for a prescribed force.
     pub strike: Option<Strike>,
     /// The resolved scene.
     scene: Table,
@@ -36,7 +36,7 @@ impl StoredImpact {
     /// Opens a results file.
     ///
     /// # Errors
-    /// [`SceneError`], which says what the file is instead.
+    /// [`SceneError`], which contains the actual kind of the file.
     pub fn open(path: &Path) -> Result<Self, SceneError> {
         let stored = Stored::open(path, FileKind::Impact)?;
         let unread = |error| stored.damaged(format!("its scene cannot be read: {error}"));
@@ -62,7 +62,7 @@ impl StoredImpact {
             time_s,
         };
         let (model, static_share) = (stored.text("model")?, stored.text("static_share")?);
-        // every results file has it
+        // every results file has this attribute
         stored.text(WARNINGS)?;
         Ok(Self {
             model,
@@ -75,20 +75,20 @@ impl StoredImpact {
         })
     }
 
-    /// Where it lies.
+    /// Path of the file.
     pub fn path(&self) -> &Path {
         &self.stored.path
     }
 
-    /// A scalar result by its name, where the file has it.
+    /// A scalar result by its name, if the file has it.
     pub fn number(&self, name: &str) -> Option<f64> {
         self.stored.number(name)
     }
 
-    /// Every key of its scene with a value, such as `striker.velocity_m_s` and `2.5`, in alphabetical order: words, and
-    /// numbers in the units of their keys.
+    /// All keys of the scene with their values, such as `striker.velocity_m_s` and `2.5`, in alphabetical order: words,
+    /// and numbers in the units of their keys.
     ///
-    /// Lists are left out: the probes, the points of a section.
+    /// Lists are left out: the probes and the points of a section.
     pub fn keys(&self) -> Vec<(String, Value)> {
         let mut found = Vec::new();
         for (section, keys) in &self.scene {
@@ -103,10 +103,10 @@ impl StoredImpact {
         found
     }
 
-    /// The probes; none for a scene without.
+    /// The probes; none for a scene without probes.
     ///
     /// # Errors
-    /// [`SceneError`] for a file that is not as it was written.
+    /// [`SceneError`] for a damaged file.
     pub fn probes(&self) -> Result<Option<StoredProbes>, SceneError> {
         let stored = self.stored.clone();
         if stored.group(PROBES).is_none() {
@@ -123,10 +123,10 @@ impl StoredImpact {
         }))
     }
 
-    /// The section; none for a scene without.
+    /// The section; none for a scene without a section.
     ///
     /// # Errors
-    /// [`SceneError`] for a file that is not as it was written.
+    /// [`SceneError`] for a damaged file.
     pub fn section(&self) -> Result<Option<StoredSection>, SceneError> {
         let stored = self.stored.clone();
         if stored.group(MAP).is_none() {
@@ -148,7 +148,7 @@ impl StoredImpact {
     }
 }
 
-/// Where the energy is; none in files from before it was written.
+/// The energy over time; none in files of older versions.
 fn energy_of(stored: &Stored, samples: usize) -> Result<Option<EnergySeries>, SceneError> {
     if stored.group(ENERGY).is_none() {
         return Ok(None);
@@ -165,7 +165,7 @@ fn energy_of(stored: &Stored, samples: usize) -> Result<Option<EnergySeries>, Sc
     }))
 }
 
-/// The places of the probes of a results file; traces are read when they are asked for.
+/// Positions of the probes of a results file; traces are read on request.
 #[derive(Debug, Clone)]
 pub struct StoredProbes {
     stored: Stored,
@@ -177,7 +177,7 @@ pub struct StoredProbes {
 }
 
 impl StoredProbes {
-    /// What was stored at each probe over time.
+    /// The stored histories at the probes.
     pub fn quantities(&self) -> Vec<Described> {
         self.stored
             .quantities(PROBES, &[self.r_m.len(), self.samples])
@@ -186,14 +186,14 @@ impl StoredProbes {
     /// A quantity over time at a probe, at the times of the results.
     ///
     /// # Errors
-    /// [`SceneError`] for a quantity that is not there.
+    /// [`SceneError`] for a quantity that the file does not have.
     pub fn trace(&self, quantity: &str, probe: usize) -> Result<Vec<f64>, SceneError> {
         let path = format!("{PROBES}/{quantity}");
         let (shape, end) = ([self.r_m.len(), self.samples], probe.saturating_add(1));
         self.stored.some(&path, &shape, probe..end)
     }
 
-    /// The estimated error of a quantity at a probe, where it is there.
+    /// The estimated error of a quantity at a probe, if the file has it.
     pub fn error(&self, quantity: &str, probe: usize) -> Option<f64> {
         let path = format!("{PROBES}/{quantity}{ERROR_SUFFIX}");
         let errors = self.stored.numbers(&path, &[self.r_m.len()]).ok()?;
@@ -201,7 +201,7 @@ impl StoredProbes {
     }
 }
 
-/// The section of a results file: its grid and times; frames are read when they are asked for.
+/// The section of a results file: grid and times; frames are read on request.
 ///
 /// A frame runs over depths, the deepest first, and within a depth over the distances from the axis.
 #[derive(Debug, Clone)]
@@ -216,7 +216,7 @@ pub struct StoredSection {
 }
 
 impl StoredSection {
-    /// What was stored in each frame.
+    /// The stored quantities of a frame.
     pub fn quantities(&self) -> Vec<Described> {
         self.stored.quantities(MAP, &self.shape())
     }
@@ -224,7 +224,7 @@ impl StoredSection {
     /// A quantity in a frame.
     ///
     /// # Errors
-    /// [`SceneError`] for a quantity or a frame that is not there.
+    /// [`SceneError`] for a quantity or a frame that the file does not have.
     pub fn frame(&self, quantity: &str, frame: usize) -> Result<Vec<f32>, SceneError> {
         if frame >= self.time_s.len() {
             let what = format!("frame {frame} is outside [0, {}]", self.time_s.len() - 1);
@@ -234,7 +234,7 @@ impl StoredSection {
         self.stored.some(&path, &self.shape(), frame..frame + 1)
     }
 
-    /// The largest value of a quantity over all samples at each place, where the file has it.
+    /// The largest value of a quantity over all samples at each point, if the file has it.
     pub fn peak(&self, quantity: &str) -> Option<Vec<f64>> {
         let path = format!("{MAP}/{quantity}{}", PEAK_SUFFIXES[0]);
         let [_, z, r] = self.shape();

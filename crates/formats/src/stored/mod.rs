@@ -1,7 +1,7 @@
-//! Reading back what the program has written.
+//! Reads the program's own files back.
 //!
-//! [`file_kind`] says what a file is. A reader takes one kind and says so of any other; it reads no more than it is
-//! asked for, and no dataset beyond a size.
+//! [`file_kind`] determines the kind of a file. Each reader accepts one kind and rejects the others by name. It reads
+//! only the requested data, and no dataset beyond a size limit.
 
 #[cfg(feature = "parquet")]
 mod groups;

@@ -1,4 +1,4 @@
-//! What a file is, opening it, and bounded reading from it.
+//! Kind of a file, opening, and reading with size limits.
 
 use crate::error::SceneError;
 use crate::quantities::Described;
@@ -12,13 +12,13 @@ use std::io::{self, Read};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-/// Most bytes of numbers that are read from a dataset at once.
+/// Largest number of bytes that are read from a dataset at once.
 const MOST_BYTES_AT_ONCE: u64 = 1 << 29;
 
-/// Major version of the files that are read.
+/// Major version of the files that can be read.
 const MAJOR: &str = "1";
 
-/// What a file of the program is.
+/// Kind of a file of the program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FileKind {
     /// Results of a scene.
@@ -32,7 +32,7 @@ pub enum FileKind {
 }
 
 impl FileKind {
-    /// That of a value of the attribute `file_type`.
+    /// The kind with a value of the attribute `file_type`.
     fn of_type(found: &str) -> Option<Self> {
         Some(match found {
             results::FILE_TYPE => Self::Impact,
@@ -43,7 +43,7 @@ impl FileKind {
         })
     }
 
-    /// What the file is, and the minor version of the format from which on its files have a seal.
+    /// Description of the kind, and the minor version since which its files have a checksum trailer.
     fn row(self) -> (&'static str, u32) {
         match self {
             Self::Impact => ("the results of an impact", results::SEALED_FROM),
@@ -68,7 +68,7 @@ pub(crate) struct Stored {
 }
 
 impl Stored {
-    /// Opens a file of a kind and of a version that is known.
+    /// Opens a file of the wanted kind and a known version.
     pub(super) fn open(path: &Path, wanted: FileKind) -> Result<Self, SceneError> {
         check_kind(path, file_kind(path)?, wanted)?;
         let stored = Self {
@@ -81,54 +81,55 @@ impl Stored {
         let sealed = !matches!(minor, Some(Ok(minor)) if minor < wanted.row().1);
         if sealed != stored.file.is_sealed() {
             return Err(stored.damaged(
-                "its seal is gone: it was cut short, or something has written to it since it was made",
+                "its checksum trailer is missing: it was truncated, or changed after it was written",
             ));
         }
-        // what is damaged may seem not to be there; parts are long, and have all that they say
+        // damaged content may look absent, so the whole file is checked; parts are large and are checked when they are
+        // read
         if wanted != FileKind::SweepPart {
             stored.check()?;
         }
         Ok(stored)
     }
 
-    /// Compares every byte of a file that has a seal.
+    /// Checks all bytes of a file that has a checksum trailer.
     pub(super) fn check(&self) -> Result<(), SceneError> {
         self.file.check().map_err(|error| self.damaged(error))
     }
 
-    /// Something that every such file has is missing or wrong.
+    /// The error for a damaged file: a required part is missing or wrong.
     pub(super) fn damaged(&self, what: impl fmt::Display) -> SceneError {
         SceneError::damaged(&self.path, what)
     }
 
-    /// What was read at a path of the file.
+    /// The result of reading a path of the file.
     fn read<T>(&self, path: &str, read: Result<T, HdfError>) -> Result<T, SceneError> {
         read.map_err(|error| self.damaged(format!("{path} cannot be read: {error}")))
     }
 
-    /// A text of the root.
+    /// A text attribute of the root.
     pub(crate) fn text(&self, name: &str) -> Result<String, SceneError> {
         let text = self.file.root.text(name);
         text.map_err(|_| self.damaged(format!("the text attribute {name} is missing")))
     }
 
-    /// A number of the root, where it is there.
+    /// A number of the root, if it exists.
     pub(super) fn number(&self, name: &str) -> Option<f64> {
         let real = self.file.root.number::<f64>(name).ok();
         real.or_else(|| Some(self.file.root.number::<u64>(name).ok()? as f64))
     }
 
-    /// A group, where it is there.
+    /// A group, if it exists.
     pub(super) fn group(&self, path: &str) -> Option<Group> {
         self.file.root.group(path).ok()
     }
 
-    /// A dataset, where it is there.
+    /// A dataset, if it exists.
     pub(super) fn dataset(&self, path: &str) -> Option<Dataset> {
         self.file.root.dataset(path).ok()
     }
 
-    /// Name, unit and meaning of the datasets of a group that have a shape, in the order of the file.
+    /// Name, unit and meaning of the datasets of a group with a given shape, in the order of the file.
     pub(super) fn quantities(&self, group: &str, shape: &[usize]) -> Vec<Described> {
         let names = self.group(group).and_then(|group| group.members().ok());
         let names = names.into_iter().flatten();
@@ -144,7 +145,7 @@ impl Stored {
         found.collect()
     }
 
-    /// All numbers of a dataset of a shape.
+    /// All numbers of a dataset with a given shape.
     pub(super) fn numbers(&self, path: &str, shape: &[usize]) -> Result<Vec<f64>, SceneError> {
         self.read(path, self.of_shape(path, shape)?.as_f64(MOST_BYTES_AT_ONCE))
     }
@@ -165,7 +166,7 @@ impl Stored {
         list.ok_or_else(|| self.damaged(format!("the list {path} is missing")))
     }
 
-    /// What a dataset of a shape holds in a range of its first dimension.
+    /// The values of a dataset with a given shape in a range of its first dimension.
     pub(super) fn some<T: H5Type>(
         &self,
         path: &str,
@@ -181,7 +182,7 @@ impl Stored {
         )
     }
 
-    /// Which results a group has as datasets of a shape, and how exactly.
+    /// The results of a group as datasets of a given shape, with their precision.
     pub(super) fn fields(
         &self,
         group: &str,
@@ -201,12 +202,12 @@ impl Stored {
         if single && !double {
             fields.precision = Precision::Single;
         } else if !double {
-            return Err(self.damaged("its results are not of one precision"));
+            return Err(self.damaged("its results differ in precision"));
         }
         Ok(fields)
     }
 
-    /// The columns of the probes of a sweep, or of a part of one.
+    /// The probe columns of a sweep or of a part.
     fn probed(&self) -> Result<Vec<Described>, SceneError> {
         let Ok(sweep) = self.text(TEXTS[3]) else {
             return Ok(Vec::new());
@@ -215,12 +216,12 @@ impl Stored {
         sweep.map_err(|error| self.damaged(format!("its sweep cannot be read: {error}")))
     }
 
-    /// A dataset that has a shape.
+    /// A dataset with a given shape.
     fn of_shape(&self, path: &str, shape: &[usize]) -> Result<Dataset, SceneError> {
         match self.dataset(path) {
             Some(found) if found.shape() == shape => Ok(found),
             Some(found) => Err(self.damaged(format!(
-                "{path} has the shape {:?}, not {shape:?}",
+                "{path} has the shape {:?} instead of {shape:?}",
                 found.shape()
             ))),
             None => Err(self.damaged(format!("{path} is missing"))),
@@ -228,9 +229,9 @@ impl Stored {
     }
 }
 
-/// How a regular file begins.
+/// The first bytes of a regular file.
 fn head(path: &Path) -> io::Result<Vec<u8>> {
-    // looked at before it is opened: a pipe would wait for its other end, and files of the system say that they have nothing
+    // checked before opening: a pipe would block, and files of /proc claim to be empty
     let there = std::fs::metadata(path)?;
     if !there.is_file() {
         return Err(io::Error::other("it is not a file"));
@@ -240,13 +241,13 @@ fn head(path: &Path) -> io::Result<Vec<u8>> {
     Ok(head)
 }
 
-/// Opens a file of rows that begins as Parquet, all or some, and checks its seal and its length; rows are read a group at a
-/// time.
+/// Opens a Parquet file with all or some rows of a sweep, and checks its checksum and length; rows are read one group
+/// at a time.
 fn open_parquet(path: &Path) -> Result<Option<(FileKind, Footer, Part)>, SceneError> {
     if !head(path).is_ok_and(|head| head.starts_with(MAGIC)) {
         return Ok(None);
     }
-    let foreign = || SceneError::is(path, "is a Parquet file, but none of hertzlamb's");
+    let foreign = || SceneError::is(path, "is a Parquet file, but not one of hertzlamb");
     let found = Footer::read(path).map_err(|what| SceneError::damaged(path, what))?;
     let (footer, part) = found.ok_or_else(foreign)?;
     check_version(path, &footer.format_version)?;
@@ -254,7 +255,7 @@ fn open_parquet(path: &Path) -> Result<Option<(FileKind, Footer, Part)>, SceneEr
     Ok(Some((kind.ok_or_else(foreign)?, footer, part)))
 }
 
-/// [`open_parquet`] for a file of a kind.
+/// [`open_parquet`] for a file of the wanted kind.
 pub(super) fn parquet_of_kind(
     path: &Path,
     wanted: FileKind,
@@ -277,24 +278,24 @@ fn check_version(path: &Path, found: &str) -> Result<(), SceneError> {
     if found.split('.').next() == Some(MAJOR) {
         return Ok(());
     }
-    let what = format!("has the format version {found}; versions {MAJOR}.x can be read");
+    let what = format!("has the format version {found}, but this program reads versions {MAJOR}.x");
     Err(SceneError::is(path, what))
 }
 
-/// What the file at `path` is.
+/// The kind of the file at `path`.
 ///
 /// # Errors
-/// [`SceneError`] for a file that is not one of the program.
+/// [`SceneError`] for a file that the program did not write.
 pub fn file_kind(path: &Path) -> Result<FileKind, SceneError> {
     if let Some((kind, ..)) = open_parquet(path)? {
         return Ok(kind);
     }
     let found = open_hdf5(path)?.root.text("file_type").ok();
     let known = found.and_then(|found| FileKind::of_type(&found));
-    known.ok_or_else(|| SceneError::is(path, "is an HDF5 file, but none of hertzlamb's"))
+    known.ok_or_else(|| SceneError::is(path, "is an HDF5 file, but not one of hertzlamb"))
 }
 
-/// Opens an HDF5 file, whatever is in it, with its seal.
+/// Opens any HDF5 file, with its checksum trailer.
 fn open_hdf5(path: &Path) -> Result<HdfFile, SceneError> {
     let head = head(path).map_err(|error| SceneError::unreadable(path, error))?;
     let not = |found| SceneError::is(path, format!("is {found}, not a file of results in HDF5"));
@@ -304,7 +305,7 @@ fn open_hdf5(path: &Path) -> Result<HdfFile, SceneError> {
             0 => "empty",
             _ if head.starts_with(MAGIC) => "a Parquet file",
             _ if is_text => "text",
-            _ => "no HDF5 file",
+            _ => "not an HDF5 file",
         }));
     }
     HdfFile::open(path).map_err(|error| match error {

@@ -1,4 +1,4 @@
-//! The results of a sweep, and rows of it, some or all, read back from either format.
+//! Reads the results of a sweep, or some of its rows, from either format.
 
 #[cfg(feature = "parquet")]
 use super::groups;
@@ -16,10 +16,10 @@ use output::OutputFault;
 use std::ops::Range;
 use std::path::Path;
 
-/// An open part; its rows are read a block at a time.
+/// An open part; its rows are read one block at a time.
 #[derive(Debug, Clone)]
 pub struct StoredPart {
-    /// What it says of itself.
+    /// Description of the part.
     pub part: Part,
     rows: PartRows,
 }
@@ -32,10 +32,10 @@ enum PartRows {
 }
 
 impl StoredPart {
-    /// Opens a part; what is read of it later is compared with its seal then.
+    /// Opens a part; data that are read later are checked at that time.
     ///
     /// # Errors
-    /// [`SceneError`], which says what the file is instead.
+    /// [`SceneError`], which contains the actual kind of the file.
     pub fn open(path: &Path) -> Result<Self, SceneError> {
         if let Some((footer, part)) = parquet_of_kind(path, FileKind::SweepPart)? {
             let rows = PartRows::Parquet(Box::new(footer));
@@ -49,7 +49,7 @@ impl StoredPart {
         let (sweep_rows, start) = (count(part::SWEEP_ROWS)?, count(part::FIRST_ROW)?);
         let end = start.checked_add(count(ROWS)?);
         let Some(end) = end.filter(|&end| end <= sweep_rows) else {
-            return Err(stored.damaged("it has rows beyond those of its sweep"));
+            return Err(stored.damaged("it has more rows than its sweep"));
         };
         let text = Some(stored.text(part::SHARD)?).filter(|text| !text.is_empty());
         let shard = text.map(|text| {
@@ -75,7 +75,7 @@ impl StoredPart {
         Ok(Self { part, rows })
     }
 
-    /// Compares every byte of a part that has a seal.
+    /// Checks all bytes of a part that has a checksum trailer.
     ///
     /// # Errors
     /// [`SceneError`].
@@ -86,14 +86,14 @@ impl StoredPart {
         }
     }
 
-    /// Compares the keys that vary with those of the sweep that the part is of.
+    /// Compares the keys that vary with those of the part's sweep.
     pub(crate) fn check_keys(&self, spec: &Spec) -> Result<(), SceneError> {
         if self.sweep()? != spec.resolved {
-            let what = "its sweep is not that of the other parts";
+            let what = "it belongs to another sweep than the other parts";
             return Err(SceneError::damaged(&self.part.path, what));
         }
         let PartRows::Hdf5(stored, _) = &self.rows else {
-            // the hash of a group is over its keys too
+            // the hash of a group includes its keys
             return Ok(());
         };
         let length = [self.part.selection.rows.len()];
@@ -118,7 +118,7 @@ impl StoredPart {
                     None => wanted == Cells::Double(stored.some(&path, &length, some.clone())?),
                 };
                 if !same {
-                    let what = format!("{key} has other values than its sweep says");
+                    let what = format!("the values of {key} differ from those of its sweep");
                     return Err(stored.damaged(what));
                 }
             }
@@ -126,7 +126,7 @@ impl StoredPart {
         Ok(())
     }
 
-    /// The same without its results: models and failures alone are read; nothing for a part that is not HDF5.
+    /// The part without its results: reads models and failures only; none for a part that is not HDF5.
     pub(crate) fn failures(&self) -> Option<impl Blocks> {
         matches!(self.rows, PartRows::Hdf5(..)).then(|| {
             let mut bare = self.clone();
@@ -138,7 +138,7 @@ impl StoredPart {
     /// The sweep with its base scene, as TOML.
     ///
     /// # Errors
-    /// [`SceneError`] where it is missing.
+    /// [`SceneError`] if it is missing.
     pub fn sweep(&self) -> Result<String, SceneError> {
         match &self.rows {
             PartRows::Hdf5(stored, _) => stored.text("sweep"),
@@ -146,14 +146,14 @@ impl StoredPart {
         }
     }
 
-    /// Its rows, counted from its first, as many together as are held in memory.
+    /// Ranges of its rows, counted from its first row, that fit into memory.
     fn blocks(&self) -> impl Iterator<Item = Range<usize>> + use<> {
         let rows = self.part.selection.rows.len();
         let starts = (0..rows).step_by(BLOCK);
         starts.map(move |start| start..(start + BLOCK).min(rows))
     }
 
-    /// Some of its rows, counted from its first.
+    /// Some of its rows, counted from its first row.
     fn block(
         &self,
         stored: &Stored,
@@ -180,7 +180,7 @@ impl StoredPart {
         let failed = (block.start..).zip(indices);
         for (row, index) in failed.filter(|&(_, index)| index != -1) {
             let reason = usize::try_from(index).ok().and_then(|i| reasons.get(i));
-            let what = || format!("row {row} has no reason number {index}");
+            let what = || format!("the reason {index} of the failed row {row} is missing");
             let reason = reason.ok_or_else(|| stored.damaged(what()))?;
             block.failures.push((row, reason.clone()));
         }
@@ -205,7 +205,7 @@ impl Blocks for StoredPart {
             PartRows::Parquet(footer) => groups::each(&self.part, &footer.row_groups, visit),
             #[cfg(not(feature = "parquet"))]
             PartRows::Parquet(footer) => Err(OutputFault::from(format!(
-                "{} is a Parquet file, the {} groups of which this program was built without reading",
+                "{} is a Parquet file with {} row groups, but this program was built without Parquet",
                 self.part.path.display(),
                 footer.row_groups.len()
             ))),
@@ -213,11 +213,11 @@ impl Blocks for StoredPart {
     }
 }
 
-/// Which sweep a file has all rows of, nothing in HDF5 files of versions before 1.4, and which results; every byte is
-/// compared with its seal.
+/// The hash of the sweep that a complete file belongs to (none in HDF5 files of versions before 1.4) and its results;
+/// all bytes are checked.
 ///
 /// # Errors
-/// [`SceneError`], which says what the file is instead.
+/// [`SceneError`], which contains the actual kind of the file.
 pub(crate) fn whole_sweep(path: &Path) -> Result<(Option<String>, WrittenResults), SceneError> {
     if let Some((footer, part)) = parquet_of_kind(path, FileKind::Sweep)? {
         check_groups(&part, &footer)?;
@@ -228,7 +228,7 @@ pub(crate) fn whole_sweep(path: &Path) -> Result<(Option<String>, WrittenResults
     Ok((found.stored.text(SHA256).ok(), fields))
 }
 
-/// Compares the rows of a Parquet file with their hashes, where the program can read them.
+/// Checks the rows of a Parquet file against their hashes, if the program can read them.
 fn check_groups(part: &Part, footer: &Footer) -> Result<(), SceneError> {
     #[cfg(feature = "parquet")]
     groups::check(part, &footer.row_groups)
@@ -237,13 +237,13 @@ fn check_groups(part: &Part, footer: &Footer) -> Result<(), SceneError> {
     Ok(())
 }
 
-/// An open sweep with its axes; results are read when they are asked for.
+/// An open sweep with its axes; results are read on request.
 #[derive(Debug, Clone)]
 pub struct StoredSweep {
     stored: Stored,
-    /// The axes; the last runs fastest.
+    /// The axes; the last varies fastest.
     pub axes: Vec<SweepAxis>,
-    /// Failed scenes.
+    /// Number of failed scenes.
     pub failed: u64,
 }
 
@@ -251,11 +251,11 @@ impl StoredSweep {
     /// Opens a sweep.
     ///
     /// # Errors
-    /// [`SceneError`], which says what the file is instead.
+    /// [`SceneError`], which contains the actual kind of the file.
     pub fn open(path: &Path) -> Result<Self, SceneError> {
         let stored = Stored::open(path, FileKind::Sweep)?;
         if stored.text(part::PARTS).is_ok() {
-            let what = "has the places of its parts, not their results: read the parts, or a copy of them in one file";
+            let what = "refers to its parts and contains no results: read the parts, or merge them without --virtual";
             return Err(SceneError::is(path, what));
         }
         let axes = read_axes(&stored)?;
@@ -266,25 +266,25 @@ impl StoredSweep {
         })
     }
 
-    /// Where it lies.
+    /// Path of the file.
     pub fn path(&self) -> &Path {
         &self.stored.path
     }
 
-    /// The results of every row.
+    /// The results of all rows.
     pub fn quantities(&self) -> Vec<Described> {
         let mut found = self.stored.quantities(RESULTS, &self.shape());
-        // scales of a sweep with one axis have the same shape
+        // the scales of a sweep with one axis have the same shape as results
         found.retain(|quantity| {
             !quantity.name.contains('.') && quantity.name != SAMPLE && quantity.name != LIST
         });
         found
     }
 
-    /// A result of all rows; NaN where a scene failed.
+    /// A result of all rows; NaN for failed scenes.
     ///
     /// # Errors
-    /// [`SceneError`] for a result that is not there.
+    /// [`SceneError`] for a result that the file does not have.
     pub fn values(&self, quantity: &str) -> Result<Vec<f64>, SceneError> {
         self.stored
             .numbers(&format!("{RESULTS}/{quantity}"), &self.shape())
@@ -295,7 +295,7 @@ impl StoredSweep {
     }
 }
 
-/// The axes in the order of the dimensions: those of the product by their names, then the list's, then the draws'.
+/// The axes in the order of the dimensions: those of the product by name, then the list, then the draws.
 fn read_axes(stored: &Stored) -> Result<Vec<SweepAxis>, SceneError> {
     let group = stored.group(AXES);
     let group = group.ok_or_else(|| stored.damaged(format!("the group {AXES} is missing")))?;
@@ -315,7 +315,7 @@ fn read_axes(stored: &Stored) -> Result<Vec<SweepAxis>, SceneError> {
         let len = values.count();
         let (section, key) = name
             .split_once('.')
-            .ok_or_else(|| stored.damaged(format!("{path} is no key of a scene")))?;
+            .ok_or_else(|| stored.damaged(format!("{path} is not a key of a scene")))?;
         let column = SweptKey {
             section: section.to_owned(),
             key: key.to_owned(),
@@ -325,7 +325,7 @@ fn read_axes(stored: &Stored) -> Result<Vec<SweepAxis>, SceneError> {
             Some(known) if known.len == len => known.columns.push(column),
             Some(_) => {
                 return Err(stored.damaged(format!(
-                    "{path} has {len} values, unlike others of its axis"
+                    "{path} has {len} values, but other keys of its axis have more or fewer"
                 )));
             }
             None => axes.push(SweepAxis {

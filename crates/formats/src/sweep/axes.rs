@@ -8,7 +8,7 @@ use crate::schema::sweep::SAMPLE;
 use contact::choice;
 use toml::{Table, Value};
 
-/// Values of an axis at most, but for draws: they are held in memory.
+/// Largest number of values of an axis, except for draws: the values are held in memory.
 const MOST_VALUES: usize = 10_000_000;
 
 /// Values of a key along an axis.
@@ -18,12 +18,12 @@ pub enum Values {
     Numbers(Vec<f64>),
     /// Words, such as materials or models.
     Texts(Vec<String>),
-    /// Random numbers, which are not held.
+    /// Random numbers, which are computed on request.
     Drawn(Drawn),
 }
 
 impl Values {
-    /// How many.
+    /// Number of values.
     pub fn count(&self) -> usize {
         match self {
             Self::Numbers(numbers) => numbers.len(),
@@ -32,7 +32,7 @@ impl Values {
         }
     }
 
-    /// One of the numbers; nothing of words.
+    /// One of the numbers; none for words.
     pub fn number(&self, index: usize) -> Option<f64> {
         match self {
             Self::Numbers(numbers) => numbers.get(index).copied(),
@@ -41,7 +41,7 @@ impl Values {
         }
     }
 
-    /// Those that a key of a section lists, or that lie between two ends.
+    /// The values that a key lists, or that a range defines.
     pub(super) fn read(section: &TomlSection<'_>, key: &str) -> Result<Self, SceneError> {
         if let Some(range) = section.inner(key) {
             return spaced(&range).map(Self::Numbers);
@@ -56,7 +56,7 @@ impl Values {
         values?.ok_or_else(|| section.missing(key, "a list of values"))
     }
 
-    /// One of them as TOML.
+    /// One of the values as TOML.
     pub(super) fn get(&self, index: usize) -> Value {
         match self {
             Self::Texts(texts) => Value::String(texts[index].clone()),
@@ -64,7 +64,7 @@ impl Values {
         }
     }
 
-    /// The words, where they are such.
+    /// The words, if the values are words.
     pub(super) fn texts(&self) -> Option<&Vec<String>> {
         match self {
             Self::Texts(texts) => Some(texts),
@@ -73,7 +73,7 @@ impl Values {
     }
 }
 
-/// How values lie between two ends.
+/// Spacing of the values of a range.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Spacing {
     Linear,
@@ -103,9 +103,9 @@ fn spaced(range: &TomlSection<'_>) -> Result<Vec<f64>, SceneError> {
     Ok((0..count).map(value).collect())
 }
 
-/// A value that is whole decades from another but for rounding, as the decimal that it is meant to be.
+/// Rounds a value that is a whole number of decades from `from` except for rounding errors.
 fn decade(from: f64, value: f64) -> f64 {
-    /// Rounding of a logarithm and a power, in decades.
+    /// Rounding error of a logarithm and a power, in decades.
     const DECADE_ROUNDING: f64 = 1e-13;
     let decades = (value / from).log10();
     let whole = decades.round();
@@ -136,7 +136,7 @@ impl SweptKey {
         format!("{}.{}", self.section, self.key)
     }
 
-    /// Puts a value into a scene.
+    /// Writes a value into a scene.
     pub(super) fn put(&self, scene: &mut Table, value: Value) -> Result<(), SceneError> {
         let section = scene.entry(&self.section);
         let section = section.or_insert_with(|| Value::Table(Table::new()));
@@ -154,20 +154,20 @@ impl SweptKey {
 pub struct SweepAxis {
     /// The key, or "list", or "sample".
     pub name: String,
-    /// Its keys; all have as many values as the axis is long.
+    /// Its keys; each has `len` values.
     pub columns: Vec<SweptKey>,
-    /// Length.
+    /// Number of values.
     pub len: usize,
 }
 
 impl SweepAxis {
-    /// Whether it runs over random draws.
+    /// Whether the axis consists of random draws.
     pub fn is_drawn(&self) -> bool {
         self.name == SAMPLE
     }
 }
 
-/// Number of rows of some axes, or nothing when it is beyond all counting.
+/// Number of rows of some axes; none if it overflows.
 pub(super) fn rows(axes: &[SweepAxis]) -> Option<usize> {
     axes.iter()
         .try_fold(1_usize, |rows, axis| rows.checked_mul(axis.len))

@@ -1,9 +1,10 @@
-//! Random draws of keys: reproducible, the same whatever the number of threads, and each made when it is asked for, so that
-//! no memory holds them.
+//! Random draws of keys. They are reproducible, independent of the number of threads, and computed on request, so that
+//! they need no memory.
 //!
-//! Correlations between keys are Gauss's copula: each key has a standard normal number a draw; those of correlated keys are
-//! mixed by the Cholesky factor of their correlation matrix, and each is then taken to its own distribution at the same
-//! quantile. So every key keeps its distribution, and the coefficient is that of the values for normal, and of their
+//! Correlations between keys use a Gaussian copula: each key has a standard normal number per draw, the numbers of
+//! correlated keys are mixed by the Cholesky factor of their correlation matrix, and each is mapped to its own
+//! distribution at the same quantile. Every key therefore keeps its distribution. The coefficient is that of the values
+//! for normal keys, and of their logarithms for log-normal keys.
 //! logarithms for log-normal keys.
 
 use crate::error::SceneError;
@@ -19,14 +20,14 @@ pub struct Drawn {
     samples: usize,
     own: Distribution,
     stream: u64,
-    /// The streams whose normal numbers make up that of the key, with their weights, where it is correlated with others.
+    /// The streams whose normal numbers are mixed for this key, with their weights, if it is correlated with others.
     mixed: Vec<(u64, f64)>,
-    /// Keys that are drawn.
+    /// Number of random keys.
     keys: usize,
 }
 
 impl Drawn {
-    /// Those of all keys of the section `[random]`, each with its section and name; how many `samples` are.
+    /// The draws of all keys of the section `[random]`, each with its section and name; `samples` is their number.
     pub(super) fn read(
         random: &TomlSection<'_>,
         samples: usize,
@@ -61,7 +62,7 @@ impl Drawn {
         Ok(found.into_iter().enumerate().map(of).collect())
     }
 
-    /// How many.
+    /// Number of draws.
     pub fn count(&self) -> usize {
         self.samples
     }
@@ -79,9 +80,9 @@ impl Drawn {
         self.own.value(|| normal_probability(normal), || normal)
     }
 
-    /// One that is not finite, where some of any number of draws may be so.
+    /// A value that is not finite, if such values are possible for any number of draws.
     pub(super) fn infinite(&self) -> Option<f64> {
-        // those of correlated keys are sums of all with the squares of their weights adding up to one
+        // the numbers of correlated keys are weighted sums whose squared weights add up to one
         let most = LARGEST_NORMAL * (self.keys as f64).sqrt();
         let ends = [(f64::EPSILON, -most), (1.0, most)].into_iter();
         let mut values = ends.map(|(uniform, normal)| self.own.value(|| uniform, || normal));
@@ -100,13 +101,13 @@ struct Distribution {
 /// The kind of a distribution.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum DistributionKind {
-    /// Even between two numbers.
+    /// Uniform between two numbers.
     Uniform,
-    /// Even in the logarithm between two positive numbers.
+    /// Uniform in the logarithm between two positive numbers.
     LogUniform,
-    /// Gauss's.
+    /// Normal.
     Normal,
-    /// Gauss's in the natural logarithm, with the deviation of that logarithm.
+    /// Normal in the natural logarithm, with the deviation of that logarithm.
     LogNormal,
 }
 
@@ -124,8 +125,8 @@ impl Distribution {
             DistributionKind::LogNormal => (["median", "deviation"], [POSITIVE, POSITIVE]),
         };
         section.allow(["distribution", keys[0], keys[1]])?;
-        let a = section.required(keys[0], ranges[0], "the distribution needs it")?;
-        let b = section.required(keys[1], ranges[1], "the distribution needs it")?;
+        let a = section.required(keys[0], ranges[0], "the distribution requires it")?;
+        let b = section.required(keys[1], ranges[1], "the distribution requires it")?;
         if keys[1] == "high" && b <= a {
             return Err(SceneError::conflict(
                 format!("{} = {b}", section.key("high")),
@@ -143,7 +144,7 @@ impl Distribution {
         self.value(one, || normal(stream, index))
     }
 
-    /// The value at an even or a standard normal number, whichever it is made of.
+    /// The value of the distribution, from a uniform or a standard normal number.
     fn value(self, uniform: impl Fn() -> f64, normal: impl Fn() -> f64) -> f64 {
         let [a, b] = self.numbers;
         match self.kind {
@@ -161,13 +162,13 @@ fn stream(seed: u64, key: &str) -> u64 {
         .fold(mix(seed), |hash, byte| mix(hash ^ u64::from(byte)))
 }
 
-/// Even number `which` of a draw of a stream, in (0, 1): never an end.
+/// Uniform number `which` of a draw of a stream, in (0, 1) without the ends.
 fn uniform(stream: u64, index: u64, which: u64) -> f64 {
     let bits = mix(stream ^ mix(2 * index + which));
     ((bits >> 11) as f64 + 0.5) / (1_u64 << 53) as f64
 }
 
-/// No standard normal number is farther from zero: the smallest even number is 2^-54.
+/// Largest magnitude of a standard normal number, since the smallest uniform number is 2^-54.
 const LARGEST_NORMAL: f64 = 8.66;
 
 /// The standard normal number of a draw of a stream, by Box and Muller.
@@ -176,10 +177,10 @@ fn normal(stream: u64, index: u64) -> f64 {
     (-2.0 * radius.ln()).sqrt() * (TAU * angle).cos()
 }
 
-/// Open on both sides: keys that follow each other wholly are one key.
+/// Open on both sides: fully correlated keys are one key.
 const COEFFICIENT: Range = Range::new("(-1, 1)", |x| x > -1.0 && x < 1.0);
 
-/// The factor of `[[random.correlation]]`, sections of `keys`, a pair, and `coefficient`.
+/// The Cholesky factor of `[[random.correlation]]`, sections with a pair of `keys` and a `coefficient`.
 fn correlations(random: &TomlSection<'_>, keys: &[String]) -> Result<Vec<Vec<f64>>, SceneError> {
     let n = keys.len();
     let mut matrix: Vec<Vec<f64>> = (0..n)
@@ -195,7 +196,7 @@ fn correlations(random: &TomlSection<'_>, keys: &[String]) -> Result<Vec<Vec<f64
             return Err(SceneError::conflict(
                 format!("{name} of {}", keys[i]),
                 keys[j].clone(),
-                "two different keys have one correlation",
+                "two different keys can have only one correlation",
             ));
         }
         matrix[i][j] = coefficient;
@@ -205,27 +206,26 @@ fn correlations(random: &TomlSection<'_>, keys: &[String]) -> Result<Vec<Vec<f64
         SceneError::conflict(
             "random.correlation",
             "the other ones",
-            "together these coefficients are no correlation matrix: it is not positive definite",
+            "these coefficients do not form a valid correlation matrix: it is not positive definite",
         )
     })
 }
 
 fn pair(section: &TomlSection<'_>, keys: &[String]) -> Result<[usize; 2], SceneError> {
-    let hint =
-        "two keys that are drawn, such as [\"striker.diameter_m\", \"striker.velocity_m_s\"]";
-    let words = section.words("keys", "a pair of keys that are drawn")?;
+    let hint = "two random keys, such as [\"striker.diameter_m\", \"striker.velocity_m_s\"]";
+    let words = section.words("keys", "a pair of random keys")?;
     let [first, second] = words.ok_or_else(|| section.missing("keys", hint))?;
     let place = |word: String| {
         let found = keys.iter().position(|key| *key == word);
         found.ok_or_else(|| {
-            let drawn = format!("the keys that are drawn: {}", keys.join(", "));
+            let drawn = format!("the random keys: {}", keys.join(", "));
             SceneError::unknown_choice(section.key("keys"), &word, &drawn)
         })
     };
     Ok([place(first)?, place(second)?])
 }
 
-/// The lower factor; none where the matrix is not positive definite.
+/// The lower factor; none if the matrix is not positive definite.
 fn cholesky(matrix: &[Vec<f64>]) -> Option<Vec<Vec<f64>>> {
     let n = matrix.len();
     let mut factor = vec![vec![0.0; n]; n];
@@ -246,7 +246,7 @@ fn cholesky(matrix: &[Vec<f64>]) -> Option<Vec<Vec<f64>>> {
     Some(factor)
 }
 
-/// The probability of a standard normal number below this one, in (0, 1).
+/// The probability that a standard normal number is below `normal`, in (0, 1).
 fn normal_probability(normal: f64) -> f64 {
     let below = 0.5 * libm::erfc(-normal * FRAC_1_SQRT_2);
     below.clamp(f64::MIN_POSITIVE, 1.0 - f64::EPSILON)

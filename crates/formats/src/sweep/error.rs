@@ -1,4 +1,4 @@
-//! What can be wrong with a sweep, or with its parts; scenes that fail are rows, not errors.
+//! Errors of a sweep and of its parts; a scene that fails is a row, not an error.
 
 use crate::error::SceneError;
 use fault::{Class, Culprit, Fault};
@@ -11,16 +11,16 @@ use thiserror::Error;
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum SweepError {
-    /// The sweep or its base scene is wrong, or a part, or a folder of them, cannot be read or is not what is needed.
+    /// The sweep or its base scene is invalid, or a part or a folder of parts cannot be read or has the wrong content.
     #[error(transparent)]
     Scene(#[from] SceneError),
-    /// The table of its fields cannot be used.
+    /// The kernel table for its fields cannot be used.
     #[error(transparent)]
     Table(#[from] TableError),
-    /// It or its journal cannot be written or read back.
+    /// Its file or journal cannot be written or read back.
     #[error(transparent)]
     Output(#[from] OutputError),
-    /// Rows that no part has, the first of them, and how many ranges beside these.
+    /// Missing rows: the first range, and the number of further ranges.
     #[error("rows {} to {} of the sweep are in no part{}", .0.start, .0.end - 1, others(*.1))]
     Missing(Range<usize>, usize),
 }
@@ -39,7 +39,7 @@ impl Fault for SweepError {
 fn others(more: usize) -> String {
     match more {
         0 => String::new(),
-        1 => ", and those of another range".to_owned(),
-        more => format!(", and those of {more} other ranges"),
+        1 => ", and one more range is missing".to_owned(),
+        more => format!(", and {more} more ranges are missing"),
     }
 }

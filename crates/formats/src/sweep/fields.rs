@@ -1,4 +1,4 @@
-//! Which results a file of rows has, and how exactly: the quantities of a contact and, behind them, what probes bring.
+//! Selection and precision of the results in a file of rows: contact results, followed by the columns of probes.
 
 use crate::error::SceneError;
 use crate::quantities::{Described, Labels, QUANTITIES, labels_of};
@@ -9,24 +9,24 @@ use impact::{ProbePeaks, Quantity};
 use std::sync::Arc;
 use toml::{Table, Value};
 
-/// Results that are written; the model and the reason of a failure always are.
+/// Results that are written; the model and the reason of a failure are always written.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct WrittenResults {
-    /// Places among the known ones; ascending.
+    /// Indices among the known ones; ascending.
     pub(crate) places: Vec<usize>,
-    /// All that could be written.
+    /// All results that could be written.
     pub(super) known: Arc<[Described]>,
-    /// How exactly.
+    /// Precision of the numbers.
     pub precision: Precision,
 }
 
-/// How exactly results are written: in how many bits.
+/// Precision of written results, in bits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Precision {
-    /// 64 bits, as they are computed.
+    /// 64 bits, as computed.
     #[default]
     Double = 64,
-    /// 32 bits: rounded by up to 6e-8 of themselves.
+    /// 32 bits: rounded by a relative 6e-8 at most.
     Single = 32,
 }
 
@@ -49,15 +49,15 @@ impl WrittenResults {
         }
     }
 
-    /// Numbers of a row, written or not: the results of a contact, and behind them what probes bring.
+    /// Number of results per row, written or not: those of the contact, followed by those of the probes.
     pub(crate) fn width(&self) -> usize {
         self.known.len()
     }
 
-    /// Those of these names alone.
+    /// Only the results with these names.
     ///
     /// # Errors
-    /// [`SceneError`] for a name that is none of them.
+    /// [`SceneError`] for an unknown name.
     pub fn only<S: AsRef<str>>(self, names: &[S]) -> Result<Self, SceneError> {
         let known = || self.known.iter().map(|known| known.name.as_str());
         let names = names.iter().map(AsRef::as_ref);
@@ -66,7 +66,7 @@ impl WrittenResults {
             .find(|name| !known().any(|known| known == *name))
         {
             let known: Vec<&str> = known().collect();
-            let key = "the column".to_owned();
+            let key = "columns".to_owned();
             return Err(SceneError::unknown_choice(key, name, &known.join(", ")));
         }
         let wanted = |place: &usize| names.clone().any(|name| name == self.known[*place].name);
@@ -80,23 +80,23 @@ impl WrittenResults {
         self.places.retain(|&place| wanted(&known[place].name));
     }
 
-    /// The results, with their places.
+    /// The results with their indices.
     pub(crate) fn quantities(&self) -> impl Iterator<Item = (usize, &Described)> {
         self.places.iter().map(|&place| (place, &self.known[place]))
     }
 }
 
-/// Columns of the probes at most: a dimension scale names every dataset that it belongs to in 64 kB.
+/// Largest number of probe columns: a dimension scale lists all its datasets in an attribute of at most 64 kB.
 const MOST_PROBE_COLUMNS: usize = 2000;
 
 /// Whether the kernels of a row were looked up.
 const TABLE: (&str, &str, &str) = (
     "probe_table",
     "1",
-    "1 where the kernels of the fields were looked up, 0 where they were computed",
+    "1 if the kernels of the fields were looked up, 0 if they were computed",
 );
 
-/// The columns of the probes of a base scene: peaks of fields, their instants and errors; none without probes.
+/// The columns of the probes of a base scene: peaks of fields, their times and errors; empty without probes.
 pub(super) fn columns_of_probes(scene: &Table) -> Result<Vec<Described>, SceneError> {
     let root = TomlSection::root(scene);
     let probes = root.list("probe")?.len();
@@ -127,7 +127,7 @@ pub(crate) fn stored_columns(sweep: &Table) -> Result<Vec<Described>, SceneError
     }
 }
 
-/// Peak, instant and error of a field.
+/// Peak, its time and error of a field.
 fn of_field(probe: usize, field: Labels<'_>) -> [Described; 3] {
     let (name, at) = (
         format!("probe_{probe}_{}", field.0),

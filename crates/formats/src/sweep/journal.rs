@@ -1,9 +1,8 @@
-//! What a journal keeps of a sweep: a block of rows a record.
+//! The journal of a sweep: one record per block of rows.
 //!
-//! A block is its first row, its rows, which results it has (a bit each), the numbers that probes bring to a row and the
-//! length of the failures' text, as integers of eight bytes; then its numbers, those of the probes, the models and the
-//! failures. It has the results that are written and those that are counted: what was kept without one of them is computed
-//! anew.
+//! A block begins with integers of eight bytes: first row, number of rows, a bit mask of its results, number of probe
+//! columns, and length of the text of failures. The numbers, the probe numbers, the models and the failures follow. It
+//! contains the results that are written and those that are counted. Rows kept without one of them are computed again.
 
 use super::fields::WrittenResults;
 use super::rows::{Block, Blocks};
@@ -16,10 +15,10 @@ use output::{Journal, OutputError, OutputFault, Record, Records, Title, packed, 
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-/// What is done.
+/// Kind of work in the journal's title.
 const KIND: &str = "sweep";
 
-/// The journal of the rows of a sweep that are asked for.
+/// The title of the journal for the selected rows of a sweep.
 fn title(spec: &Spec) -> Title {
     let (sha256, of, rows) = (&spec.sha256, spec.rows(), spec.selected());
     let about = format!("{sha256} {of} {} {}", rows.start, rows.end);
@@ -38,12 +37,12 @@ pub struct Kept {
     /// Rows that an earlier run had computed.
     pub resumed: usize,
     journal: Journal,
-    /// The results of a contact that it has.
+    /// Bit mask of the contact results that it contains.
     results: u64,
 }
 
 impl Kept {
-    /// Opens or begins a journal; that of other rows is replaced where it `drops`.
+    /// Opens or begins a journal; with `drops` a journal of other rows is replaced.
     pub(super) fn open(path: &Path, spec: &Spec, drops: bool) -> Result<Self, OutputError> {
         let (rows, results, mut spans) = (spec.selected(), results(&spec.fields), Vec::new());
         if !drops && lacks(path, spec, results)? {
@@ -89,23 +88,23 @@ impl Blocks for Kept {
     }
 }
 
-/// A run that was interrupted or is at work: what its journal says.
+/// A run that was interrupted or is in progress, as its journal describes it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Unfinished {
     /// The journal.
     pub path: PathBuf,
-    /// Which sweep.
+    /// SHA-256 that identifies the sweep.
     pub sha256: String,
-    /// Its rows.
+    /// Number of rows of the sweep.
     pub sweep_rows: usize,
-    /// Those that the run computes.
+    /// Rows that the run computes.
     pub rows: Range<usize>,
-    /// How many of them are there.
+    /// Number of rows that are computed.
     pub kept: usize,
 }
 
 impl Unfinished {
-    /// Reads a journal without changing it; nothing where the file is none.
+    /// Reads a journal without changing it; none if the file is not a journal.
     pub fn read(path: &Path) -> Option<Self> {
         let mut records = Records::open(path, KIND).ok()??;
         let mut words = records.title.about.split(' ');
@@ -124,7 +123,7 @@ impl Unfinished {
     }
 }
 
-/// Whether a journal keeps rows that are asked for without some of these results.
+/// Whether a journal keeps selected rows without some of these results.
 fn lacks(path: &Path, spec: &Spec, results: u64) -> Result<bool, OutputError> {
     if !path.exists() {
         return Ok(false);
@@ -141,7 +140,7 @@ fn lacks(path: &Path, spec: &Spec, results: u64) -> Result<bool, OutputError> {
             .any(|held| held & results != results))
 }
 
-/// Whether the journal at `part` keeps all rows that are asked for, so that a run may have begun to write its outputs.
+/// Whether the journal at `part` has all selected rows, so that a run may have begun to write its outputs.
 pub fn is_computed(spec: &Spec, part: &Path) -> bool {
     let rows = spec.selected();
     Unfinished::read(part).is_some_and(|found| {
@@ -149,7 +148,7 @@ pub fn is_computed(spec: &Spec, part: &Path) -> bool {
     })
 }
 
-/// Adds what a record keeps, where that can be rows of a range with these results.
+/// Adds the rows of a record, if they can be rows of the range with these results.
 fn take(
     spans: &mut Vec<(Range<usize>, Record)>,
     wanted: &Range<usize>,
@@ -164,7 +163,7 @@ fn take(
     rows.is_some()
 }
 
-/// Leaves each row once, ascending; how many there are.
+/// Removes duplicate rows and sorts the rest; returns the number of rows.
 fn apart(spans: &mut Vec<(Range<usize>, Record)>) -> usize {
     spans.sort_by_key(|(rows, _)| rows.start);
     let mut end = 0;
@@ -176,7 +175,7 @@ fn apart(spans: &mut Vec<(Range<usize>, Record)>) -> usize {
     spans.iter().map(|(rows, _)| rows.len()).sum()
 }
 
-/// The results of a contact that are kept, a bit each: those that are written, and those that are counted.
+/// Bit mask of the contact results that are kept: those that are written or counted.
 pub(super) fn results(fields: &WrittenResults) -> u64 {
     let written = |place: &usize| fields.places.contains(place);
     let counted = |place: &usize| COUNTED.contains(&QUANTITIES[*place].name);
@@ -184,18 +183,18 @@ pub(super) fn results(fields: &WrittenResults) -> u64 {
     places.fold(0, |kept, place| kept | 1 << place)
 }
 
-/// The places of the numbers of a row without which its file cannot be written: what a journal keeps.
+/// Indices of the numbers of a row that its file requires, which the journal keeps.
 pub fn kept_places(spec: &Spec) -> Vec<usize> {
     places(results(&spec.fields), spec.fields.width())
 }
 
-/// The places of the numbers of a row that are kept: some results of a contact, and all that probes bring.
+/// Indices of the kept numbers of a row: the contact results of a mask, and all probe columns.
 fn places(results: u64, width: usize) -> Vec<usize> {
     let is_kept = |place: &usize| *place >= QUANTITIES.len() || results >> place & 1 == 1;
     (0..width).filter(is_kept).collect()
 }
 
-/// What is kept of a block: these results.
+/// The record of a block with these results.
 fn kept(block: &Block, results: u64) -> Vec<u8> {
     let failures = block.failures.iter();
     let text: String = failures
@@ -216,7 +215,7 @@ fn kept(block: &Block, results: u64) -> Vec<u8> {
     bytes
 }
 
-/// A block that can have been computed, NaN where a result was not kept, and the results that were.
+/// A block that can have been computed, with NaN for results that were not kept, and the bit mask of its results.
 fn parsed(kept: &[u8]) -> Option<(Block, u64)> {
     let ([start, rows, results, probed, text], rest) = unpacked(kept)?;
     let results = results as u64;

@@ -1,4 +1,4 @@
-//! Where the fields of a sweep have their kernels from.
+//! Source of the kernels for the fields of a sweep.
 
 use crate::error::SceneError;
 use impact::{KernelChoice, Shared, Tables};
@@ -10,15 +10,15 @@ use std::sync::Arc;
 #[derive(Debug, Clone)]
 pub(crate) struct Kernels {
     pub(super) choice: KernelChoice,
-    /// What is looked at while rows are computed, and its file.
+    /// The table that is read while rows are computed, and its file.
     shared: Option<(Arc<Shared>, PathBuf)>,
-    /// What identifies them, as TOML.
+    /// Identity of the kernels, as TOML.
     pub(super) identity: toml::Table,
 }
 
 impl Kernels {
-    /// Those of a table or, where there is none, computed ones; `or_computed` where the estimated error of the table is
-    /// beyond the tolerance of a row.
+    /// Kernels of a table, or computed ones if there is no table. With `or_computed` they are also computed if the
+    /// estimated error of the table exceeds the tolerance of a row.
     pub(super) fn new(
         path: Option<&Path>,
         or_computed: bool,
@@ -52,7 +52,7 @@ impl Kernels {
         Ok(kernels)
     }
 
-    /// Fails where the table could not be read while rows were computed.
+    /// Fails if the table could not be read while rows were computed.
     pub(super) fn check(&self) -> Result<(), SceneError> {
         let shared = self.shared.as_ref();
         let fault = shared.and_then(|(shared, path)| Some((path, shared.fault()?)));

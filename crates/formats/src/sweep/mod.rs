@@ -1,13 +1,12 @@
-//! Sweeps: many scenes that differ in some keys, their contacts computed and written as one table.
+//! Sweeps: many scenes that differ in some keys, computed and written as one table.
 //!
-//! What is asked: a [`Spec`] is read from TOML (`spec`), a base scene with the files that it names and the keys that
-//! vary (`axes`, `draws`), as a Cartesian product, as a list of keys that vary together, and as random draws. Which
-//! results are written is said by `fields`, and where fields at probes have their kernels from by `kernels`.
+//! Input: a [`Spec`] is read from TOML (`spec`). It has a base scene with its files and the keys that vary (`axes`,
+//! `draws`), as a Cartesian product, as a list of keys that vary together, and as random draws. `fields` selects the
+//! results that are written, and `kernels` the source of the kernels for fields at probes.
 //!
-//! What is done: `template` makes a row's scene, `run` computes rows in blocks that a `journal` keeps, so that an
-//! interrupted sweep goes on where it stopped, and `rows` writes the file from it, block by block, when all of them are
-//! there; a scene that fails is a row with a reason. A [`Selection`] of the rows, such as a [`Shard`], has a file of its
-//! own (`shard`).
+//! Work: `template` makes the scene of a row, `run` computes rows in blocks that a `journal` keeps, so that an
+//! interrupted sweep can be resumed, and `rows` writes the file block by block once all rows are computed. A scene that
+//! fails is a row with a reason. A [`Selection`] of rows, such as a [`Shard`], has a file of its own (`shard`).
 
 mod axes;
 mod draws;

@@ -20,23 +20,22 @@ use std::ops::Range;
 use std::path::Path;
 use std::time::Instant;
 
-/// Rows of the first block of a run, without probes; the following ones have as many as take [`BLOCK_S`].
+/// Rows of the first block of a run without probes; the size of later blocks follows from [`BLOCK_S`].
 const FIRST_BLOCK: usize = 64;
 
-/// Time in s that the computation of a block is to take: what a kill costs.
+/// Target time of a block in s, which is lost if the run is killed.
 const BLOCK_S: f64 = 2.0;
 
-/// Rows that one thread takes at a time, at most.
+/// Largest number of rows that one thread computes at a time.
 const GRAIN: usize = 256;
-/// Such portions for each thread at least, where there are rows enough: none waits long for the last one.
+/// Smallest number of portions per thread, if there are enough rows, so that no thread waits long for the last one.
 const PORTIONS: usize = 4;
 
-/// Computes those rows asked for that the journal at `part` does not hold yet; no more than a block is in memory.
+/// Computes the selected rows that the journal at `part` does not contain yet; only one block is in memory.
 ///
-/// The rows of another sweep are replaced where `existing` says so.
-/// `watch` is told after each block how many rows are done; while it says true the sweep goes on,
-/// otherwise nothing is returned and the journal keeps what is done.
-/// Results do not depend on how rows are divided into ranges and blocks.
+/// `existing` decides whether rows of another sweep are replaced. `watch` is called after each block with the number of
+/// completed rows; if it returns false, nothing is returned and the journal keeps the completed rows.
+/// Results do not depend on the division of rows into ranges and blocks.
 ///
 /// # Errors
 /// [`SweepError`].
@@ -72,7 +71,7 @@ pub fn run_rows(
     Ok(Some(kept))
 }
 
-/// What rows are computed with.
+/// Shared data for computing rows.
 #[derive(Debug)]
 struct Computer<'a> {
     spec: &'a Spec,
@@ -101,7 +100,7 @@ impl<'a> Computer<'a> {
         })
     }
 
-    /// Rows of a first block: with probes one may take seconds.
+    /// Rows of a first block: with probes a row may take seconds.
     fn first_block(&self) -> usize {
         match self.spec.kernels {
             Some(_) => rayon::current_num_threads(),
@@ -109,8 +108,8 @@ impl<'a> Computer<'a> {
         }
     }
 
-    /// Fills the rows of a range in a block with those that `row_of` gives a number in the sweep; says how many are to
-    /// follow to take a time.
+    /// Fills the rows of a range in a block with the results of `row_of`, which receives the number of the row in the
+    /// sweep; returns the size of the next block for a target time.
     fn fill(
         &self,
         block: &mut Block,
@@ -133,7 +132,7 @@ impl<'a> Computer<'a> {
         Ok(next_size(rows.len(), took_s, wanted_s))
     }
 
-    /// Fills the numbers and models of consecutive rows; gives those that failed.
+    /// Fills the numbers and models of consecutive rows; returns the failed ones.
     fn portion(
         &self,
         start: usize,
@@ -169,7 +168,7 @@ impl<'a> Computer<'a> {
     }
 }
 
-/// Fills the numbers and the model of a row. Where the fields at the probes alone failed, the contact stays.
+/// Fills the numbers and the model of a row. If only the fields at the probes failed, the contact is kept.
 fn fill_row(numbers: &mut [f64], model: &mut u8, found: Observed) -> Result<(), AnyError> {
     let (of_contact, of_probes) = numbers.split_at_mut(QUANTITIES.len());
     for (number, quantity) in of_contact.iter_mut().zip(QUANTITIES) {
@@ -185,12 +184,12 @@ fn fill_row(numbers: &mut [f64], model: &mut u8, found: Observed) -> Result<(), 
     Ok(())
 }
 
-/// The rows of a sweep that are asked for, computed as they are visited.
+/// The selected rows of a sweep, computed when they are visited.
 #[derive(Debug)]
 pub struct Computed<'a>(Computer<'a>);
 
 impl<'a> Computed<'a> {
-    /// Reads what all rows share.
+    /// Reads the data that all rows share.
     ///
     /// # Errors
     /// [`SceneError`] of the sweep.
@@ -219,11 +218,11 @@ impl Blocks for Computed<'_> {
     }
 }
 
-/// Rows whose fields are forecast before a run, at most.
+/// Largest number of rows whose fields are forecast before a run.
 const FORECAST: usize = 64;
 
-/// Forecast memory in bytes of the fields at probes while rows are computed on all threads: that of the largest among some
-/// rows, which are spread over those that are asked for; 0 without probes.
+/// Forecast of the memory in bytes for the fields at probes while rows are computed on all threads: the largest of some
+/// rows that are spread over the selected ones; 0 without probes.
 ///
 /// # Errors
 /// [`SceneError`] of the sweep.
@@ -242,13 +241,13 @@ pub fn fields_bytes(spec: &Spec) -> Result<f64, SceneError> {
     Ok(most * rayon::current_num_threads().min(rows.len()) as f64)
 }
 
-/// Rows that are held in memory together, at most: eight bytes for each of their numbers.
+/// Largest number of rows that are held in memory together, with eight bytes per number.
 const MOST_AT_ONCE: usize = 10_000_000;
 
-/// Time in s between two calls of the watch of [`compute_rows`], about.
+/// Approximate time in s between two calls of the watch of [`compute_rows`].
 const WATCH_S: f64 = 0.1;
 
-/// Checks that so many rows can be held in memory together.
+/// Checks that `count` rows can be held in memory together.
 ///
 /// # Errors
 /// [`SceneError`].
@@ -260,13 +259,14 @@ pub fn check_at_once(count: usize) -> Result<(), SceneError> {
     Ok(())
 }
 
-/// Computes `count` rows from `start` on, every `step`-th, without a journal: to the last bit what the whole sweep has there.
+/// Computes `count` rows from `start` on, every `step`-th, without a journal; bit-identical to the rows of the whole
+/// sweep.
 ///
-/// Rows of the block, and of its failures, count from the first that was asked for.
-/// `watch` is told how many are done and how many of them failed; where it says false, nothing is returned.
+/// Rows of the block and of its failures are numbered from the first computed row. `watch` receives the number of
+/// completed and of failed rows; if it returns false, nothing is returned.
 ///
 /// # Errors
-/// [`SceneError`] of the sweep, and where it has no such rows.
+/// [`SceneError`] of the sweep, or if it does not have these rows.
 pub fn compute_rows(
     spec: &Spec,
     start: usize,
@@ -284,7 +284,7 @@ pub fn compute_rows(
     Ok(done.then_some(all))
 }
 
-/// The same of some results alone, a result at a time.
+/// Computes some results only, in the order of results.
 ///
 /// # Errors
 /// As [`compute_rows`].
@@ -305,7 +305,7 @@ pub fn compute_columns(
     Ok(done.then_some(held))
 }
 
-/// Shows rows that are computed, some at a time; whether `visit` let them all be.
+/// Visits computed rows, some at a time; returns whether `visit` accepted all.
 fn each_block(
     spec: &Spec,
     [start, step, count]: [usize; 3],
@@ -318,7 +318,7 @@ fn each_block(
         return Err(SceneError::out_of_range(
             "the last row",
             last.map_or(f64::INFINITY, |last| last as f64),
-            "the rows of the sweep, which count from 0",
+            "the rows of the sweep, counted from 0",
         ));
     }
     let computer = Computer::new(spec)?;
@@ -336,7 +336,7 @@ fn each_block(
     Ok(true)
 }
 
-/// Rows of the next block, after one of `count` that took this long: no more than eight times as many.
+/// Rows of the next block, after a block of `count` rows that took `took_s`: at most eight times as many.
 fn next_size(count: usize, took_s: f64, wanted_s: f64) -> usize {
     let factor = (wanted_s / took_s.max(1e-6)).min(8.0);
     ((count as f64 * factor) as usize).clamp(1, BLOCK)

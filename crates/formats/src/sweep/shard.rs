@@ -6,10 +6,10 @@ use ledger::Shard;
 use std::ops::Range;
 use std::path::PathBuf;
 
-/// Rows of a block at most: no more of a sweep are in memory together.
+/// Largest block: no more rows of a sweep are in memory together.
 pub const BLOCK: usize = 32_768;
 
-/// Rows that shards do not divide: with probes one may take seconds.
+/// Number of rows that a shard never splits; small with probes, where a row may take seconds.
 pub fn grain(fields: &WrittenResults) -> usize {
     let has_probes = fields.width() > QUANTITIES.len();
     if has_probes { 1 } else { BLOCK }
@@ -20,25 +20,25 @@ pub fn grain(fields: &WrittenResults) -> usize {
 pub struct Selection {
     /// The rows.
     pub rows: Range<usize>,
-    /// The shard that they are.
+    /// The shard, if the rows are a shard.
     pub shard: Option<Shard>,
 }
 
-/// What a file of some rows of a sweep says of itself.
+/// Description of a file with some rows of a sweep.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Part {
-    /// Where it lies.
+    /// Path of the file.
     pub path: PathBuf,
-    /// Which sweep it is of.
+    /// SHA-256 that identifies the sweep.
     pub sha256: String,
-    /// Which rows it has.
+    /// Rows in the file.
     pub selection: Selection,
     /// Rows of the whole sweep.
     pub sweep_rows: usize,
     /// Failed rows.
     pub failed: usize,
-    /// Which results it has.
+    /// Results in the file.
     pub fields: WrittenResults,
-    /// Whether damage to it is seen: those of older versions have no seal.
+    /// Whether damage is detected: files of older versions have no checksum trailer.
     pub sealed: bool,
 }

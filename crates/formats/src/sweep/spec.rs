@@ -1,4 +1,4 @@
-//! What a sweep is: a base scene, the keys that vary, and what of the results is written.
+//! Definition of a sweep: base scene, keys that vary, and selection of results.
 
 use super::axes::{SweepAxis, SweptKey, Values, rows};
 use super::draws::Drawn;
@@ -26,41 +26,42 @@ use toml::{Table, Value};
 pub struct Spec {
     /// The base scene.
     pub(crate) scene: Table,
-    /// Where the files it names are.
+    /// Folder of the files that the scene names.
     pub(super) directory: PathBuf,
-    /// Axes: the product's in alphabetical order, then the list's, then that of the draws.
+    /// Axes: those of the product in alphabetical order, then the list, then the draws.
     pub axes: Vec<SweepAxis>,
-    /// Everything spelled out, as TOML.
+    /// The sweep as TOML with everything spelled out.
     pub resolved: String,
-    /// The files that were read beside the sweep itself: its base scene and its materials.
+    /// The files that were read in addition to the sweep file: base scene and materials.
     pub inputs: Vec<Role>,
-    /// Materials by the name of their file, with its text: rows are computed from them, whatever becomes of the files.
+    /// Materials by the name of their file, with its text: rows are computed from them even if the files change.
     libraries: Libraries,
-    /// SHA-256, in hexadecimal, of everything that is asked and was read and of the program's version and numbers: two sweeps
-    /// with the same have the same rows.
+    /// SHA-256, in hexadecimal, of the full definition, of all files that were read, and of the program's version and
+    /// numbers: sweeps with the same hash have the same rows.
     pub sha256: String,
-    /// What of the results is written.
+    /// Selection of the results that are written.
     pub fields: WrittenResults,
-    /// Where the fields at probes have their kernels from, where they are asked for.
+    /// Source of the kernels for fields at probes, if there are any.
     pub(crate) kernels: Option<Kernels>,
-    /// The rows that are asked for as a part, where they are not the whole sweep in its own shape.
+    /// Rows that are computed as a part; none for the whole sweep in its own shape.
     pub selection: Option<Selection>,
 }
 
 type Libraries = BTreeMap<String, (Library, String)>;
 
-/// Rows of a sweep at most: a place in a file of them is counted exactly.
+/// Largest number of rows of a sweep: an offset in a file of them is represented exactly.
 const MOST_ROWS: usize = 1_000_000_000_000;
 
-/// Memory in bytes that a run takes beside the values of the axes: a block and the columns made of it, or a group of
-/// Parquet, and its tables.
+/// Memory in bytes of a run in addition to the values of the axes: a block and its columns, or a group of Parquet, and
+/// its tables.
 const RUN_BYTES: usize = 120_000_000;
 
-/// Distinct Poisson's ratios of targets up to which each has its own response, and its own part of a table.
+/// Largest number of distinct Poisson's ratios of targets for which each has its own response and its own part of a
+/// table.
 const FEW_RATIOS: usize = 256;
 
 impl Spec {
-    /// Reads a sweep file; the scene it names is looked for beside it.
+    /// Reads a sweep file; the path of its scene is relative to its folder.
     ///
     /// # Errors
     /// [`SceneError`].
@@ -70,7 +71,7 @@ impl Spec {
         Self::from_toml(&text, directory).map_err(|error| error.in_file(path))
     }
 
-    /// Reads a sweep from standard input; the scene it names is looked for in the current folder.
+    /// Reads a sweep from standard input; the path of its scene is relative to the current folder.
     ///
     /// # Errors
     /// [`SceneError`].
@@ -79,7 +80,7 @@ impl Spec {
         read().map_err(|error| error.in_file(Path::new("standard input")))
     }
 
-    /// Reads a sweep; the scene it names is looked for in `directory`.
+    /// Reads a sweep; the path of its scene is relative to `directory`.
     ///
     /// # Errors
     /// [`SceneError`].
@@ -87,14 +88,14 @@ impl Spec {
         Self::from_table(&parse(text)?, directory)
     }
 
-    /// Reads a sweep from a parsed table; the scene it names is looked for in `directory`.
+    /// Reads a sweep from a parsed table; the path of its scene is relative to `directory`.
     ///
     /// # Errors
     /// [`SceneError`].
     pub fn from_table(table: &Table, directory: &Path) -> Result<Self, SceneError> {
         let root = TomlSection::root(table);
         if !table.contains_key("scene") && SECTIONS.iter().any(|name| table.contains_key(*name)) {
-            let hint = "this is a scene; a sweep names its file, scene = \"FILE\", or has its sections below it, as in [scene.target], and says in [product], [list] or [random] which keys vary";
+            let hint = "this is a scene; a sweep contains scene = \"FILE\", or the sections of a scene as in [scene.target], and lists the keys that vary in [product], [list] or [random]";
             return Err(root.missing("scene", hint));
         }
         root.allow(["scene", "product", "list", "random"])?;
@@ -108,7 +109,7 @@ impl Spec {
         Ok(spec)
     }
 
-    /// One of a contact alone; whether its text spells out the values of its axes.
+    /// A sweep of contacts only; `spelled` decides whether its text includes the values of its axes.
     fn new(
         scene: Table,
         directory: &Path,
@@ -140,7 +141,7 @@ impl Spec {
         })
     }
 
-    /// The sweep that a file holds, with everything spelled out: its axes and rows, not what computes them.
+    /// The sweep stored in a file, with everything spelled out: axes and rows, without the data for computing them.
     pub(crate) fn of_stored(resolved: &str, sha256: String) -> Result<Self, SceneError> {
         let table = parse(resolved)?;
         let axes = axes(&TomlSection::root(&table))?;
@@ -154,10 +155,10 @@ impl Spec {
         })
     }
 
-    /// The sweep of a scene some keys of which take values together, as those of a list do.
+    /// The sweep of a scene in which some keys vary together, like those of a list.
     ///
-    /// The values are not spelled out in [`Self::resolved`](Self#structfield.resolved): they may be millions.
-    /// One that is not finite is a row that fails.
+    /// The values are not spelled out in [`Self::resolved`](Self#structfield.resolved): there may be millions.
+    /// A value that is not finite makes its row fail.
     ///
     /// # Errors
     /// [`SceneError`].
@@ -177,7 +178,7 @@ impl Spec {
         own.map_or(Library::built_in(), |(library, _)| library)
     }
 
-    /// Memory in bytes that a run takes, about: it does not depend on the number of rows.
+    /// Approximate memory in bytes of a run, independent of the number of rows.
     pub fn memory_bytes(&self) -> f64 {
         let values: usize = (self.columns().map(|column| &column.values))
             .filter(|values| !matches!(values, Values::Drawn(_)))
@@ -192,7 +193,7 @@ impl Spec {
         rows(&self.axes).unwrap_or(0)
     }
 
-    /// The dimensions of what is asked for: the axes, or the one of a part.
+    /// The dimensions of the selected rows: the axes, or the only one of a part.
     pub fn shape(&self) -> Vec<usize> {
         match &self.selection {
             Some(selection) => vec![selection.rows.len()],
@@ -200,17 +201,17 @@ impl Spec {
         }
     }
 
-    /// Asks for the rows of a shard alone.
+    /// Selects the rows of a shard.
     pub fn select_shard(&mut self, shard: Shard) {
         let rows = shard.range(self.rows(), grain(&self.fields));
         let shard = Some(shard);
         self.selection = Some(Selection { rows, shard });
     }
 
-    /// Asks for rows from one on up to another alone, which is not among them.
+    /// Selects the rows of a half-open range.
     ///
     /// # Errors
-    /// [`SceneError`] beyond the end.
+    /// [`SceneError`] if the range exceeds the sweep.
     pub fn select_rows(&mut self, rows: Range<usize>) -> Result<(), SceneError> {
         if rows.end > self.rows() {
             return Err(SceneError::out_of_range(
@@ -223,13 +224,13 @@ impl Spec {
         Ok(())
     }
 
-    /// The rows that are asked for.
+    /// The selected rows.
     pub fn selected(&self) -> Range<usize> {
         let selection = self.selection.as_ref();
         selection.map_or(0..self.rows(), |selection| selection.rows.clone())
     }
 
-    /// The axes, each with the rows from one of its values to the next: the last runs fastest.
+    /// The axes, each with the number of rows between consecutive values: the last varies fastest.
     pub(super) fn strides(&self) -> impl Iterator<Item = (usize, &SweepAxis)> {
         let mut stride = self.rows().max(1);
         self.axes.iter().map(move |axis| {
@@ -243,16 +244,15 @@ impl Spec {
         self.axes.iter().flat_map(|axis| &axis.columns)
     }
 
-    /// Whether its base scene has probes, whose fields need [`Self::with_fields`].
+    /// Whether the base scene has probes, whose fields require [`Self::with_fields`].
     pub fn has_probes(&self) -> bool {
         self.scene.contains_key("probe")
     }
 
-    /// With the peaks of the fields at the probes of its base scene, which are then part of what makes two sweeps the same.
+    /// Adds the peaks of the fields at the probes of the base scene, which become part of the identity of the sweep.
     ///
-    /// Their kernels are those of the table at `path` or, where there is none, computed; with `or_computed` also where the
-    /// estimated error of the table is beyond the tolerance of a row.
-    /// Which results are written is chosen after it.
+    /// The kernels are those of the table at `path`, or computed if there is none. With `or_computed` they are also
+    /// computed if the estimated error of the table exceeds the tolerance of a row. Select the results after this call.
     ///
     /// # Errors
     /// [`SweepError`].
@@ -275,7 +275,7 @@ impl Spec {
         Ok(self)
     }
 
-    /// Whether the targets have more Poisson's ratios than have responses of their own each.
+    /// Whether the targets have too many Poisson's ratios for each to have its own response.
     pub(super) fn has_many_ratios(&self) -> bool {
         let of_ratio = |column: &SweptKey| {
             column.section == "target"
@@ -286,7 +286,7 @@ impl Spec {
     }
 }
 
-/// What is written unless columns are chosen: what flow brings only where a law of flow is asked for.
+/// Default selection of results: plastic results only with a plasticity law.
 fn own_fields(scene: &Table, axes: &[SweepAxis], probed: Vec<Described>) -> WrittenResults {
     let law = word(scene, "contact", "plasticity");
     let mut columns = axes.iter().flat_map(|axis| &axis.columns);
@@ -298,8 +298,8 @@ fn own_fields(scene: &Table, axes: &[SweepAxis], probed: Vec<Described>) -> Writ
     fields
 }
 
-/// Of the program's version, the revision of its numbers, the format, everything spelled out, the files that were read, and
-/// axes whose values are not spelled out.
+/// Hash of the program's version, the revision of its numbers, the format, the resolved sweep, the files that were
+/// read, and the values of axes that are not spelled out.
 fn identity(resolved: &str, libraries: &Libraries, axes: &[SweepAxis]) -> String {
     let mut identity = Identity::default()
         .with("software", env!("CARGO_PKG_VERSION"))
@@ -335,7 +335,7 @@ pub(super) fn word<'a>(scene: &'a Table, section: &str, key: &str) -> Option<&'a
     scene.get(section)?.get(key)?.as_str()
 }
 
-/// The axes that the sections of a sweep say.
+/// The axes in the sections of a sweep.
 fn axes(root: &TomlSection<'_>) -> Result<Vec<SweepAxis>, SceneError> {
     let mut axes = Vec::new();
     if let Some(product) = root.section("product")? {
@@ -358,7 +358,7 @@ fn axes(root: &TomlSection<'_>) -> Result<Vec<SweepAxis>, SceneError> {
     Ok(axes)
 }
 
-/// The base scene, from a file or in place, where its own files are, and the file.
+/// The base scene, from a file or inline, with the folder of its files and its own file.
 fn base(
     root: &TomlSection<'_>,
     table: &Table,
@@ -367,7 +367,7 @@ fn base(
     if let Some(Value::Table(scene)) = table.get("scene") {
         return Ok((scene.clone(), directory.to_owned(), None));
     }
-    let hint = "name a scene file, or give a section [scene]";
+    let hint = "name a scene file, or add a section [scene]";
     let file = root.needed_text("scene", hint)?;
     let path = directory.join(file);
     let scene = parse(&read_text(&path)?).map_err(|error| error.in_file(&path))?;
@@ -375,7 +375,7 @@ fn base(
     Ok((scene, directory, Some(("the base scene", path))))
 }
 
-/// The scene keys below a section of the sweep, with their values, so many rows at most where each varies by itself.
+/// The scene keys below a section of the sweep with their values; at most `most` rows if each varies independently.
 fn columns(section: &TomlSection<'_>, most: f64) -> Result<Vec<SweptKey>, SceneError> {
     let (mut found, mut rows) = (Vec::new(), 1.0);
     for keys in section.subsections(&[])? {
@@ -393,7 +393,7 @@ fn columns(section: &TomlSection<'_>, most: f64) -> Result<Vec<SweptKey>, SceneE
         }
     }
     if found.is_empty() {
-        let hint = "give at least one scene key, such as this one";
+        let hint = "add at least one scene key, such as this one";
         return Err(section.missing("striker.velocity_m_s", hint));
     }
     Ok(found)
@@ -404,14 +404,14 @@ fn together(columns: Vec<SweptKey>) -> Result<SweepAxis, SceneError> {
     let Some(len) = columns.first().map(|column| column.values.count()) else {
         return Err(SceneError::missing(
             "a key that varies",
-            "give at least one scene key with its values",
+            "add at least one scene key with its values",
         ));
     };
     if let Some(other) = columns.iter().find(|c| c.values.count() != len) {
         return Err(SceneError::conflict(
             format!("list.{} of {len} values", columns[0].name()),
             format!("list.{} of {}", other.name(), other.values.count()),
-            "the keys of a list vary together and need as many values each",
+            "the keys of a list vary together and need the same number of values",
         ));
     }
     let name = LIST.to_owned();
@@ -422,7 +422,7 @@ fn together(columns: Vec<SweptKey>) -> Result<SweepAxis, SceneError> {
 fn drawn(random: &TomlSection<'_>) -> Result<SweepAxis, SceneError> {
     let len = random
         .count("samples", 1..=MOST_ROWS, "[1, 1e12]")?
-        .ok_or_else(|| random.missing("samples", "how many draws"))?;
+        .ok_or_else(|| random.missing("samples", "the number of draws"))?;
     let draws = Drawn::read(random, len)?.into_iter();
     let columns = draws.map(|(section, key, drawn)| SweptKey {
         section,
@@ -431,14 +431,14 @@ fn drawn(random: &TomlSection<'_>) -> Result<SweepAxis, SceneError> {
     });
     let columns: Vec<SweptKey> = columns.collect();
     if columns.is_empty() {
-        let hint = "give at least one scene key with a distribution";
+        let hint = "add at least one scene key with a distribution";
         return Err(random.missing("striker.velocity_m_s", hint));
     }
     let name = SAMPLE.to_owned();
     Ok(SweepAxis { name, columns, len })
 }
 
-/// Numbers of a product and of a list are in the ranges of their keys; a draw outside is a row that fails.
+/// Checks that numbers of a product and of a list are in range; a draw out of range is a row that fails.
 fn in_range(axes: &[SweepAxis]) -> Result<(), SceneError> {
     for column in axes.iter().flat_map(|axis| &axis.columns) {
         let known = keys_of(&column.section).find(|key| key.name == column.key);
@@ -452,7 +452,7 @@ fn in_range(axes: &[SweepAxis]) -> Result<(), SceneError> {
     Ok(())
 }
 
-/// What is written down is numbers; in arrays of a program others stand for what is not known, and their rows fail.
+/// Checks that written numbers are finite; in arrays of a program others mark unknown values, whose rows fail.
 fn finite(axes: &[SweepAxis]) -> Result<(), SceneError> {
     for column in axes.iter().flat_map(|axis| &axis.columns) {
         let infinite = match &column.values {
@@ -467,18 +467,18 @@ fn finite(axes: &[SweepAxis]) -> Result<(), SceneError> {
     Ok(())
 }
 
-/// No key twice, at least one axis, not too many rows.
+/// Checks for duplicate keys, at least one axis, and the number of rows.
 fn check(axes: &[SweepAxis]) -> Result<(), SceneError> {
     if axes.is_empty() {
         return Err(SceneError::missing(
             "[product], [list] or [random]",
-            "say in one of these sections which keys vary",
+            "list the keys that vary in one of these sections",
         ));
     }
     let mut names = BTreeSet::new();
     let mut columns = axes.iter().flat_map(|axis| &axis.columns);
     if let Some(twice) = columns.find(|column| !names.insert(column.name())) {
-        let reason = "a key varies along one axis only";
+        let reason = "a key can vary along one axis only";
         return Err(SceneError::conflict(twice.name(), twice.name(), reason));
     }
     match rows(axes) {

@@ -1,4 +1,4 @@
-//! From a row's place to its scene: parsed once for all rows that differ in plain numbers only.
+//! The scene of a row: parsed once for all rows that differ in plain numbers only.
 
 use super::axes::{SweepAxis, SweptKey, Values};
 use super::spec::{Spec, word};
@@ -10,10 +10,10 @@ use impact::Scene;
 use std::collections::BTreeSet;
 use toml::Value;
 
-/// A column of plain numbers, which are set after a scene was parsed with another number.
+/// A column of plain numbers, which are set in a scene that was parsed with a placeholder.
 #[derive(Debug)]
 struct Fast<'a> {
-    /// Rows from one of its numbers to the next.
+    /// Rows between consecutive numbers.
     stride: usize,
     column: &'a SweptKey,
     range: Range,
@@ -26,16 +26,16 @@ struct Fast<'a> {
 pub(crate) struct Templates<'a> {
     spec: &'a Spec,
     fast: Vec<Fast<'a>>,
-    /// Axes with a column that needs parsing, with their strides.
+    /// Axes with a column that requires parsing, with their strides.
     slow: Vec<(usize, &'a SweepAxis)>,
-    /// The templates where there are not too many of them.
+    /// The parsed templates, if there are not too many.
     ready: Vec<Result<Scene, SceneError>>,
 }
 
-/// What a thread remembers of the row before: its template and scene, which the next row likely shares.
+/// Template and scene of a thread's previous row, which the next row usually shares.
 pub(crate) type Memory = Option<(usize, Result<Scene, SceneError>)>;
 
-/// Templates that are parsed ahead.
+/// Largest number of templates that are parsed ahead.
 const READY: usize = 4096;
 
 impl<'a> Templates<'a> {
@@ -72,7 +72,7 @@ impl<'a> Templates<'a> {
         Ok(templates)
     }
 
-    /// Refuses a word of any list that is not known: it would be a row that fails, after hours perhaps.
+    /// Rejects unknown words in lists, which would otherwise make rows fail, perhaps after hours.
     fn check_words(&self) -> Result<(), SceneError> {
         for (stride, axis) in self.spec.strides() {
             let columns = axis.columns.iter().map(|column| &column.values);
@@ -159,7 +159,7 @@ impl<'a> Templates<'a> {
     }
 }
 
-/// A sweep is about contacts, and what probes see of them where their kernels are known.
+/// Checks that a scene of a sweep has a contact only, and probes only if their kernels are known.
 fn contact_only(scene: &Scene, observed: bool) -> Result<(), SceneError> {
     let sections = [
         ("[force]", scene.record().is_some()),
@@ -174,11 +174,11 @@ fn contacts_only(found: &str) -> SceneError {
     SceneError::conflict(
         "a sweep",
         found.to_owned(),
-        "it computes contacts only; leave this section out of its scene",
+        "a sweep computes contacts only: remove this section from its scene",
     )
 }
 
-/// The column as plain numbers, if that is what it is.
+/// The column as plain numbers, if its key can be set directly.
 fn as_numbers<'a>(spec: &'a Spec, stride: usize, column: &'a SweptKey) -> Option<Fast<'a>> {
     let key = keys_of(&column.section).find(|key| key.name == column.key)?;
     let (set, stand_in, range) = (key.set?, key.stand_in?, key.range?);
@@ -186,7 +186,7 @@ fn as_numbers<'a>(spec: &'a Spec, stride: usize, column: &'a SweptKey) -> Option
     if matches!(column.values, Values::Texts(_)) || needs_ball && !always_ball(spec) {
         return None;
     }
-    // wave speeds have to be compared with the moduli, which reading a scene does
+    // wave speeds are compared with the moduli only when a scene is read
     let speed = |key: &str| key.ends_with("_speed_m_s");
     let section = spec.scene.get(&column.section).and_then(Value::as_table);
     let in_scene = section.is_some_and(|section| section.keys().any(|key| speed(key)));
@@ -212,7 +212,7 @@ impl Fast<'_> {
         let range = if !(self.range.holds)(value) {
             self.range.name
         } else if !self.set.apply(scene, &self.column.section, value) {
-            "what makes a mass of the ball"
+            "the range with a valid mass of the ball"
         } else {
             return Ok(());
         };

@@ -22,7 +22,7 @@ use std::sync::LazyLock;
 /// Terms of the force in the root of time.
 const DEGREE: usize = 12;
 
-/// How far beside a jump its sides are read: parts of its time and of the zone.
+/// Distance from a jump at which its sides are read: parts of its time and of the zone.
 const ROUNDING: f64 = 4e-15;
 const START: f64 = 1e-10;
 
@@ -178,7 +178,7 @@ impl DiscZone {
 }
 
 impl Part {
-    /// Adds what lies on a side of an origin, halved until a polynomial follows the force.
+    /// Adds the part on one side of an origin, halved until a polynomial follows the force.
     fn push(
         (origin_s, sign): (f64, f64),
         roots: [f64; 2],
@@ -271,7 +271,7 @@ static COSINES: LazyLock<[[f64; DEGREE]; DEGREE]> = LazyLock::new(|| {
     std::array::from_fn(|j| std::array::from_fn(|i| (j as f64 * angle(i)).cos()))
 });
 
-/// Gauss's rule on [-1, 1] in the angle: exact beside roots at both ends.
+/// Gauss's rule on [-1, 1] in the angle: exact next to roots at both ends.
 static RULE: LazyLock<[[f64; 2]; NODES]> = LazyLock::new(|| {
     let mut angles = gauss::rule(NODES).on(0.0, PI);
     std::array::from_fn(|_| {

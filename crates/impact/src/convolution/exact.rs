@@ -38,8 +38,8 @@ const NEAR_AXIS: f64 = 0.031;
 const DIFFERENCE: f64 = 1e-5;
 const LEAST_TOLERANCE: f64 = 1e-12;
 
-/// What the integrals of a series' terms are: its argument x stands for an angle (1 + x) pi/2, and it is that of a function
-/// times 1 - x^2, since stresses of a punch grow as 1/angle toward a front.
+/// Integrals of the terms of a series. The argument x stands for an angle (1 + x) pi/2, and each term is the integral
+/// of a function times 1 - x^2, since stresses of a punch grow as 1/angle toward a front.
 static INTEGRALS: LazyLock<[f64; MOST]> = LazyLock::new(|| {
     let rule = gauss::rule(gauss::MAX_NODES);
     std::array::from_fn(|k| {

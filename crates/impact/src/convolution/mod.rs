@@ -60,7 +60,7 @@ impl Trace {
     }
 }
 
-/// An excitation with a source of kernels: what is the same for all points.
+/// An excitation with a source of kernels: the common data of all points.
 pub(crate) struct Convolution<'a> {
     source: &'a KernelSource,
     pub(crate) grid: &'a Grid<'a>,

@@ -1,4 +1,4 @@
-//! Sums of the loads of one forcing over the kernels of a point, with bounds on what they leave out.
+//! Sums of the loads of one forcing over the kernels of a point, with truncation bounds.
 //!
 //! Theory: `docs/theory.md` (T24, T60).
 
@@ -118,9 +118,9 @@ impl SharpKernel {
         }
     }
 
-    /// Adds the response to the residual of a load in a cell `lag` cells before, summed over the parts of the cell where the
-    /// kernel has them, and a bound on what is left out: the residual times the departure from a parabola, or its rises over
-    /// the parts times the changes of the kernel to both sides.
+    /// Adds the response to the residual of a load in a cell `lag` cells before, summed over the parts of the cell if
+    /// the kernel has them, and an error bound: the residual times the departure from a parabola, or its rises over the
+    /// parts times the changes of the kernel to both sides.
     fn add(&self, lag: usize, (residual, rises): (f64, &[f64]), [sum, bound]: &mut [Six; 2]) {
         if (lag + 1) * self.parts > self.fine.len() {
             for (bound, departure) in bound.iter_mut().zip(self.departures[lag]) {
@@ -140,13 +140,13 @@ impl SharpKernel {
     }
 }
 
-/// Samples of the six fields, or of rates of the first two, with what they leave out.
+/// Samples of the six fields, or of rates of the first two, with their truncation errors.
 pub(crate) struct Sums {
     /// At the samples needed.
     pub(crate) values: [Vec<f64>; 6],
     /// The first term that the discs leave out.
     pub(crate) truncation: [Vec<f64>; 6],
-    /// Bound on what the parabolas of the cells leave out.
+    /// Bound on the error of the parabolas in the cells.
     pub(crate) residual: [Vec<f64>; 6],
     /// Errors of every sample.
     pub(crate) errors: Six,
@@ -228,7 +228,7 @@ impl Sums {
         }
     }
 
-    /// Adds the residuals of the load in sharp cells, and a bound on what is left out then.
+    /// Adds the residuals of the load in sharp cells, and a bound on the remaining error.
     fn add_sharp(&mut self, forcing: &Forcing<'_>, loads: &Loads, kernels: &PointKernels<'_>) {
         if loads.runs.iter().all(|run| run.sharp.is_empty()) {
             return;
@@ -296,7 +296,7 @@ impl Sums {
         }
     }
 
-    /// Sets to zero what the sums leave before the first wave from the largest disc has arrived.
+    /// Sets the fields to zero before the first wave from the largest disc has arrived.
     fn still_before_arrival(&mut self, forcing: &Forcing<'_>, [r_m, z_m]: [f64; 2]) {
         let excitation = forcing.excitation;
         let radius_m = excitation.units().disc_radius_m;
@@ -309,7 +309,7 @@ impl Sums {
         }
     }
 
-    /// What may be left out of a sample of each field.
+    /// Errors that are allowed in a sample of each field.
     pub(crate) fn allowed(&self, forcing: &Forcing<'_>) -> Six {
         let differences = 0.1_f64.powi(forcing.differences as i32);
         let part = tuning::ACCEPTED * forcing.tolerance * differences;

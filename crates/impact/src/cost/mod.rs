@@ -1,7 +1,7 @@
-//! What a scene takes before it is computed: time, memory, disk. By this one model kernels are chosen, and work is
-//! announced and refused.
+//! Forecast of the cost of a scene: time, memory, disk space. The same model chooses the kernels and announces or
+//! rejects work.
 //!
-//! Its constants are seconds of one thread, measured with the jobs of `scripts/time-impacts`.
+//! Its constants are seconds on one thread, measured with the jobs of `scripts/time-impacts`.
 
 mod roads;
 
@@ -14,18 +14,18 @@ use crate::sampled::convolve::transform_ns;
 use crate::scene::{Scene, Section};
 use roads::roads;
 
-/// What any output takes, the opening of a table, and a byte of what is decoded of it.
+/// Time for any output, for opening a table, and for decoding a byte of it.
 const OUTPUT_S: f64 = 1.4e-2;
 const TABLE_S: f64 = 1e-2;
 const DECODED_S: f64 = 2.7e-9;
 
-/// Seconds of one thread that the fields of a scene take at the times of a grid with kernels that are computed.
+/// Seconds on one thread for the fields of a scene at the times of a grid with computed kernels.
 pub(crate) fn computed_s(scene: &Scene, grid: &Grid<'_>) -> f64 {
     let roads = roads(scene, grid, None);
     OUTPUT_S + roads.iter().map(|road| road.seconds).sum::<f64>()
 }
 
-/// Threads that have something to do among points; one point does not start the others.
+/// Threads with work for some number of points; a single point uses one thread.
 pub(crate) fn busy(points: usize) -> f64 {
     match points {
         0 | 1 => 1.0,
@@ -33,10 +33,10 @@ pub(crate) fn busy(points: usize) -> f64 {
     }
 }
 
-/// What computing and keeping a scene takes, about.
+/// Approximate cost of computing and storing a scene.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Forecast {
-    /// Points at which fields are asked for.
+    /// Points with fields.
     pub points: usize,
     /// Samples of the output in time.
     pub samples: f64,
@@ -44,24 +44,24 @@ pub struct Forecast {
     pub seconds: f64,
     /// Memory in bytes at its largest.
     pub memory_bytes: f64,
-    /// A results file in bytes.
+    /// Size of a results file in bytes.
     pub disk_bytes: f64,
-    /// How the fields are computed, probe by probe, then on the section.
+    /// Method of computing the fields, for each probe and then for the section.
     pub roads: Vec<Road>,
 }
 
-/// What a scene may take.
+/// Limits of the cost of a scene.
 pub struct Allowance<'a> {
     /// Memory in bytes.
     pub memory_bytes: f64,
-    /// Told the forecast once the force is known; whether to go on.
+    /// Called with the forecast once the force is known; returns whether to continue.
     pub go_on: &'a dyn Fn(&Forecast) -> bool,
-    /// Called when the fields at one more point are computed, from several threads.
+    /// Called after the fields at each point, from several threads.
     pub watch: &'a (dyn Fn() + Sync),
 }
 
 impl Default for Allowance<'_> {
-    /// Whatever it takes.
+    /// Without limits.
     fn default() -> Self {
         Self {
             memory_bytes: f64::INFINITY,
@@ -71,50 +71,50 @@ impl Default for Allowance<'_> {
     }
 }
 
-/// Samples of a contact at least, before it is known.
+/// Smallest number of samples of a contact, before it is known.
 const FEWEST: f64 = 100.0;
 
-/// Bytes that a sample takes whatever is asked: time, force, deflection, striker, energy, and room to compute them.
+/// Bytes per sample in any case: time, force, deflection, striker, energy, and buffers.
 const SAMPLE: f64 = 8.0 * 24.0;
 
-/// Bytes that a sample of the six fields at a probe takes: kept, and once more while a field is written.
+/// Bytes per sample of the six fields at a probe: stored, and once more while a field is written.
 const PROBE_SAMPLE: f64 = 8.0 * (6.0 + 1.0);
 
-/// Bytes that a sample of a quantity beside them takes, at a probe and at a frame of a section's point.
+/// Bytes per sample of a further quantity, at a probe and at a frame of a section's point.
 const QUANTITY_SAMPLE: f64 = 8.0;
 const QUANTITY_FRAME: f64 = 4.0;
 
-/// Bytes that a sample takes in each thread: averages and moments of the kernels, the convolution's room.
+/// Bytes per sample in each thread: averages and moments of the kernels, buffers of the convolution.
 const CELL: f64 = 8.0 * 6.0 * 6.0;
 
-/// Bytes that a sample takes of the force on a disc, and of what of it is left.
+/// Bytes per sample of the force on a disc, and of its residual.
 const FORCE_SAMPLE: f64 = 200.0;
-/// Bytes of a row of a record, and of a cell between rows or samples, in which the force is read at nodes.
+/// Bytes per row of a record, and per cell between rows or samples, in which the force is read at nodes.
 ///
 /// Measured: 614 MB with 3.84 million rows. `test_a_record_takes_what_was_forecast` fails without them.
 const ROW: f64 = 8.0 * 4.0;
 const NODES: f64 = 8.0 * 16.0;
 
-/// Bytes of the transforms of a record over the points of a transform: those of its rises, slopes and bends, and the room of
-/// each thread.
+/// Bytes of the transforms of a record per point of a transform: those of its rises, slopes and bends, and the buffers
+/// of each thread.
 const TRANSFORMS: [f64; 2] = [8.0 * 3.0, 8.0 * 4.0];
 
-/// Bytes of a point of a section at one frame: six fields in single precision.
+/// Bytes per point of a section and frame: six fields in single precision.
 const FRAME_POINT: f64 = 4.0 * 6.0;
 
-/// Bytes of a point of a section whatever the frames: arrivals and errors.
+/// Bytes per point of a section for all frames: arrivals and errors.
 const POINT: f64 = 8.0 * 9.0;
 
-/// Seconds that a product of the sum for the deflection of the disc takes.
+/// Seconds per product in the sum for the deflection of the disc.
 const PRODUCT_S: f64 = 1e-9;
 
 impl Forecast {
-    /// The least that a scene takes, before its force is known.
+    /// Lower bound of the cost of a scene, before its force is known.
     pub fn least(scene: &Scene) -> Self {
         Self::of(scene, FEWEST, busy(scene.points()))
     }
 
-    /// Of a scene whose force and times are known, among so many threads.
+    /// Forecast for a scene whose force and times are known, on a number of threads.
     pub(crate) fn new(
         scene: &Scene,
         grid: &Grid<'_>,
@@ -183,10 +183,10 @@ impl Forecast {
         }
     }
 
-    /// Compares it with the memory that there is.
+    /// Compares the forecast with a memory limit.
     ///
     /// # Errors
-    /// [`ImpactError::TooMuchMemory`] with what to change.
+    /// [`ImpactError::TooMuchMemory`] with advice.
     pub fn check(&self, scene: &Scene, memory_bytes: f64) -> Result<(), ImpactError> {
         if self.memory_bytes <= memory_bytes {
             return Ok(());

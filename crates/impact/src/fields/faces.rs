@@ -17,10 +17,10 @@ fn face(block: &HalfSpace, [r, z]: [(&str, f64); 2]) -> Option<String> {
     on.map(|((key, place_m), limit, _)| format!("{key} = {limit} = {place_m} m"))
 }
 
-/// Why nothing is valid on a face.
+/// A warning that no field is valid on a face.
 fn doubled(who: &str, face: &str) -> String {
     format!(
-        "{who} on a free face of the block ({face}): the echo begins there with the first arrival, and a free face about doubles the motion (exactly doubles that of a P wave at normal incidence), so nothing of a half-space's fields is valid there"
+        "{who} on a free face of the block ({face}): the echo begins there with the first arrival, and a free face about doubles the motion (exactly doubles that of a P wave at normal incidence), so the fields of the half-space are not valid there at any time"
     )
 }
 
@@ -46,7 +46,7 @@ pub(crate) fn of_probes(scene: &Scene, fields: &ProbeFields, end_s: f64) -> Vec<
     let echoing: Vec<(usize, f64)> = inside.map(|(i, (&valid_s, _))| (i, valid_s)).collect();
     if let Some((first, first_s)) = echoing.iter().min_by(|a, b| a.1.total_cmp(&b.1)) {
         found.push(format!(
-            "echoes from the faces of the block reach {} of {count} probes before the output ends at {end_s:.4e} s, probe {first} first, at {first_s:.4e} s: what follows there is that of a half-space, not of the block",
+            "echoes from the faces of the block reach {} of {count} probes before the output ends at {end_s:.4e} s, first probe {first} at {first_s:.4e} s: later fields there are those of a half-space, not of the block",
             echoing.len(),
         ));
     }
@@ -71,7 +71,7 @@ pub(crate) fn of_section(
     let first_s = first_s.map(|first_s| excitation.start_s() + first_s);
     let echoing = first_s.filter(|&first_s| first_s < end_s).map(|first_s| {
         format!(
-            "echoes from the faces of the block reach the section from {first_s:.4e} s on, before the output ends at {end_s:.4e} s: what follows there is that of a half-space, not of the block"
+            "echoes from the faces of the block reach the section from {first_s:.4e} s on, before the output ends at {end_s:.4e} s: later fields there are those of a half-space, not of the block"
         )
     });
     on.into_iter().chain(echoing).collect()

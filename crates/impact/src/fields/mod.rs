@@ -37,8 +37,8 @@ impl Excitation {
     /// The six fields at one instant under a contact, in m and Pa: an integral over the force's past to about `tolerance`
     /// of their peaks, without cells, discs or tables; none for a record.
     ///
-    /// Slow beside [`Fields::at`]: a millisecond or so an instant, and exact where that is an approximation. Fields are in the
-    /// order of [`halfspace::FIELDS`]; stresses are positive in tension.
+    /// Slow compared with [`Fields::at`]: about a millisecond per time, but exact where that is an approximation.
+    /// Fields are in the order of [`halfspace::FIELDS`]; stresses are positive in tension.
     ///
     /// # Errors
     /// [`ImpactError`] for a point outside the half-space.

@@ -24,7 +24,7 @@ pub struct ProbeFields {
     pub arrival_s: Vec<[f64; 3]>,
     /// When the first echo from the faces of the block arrives, in s, one a probe; infinite where no face is known.
     pub valid_until_s: Vec<f64>,
-    /// The quantities that the scene asks for beside the fields.
+    /// The requested quantities in addition to the fields.
     pub quantities: Vec<Quantity>,
     /// Samples of each field (order of [`halfspace::FIELDS`]) and then of each quantity, one row a probe.
     pub values: Vec<Vec<Vec<f64>>>,
@@ -46,7 +46,7 @@ pub struct SectionFields {
     /// Times of the first P, S and Rayleigh arrival in s at each point; infinite for a Rayleigh wave where there is
     /// none.
     pub arrival_s: [Vec<f64>; 3],
-    /// The quantities that the scene asks for beside the fields.
+    /// The requested quantities in addition to the fields.
     pub quantities: Vec<Quantity>,
     /// Each field (order of [`halfspace::FIELDS`]) and then each quantity: frames, depths, radii.
     pub values: Vec<Vec<f32>>,

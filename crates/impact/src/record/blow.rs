@@ -19,7 +19,7 @@ const NOISE: f64 = 2.0;
 const OBVIOUS: f64 = 0.25;
 
 impl ForceRecord {
-    /// The same record with a blow that begins at a time in s; what is before is a quiet part.
+    /// The same record with a main pulse that begins at a time in s; the part before it is quiet.
     ///
     /// Arrivals, the first echo and the duration count from it. The fields are those of the whole record.
     ///
@@ -89,7 +89,8 @@ impl ForceRecord {
         let zero_s = self.reading.start_s.unwrap_or(0.0);
         (quiet_s > OBVIOUS * blow_s).then(|| {
             format!(
-                "the force stays below {level_n:.3e} N until {:.4e} s, but arrivals, echoes and the duration count from {start_s:.4e} s, where it leaves zero: set force.onset_s = {:.4e} to count from the blow",
+                "the force stays below {} N until {:.4e} s, but arrivals, echoes and the duration are counted from {start_s:.4e} s, where it leaves zero: set force.onset_s = {:.4e} to count from the main pulse",
+                fault::rounded(level_n),
                 time_s[foot],
                 zero_s + time_s[foot]
             )

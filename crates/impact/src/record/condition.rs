@@ -1,11 +1,11 @@
-//! What may be asked to be done to a record before it loads the half-space: a baseline taken away, a low pass.
+//! Treatments of a record before it loads the half-space: subtraction of a baseline, low pass.
 
 use crate::record::jump::jumps;
 use crate::record::low_pass::{Rows, allowed_hz, low_pass};
 use crate::record::{ForceRecord, Treated};
 use thiserror::Error;
 
-/// Something asked of a record that it cannot have.
+/// A treatment that is impossible for the record.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error("{key} = {value} is outside {range}, {reason}")]
 pub struct TreatmentError {
@@ -17,12 +17,12 @@ pub struct TreatmentError {
     pub limits: [f64; 2],
     /// The same in interval notation.
     pub range: String,
-    /// Where the limits come from.
+    /// Origin of the limits.
     pub reason: &'static str,
 }
 
 impl TreatmentError {
-    /// Of a value that is not between two limits, with the brackets of their interval.
+    /// The error of a value outside two limits, with the brackets of their interval.
     pub fn new(
         key: &'static str,
         value: f64,
@@ -42,11 +42,11 @@ impl TreatmentError {
 }
 
 impl ForceRecord {
-    /// The record after a treatment; [`ForceRecord::treated`] says what it came to.
+    /// The record after a treatment; [`ForceRecord::treated`] describes its effect.
     ///
-    /// The low pass is exact for lines between rows, however uneven; a force that is smooth on the cutoff's period keeps
-    /// its shape, and every force its impulse. Rows are added where the record has fewer than 64 in a period of the
-    /// cutoff, and beyond both ends, where the filtered force dies.
+    /// The low pass is exact for a piecewise linear force with any spacing of rows. A force that is smooth on the
+    /// period of the cutoff keeps its shape, and every force its impulse. Rows are added if there are fewer than 64 per
+    /// period of the cutoff, and beyond both ends, where the filtered force decays.
     ///
     /// # Errors
     /// [`TreatmentError`] with the range that this record allows.
@@ -70,7 +70,8 @@ impl ForceRecord {
         if let Some(cutoff_hz) = low_pass_hz {
             let limits = allowed_hz(record.time_s());
             if !(cutoff_hz > limits[0] && cutoff_hz <= limits[1]) {
-                let reason = "one period in the record to rows that memory holds";
+                let reason =
+                    "from one period per record to the number of rows that fits into memory";
                 return Err(TreatmentError::new(
                     "low_pass_hz",
                     cutoff_hz,
@@ -91,7 +92,7 @@ impl ForceRecord {
         Ok(record)
     }
 
-    /// What a low pass has put before the time zero, where a thousandth of the impulse or of the force is seen of it.
+    /// A warning if the low pass moves a thousandth of the impulse or of the force to times before zero.
     pub(crate) fn lost_before_zero(&self) -> Option<String> {
         const SEEN: f64 = 1e-3;
         let done = self.treated?;
@@ -101,7 +102,8 @@ impl ForceRecord {
             || begins_n.abs() > SEEN * self.largest_n();
         seen.then(|| {
             format!(
-                "the low pass reaches before the time zero, where {lost_n_s:.3e} N s are lost, and the force begins with {begins_n:.3e} N: a record that begins with rest keeps them"
+                "the low pass spreads the force to times before zero, which loses {lost_n_s:.3e} N s, and the force begins with {} N: use a record that begins before the pulse",
+                fault::rounded(begins_n)
             )
         })
     }
@@ -140,7 +142,7 @@ impl ForceRecord {
         Ok(sum / length_s)
     }
 
-    /// Root mean square over the time of this record of its difference from one that has its rows.
+    /// Root mean square over the time of this record of its difference from a record with the same rows.
     fn difference_rms_n(&self, other: &Rows) -> f64 {
         let mut sum = 0.0;
         let mut place = 0;

@@ -24,22 +24,22 @@ impl Jump {
     }
 }
 
-/// Jumps of a record at most: each is read at every sample of the output. More of them are a column of rounded times.
+/// Largest number of jumps of a record: each is read at every sample of the output. More are a column of rounded times.
 ///
 /// `a_column_of_rounded_times_is_refused` fails without it.
 pub(crate) const MOST_JUMPS: usize = 1000;
 
-/// Part of an instant within which a time is at it: times of samples are sums of products, with a few roundings.
+/// Relative difference up to which two times are equal: times of samples are sums of products with a few roundings.
 ///
 /// `samples_at_a_jump_and_at_its_fronts_are_those_after` fails without it.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
-/// A time, later by what its rounding may be.
+/// A time, increased by its possible rounding error.
 pub(crate) fn rounded_up(time_s: f64) -> f64 {
     time_s + ROUNDING * time_s.abs()
 }
 
-/// Whether a time may follow those of other rows: it is later than the last, or equals the last alone, which is a jump.
+/// Whether a time may follow those of other rows: it is later than the last, or equals only the last, which is a jump.
 pub fn follows(before_s: &[f64], time_s: f64) -> bool {
     match before_s {
         [] => true,
@@ -77,7 +77,7 @@ impl ForceRecord {
         &self.jumps
     }
 
-    /// What has jumped of the force in N until a time, itself among it.
+    /// Sum of the jumps in N until a time, including a jump at that time.
     pub(crate) fn jumped_n(&self, time_s: f64) -> f64 {
         let until = self.jumps.partition_point(|jump| jump.is_past(time_s));
         self.jumps[..until].iter().map(|jump| jump.rise_n).sum()

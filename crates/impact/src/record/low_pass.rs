@@ -41,7 +41,7 @@ pub(crate) struct Rows {
 
 /// Frequencies in Hz that can be cut for rows at these times.
 ///
-/// One period is at most the whole record; the rows that a filtered force needs beside the given ones are bounded.
+/// One period is at most the whole record; the number of rows that the filter adds is bounded.
 pub(crate) fn allowed_hz(time_s: &[f64]) -> [f64; 2] {
     let span_s = time_s[time_s.len() - 1] - time_s[0];
     let most = MOST_ROWS.max(2.0 * time_s.len() as f64);
@@ -275,7 +275,7 @@ mod tests {
         let found = low_pass(&[0.0, 50.0, 100.0], &[1.0, 1.0, 1.0], 1.0);
         assert!((at(&found, 100.0) - 0.5).abs() < 1e-13);
         assert!((at(&found, 50.0) - 1.0).abs() < 1e-12);
-        // h is even: what lies before zero is int_0^inf t h(t) dt = (1/4) Re sum 1/s
+        // h is even: the part before zero is int_0^inf t h(t) dt = (1/4) Re sum 1/s
         let poles = [0.625, 0.875].map(|a| Complex64::from_polar(2.0 * PI, a * PI));
         let expected = -0.25 * (1.0 / poles[0] + 1.0 / poles[1]).re;
         assert!(

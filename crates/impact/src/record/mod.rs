@@ -1,6 +1,7 @@
-//! A force history that was measured or invented: linear between its samples.
+//! A measured or prescribed force history: linear between its samples.
 //!
-//! Where it jumps (`jump`), when its blow begins and ends (`blow`), how it is treated (`condition`, `low_pass`), and in which stretches it changes (`stretch`).
+//! `jump` has its jumps, `blow` the beginning and end of its main pulse, `condition` and `low_pass` its treatments, and
+//! `stretch` the parts in which it changes.
 
 pub(crate) mod blow;
 pub(crate) mod condition;
@@ -14,64 +15,64 @@ use halfspace::gauss;
 use std::path::PathBuf;
 use thiserror::Error;
 
-/// How the file of an instrument becomes a record, where it is not one as it stands.
+/// Conversion of an instrument's file to a record, if it is not one already.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Reading {
-    /// Columns of time and force, by name or by place from 1.
+    /// Columns of time and force, by name or by number from 1.
     pub columns: Option<[String; 2]>,
     /// Their units.
     pub units: Option<[String; 2]>,
-    /// The instant in s of the file that is the time zero; what was before is cut off.
+    /// Time in s of the file that becomes zero; earlier samples are cut off.
     pub start_s: Option<f64>,
-    /// The last instant in s of the file that is taken.
+    /// Last time in s of the file that is used.
     pub end_s: Option<f64>,
-    /// The instant in s of the file at which the blow begins.
+    /// Time in s of the file at which the main pulse begins.
     pub onset_s: Option<f64>,
-    /// -1 where the file counts pressing as negative.
+    /// -1 if the file counts compression as negative.
     pub sign: Option<f64>,
-    /// Times in s and forces in N that stand in the scene itself, in place of a file.
+    /// Times in s and forces in N in the scene itself, instead of a file.
     pub samples: Option<[Vec<f64>; 2]>,
-    /// Volts per newton of the sensor whose signal the file has.
+    /// Volts per newton of the sensor whose signal is in the file.
     pub sensitivity_v_per_n: Option<f64>,
 }
 
-/// Samples of a force, joined by lines; zero before the first and from the last on.
+/// Samples of a force, connected by lines; zero before the first and from the last on.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ForceRecord {
     time_s: Vec<f64>,
     force_n: Vec<f64>,
     jumps: Vec<Jump>,
-    /// When the blow begins, if that is known.
+    /// Onset of the main pulse, if known.
     onset_s: Option<f64>,
-    /// The file that it comes from, if it comes from one.
+    /// File that it was read from, if any.
     pub file: Option<PathBuf>,
-    /// How it was read.
+    /// Settings of the reading.
     pub reading: Box<Reading>,
-    /// What was done to it; none where nothing was.
+    /// Treatment; none if there was none.
     pub treated: Option<Treated>,
 }
 
-/// What was done to a record, with what it came to.
+/// Treatment of a record and its effects.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Treated {
-    /// Length of the first part in s, the mean of which was taken away from all of it.
+    /// Length in s of the first part whose mean was subtracted from the whole record.
     pub baseline_s: Option<f64>,
     /// That mean in N.
     pub baseline_n: f64,
     /// Cutoff in Hz of the low pass.
     pub low_pass_hz: Option<f64>,
-    /// Root mean square over time in N of what the low pass took away.
+    /// Root mean square over time in N of the part removed by the low pass.
     pub removed_rms_n: f64,
-    /// Impulse in N s that the low pass put before the time zero, where it is lost.
+    /// Impulse in N s that the low pass moved to times before zero, where it is lost.
     pub before_zero_n_s: f64,
 }
 
-/// Samples that are no force history; they count from 0.
+/// Samples that are not a force history; they are counted from 0.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 #[non_exhaustive]
 pub enum RecordError {
     /// Times and forces differ in number, or there are fewer than two.
-    #[error("there are {times} times and {forces} forces; as many of each are needed, at least 2")]
+    #[error("there are {times} times and {forces} forces; both need the same number, at least 2")]
     Count {
         /// Number of times.
         times: usize,
@@ -90,7 +91,7 @@ pub enum RecordError {
         /// The first time in s.
         time_s: f64,
     },
-    /// A time that does not follow those before.
+    /// A time that does not follow the previous ones.
     #[error("time {time_s} s of sample {sample} does not follow {before_s} s: {ASCENDING}")]
     NotAscending {
         /// The sample.
@@ -100,15 +101,15 @@ pub enum RecordError {
         /// The time before in s.
         before_s: f64,
     },
-    /// All samples have one time.
+    /// All samples have the same time.
     #[error("all samples have the time {time_s} s: a force needs a duration")]
     AtOnce {
         /// The time in s.
         time_s: f64,
     },
-    /// More jumps than a force has.
+    /// Too many jumps.
     #[error(
-        "the force jumps at {jumps} times, at most {MOST_JUMPS} are allowed: two rows have each of these times, which may have been rounded"
+        "the force jumps at {jumps} times, at most {MOST_JUMPS} are allowed: two rows share each of these times, perhaps because of rounding"
     )]
     Jumps {
         /// Number of jumps.
@@ -118,20 +119,20 @@ pub enum RecordError {
 
 /// Rule for the times of a record, for messages.
 pub const ASCENDING: &str =
-    "times must ascend, and at most two rows may have one time, where the force jumps";
+    "times must ascend, and at most two rows may share a time, at a jump of the force";
 
 /// Largest slope of sin^4(pi t/T) times T: 3 sqrt(3) pi/4.
 const STEEPNESS: f64 = 4.081;
 
-/// Longest record in s that nobody wonders at: impacts last microseconds to milliseconds.
+/// Longest record in s without a warning: impacts last microseconds to milliseconds.
 const LONG_S: f64 = 1.0;
 /// Fraction of the largest force at which a record may begin or end.
 const NOT_AT_REST: f64 = 0.05;
 
 impl ForceRecord {
-    /// Of times in s, ascending from 0 or later, and forces in N; positive presses.
+    /// A record of times in s, ascending from 0 or later, and forces in N; compression is positive.
     ///
-    /// Two rows of one time are a jump. A first or last force that is not zero is a jump from or to zero.
+    /// Two rows with the same time are a jump. A first or last force that is not zero is a jump from or to zero.
     ///
     /// ```
     /// let triangle = impact::ForceRecord::new(vec![0.0, 1e-5, 2e-5], vec![0.0, 100.0, 0.0])?;
@@ -200,7 +201,7 @@ impl ForceRecord {
         &self.force_n
     }
 
-    /// The force at a time: linear between samples, zero outside, at a jump that after it.
+    /// The force at a time: linear between samples, zero outside, the later value at a jump.
     pub fn at(&self, time_s: f64) -> f64 {
         let until_s = rounded_up(time_s);
         let after = self.time_s.partition_point(|&t| t <= until_s);
@@ -212,8 +213,8 @@ impl ForceRecord {
         self.force_n[after - 1] + fraction * (self.force_n[after] - self.force_n[after - 1])
     }
 
-    /// Nodes for the continuous force in the cell of `step_s` from `from_s`, two between neighbouring samples: their sums
-    /// are exact.
+    /// Nodes for the continuous force in the cell of `step_s` from `from_s`, two between neighbouring samples, so that
+    /// quadratures are exact.
     pub(crate) fn nodes(&self, from_s: f64, step_s: f64, nodes: &mut Vec<Node>) {
         let to_s = from_s + step_s;
         let begin = self.time_s.partition_point(|&t| t <= from_s);
@@ -240,7 +241,7 @@ impl ForceRecord {
         [self.time_s[0], self.time_s[self.time_s.len() - 1]]
     }
 
-    /// Time in s and force in N of the largest sample; zeros where none is positive.
+    /// Time in s and force in N of the largest sample; zeros if none is positive.
     pub(crate) fn peak(&self) -> (f64, f64) {
         let rows = self.time_s.iter().zip(&self.force_n);
         rows.fold((0.0, 0.0), |peak, (&t, &p)| match p > peak.1 {
@@ -268,14 +269,15 @@ impl ForceRecord {
         (STEEPNESS * self.largest_n() / steepest).min(to_s - from_s)
     }
 
-    /// What hints at a slip in its units or its cut: sentences for the user, each with its numbers.
+    /// Hints at wrong units or a wrong cut: sentences for the user with their numbers.
     pub(crate) fn doubts(&self) -> Vec<String> {
         let mut found = Vec::new();
         let [start_s, end_s] = self.span_s();
         let length_s = end_s - start_s;
         if length_s > LONG_S {
             found.push(format!(
-                "the record lasts {length_s} s: an impact lasts microseconds to milliseconds; are its times in s?"
+                "the record lasts {} s: an impact lasts microseconds to milliseconds; are its times in s?",
+                fault::rounded(length_s)
             ));
         }
         let largest_n = self.largest_n();
@@ -287,8 +289,10 @@ impl ForceRecord {
         for (verb, way, side, at_s, force_n) in ends {
             if let Some(force_n) = force_n.filter(|p| p.abs() > NOT_AT_REST * largest_n) {
                 found.push(format!(
-                    "the record {verb} at {force_n} N, {:.0} % of its largest force: the force jumps {way} zero at {at_s} s, and the fields follow the jump; if a part {side} it is missing, add it, or subtract a baseline",
-                    100.0 * force_n.abs() / largest_n
+                    "the record {verb} at {} N, {:.0} % of its largest force: the force jumps {way} zero at {} s, and the fields include that jump; add the part {side} it if it is missing, or subtract a baseline",
+                    fault::rounded(*force_n),
+                    100.0 * force_n.abs() / largest_n,
+                    fault::rounded(at_s)
                 ));
             }
         }
@@ -297,7 +301,9 @@ impl ForceRecord {
             [f64::max, f64::min].map(|of| self.force_n.iter().copied().fold(0.0, of));
         if -least_n > most_n {
             found.push(format!(
-                "the largest force is tensile: {least_n} N, and {most_n} N in compression; set force.sign = -1 if the record counts compression as negative"
+                "the largest force is tensile: {} N, and {} N in compression; set force.sign = -1 if the record counts compression as negative",
+                fault::rounded(least_n),
+                fault::rounded(most_n)
             ));
         } else if least_n < 0.0 {
             found.push("the force record is tensile (negative) in places".to_owned());

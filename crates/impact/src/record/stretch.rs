@@ -1,7 +1,7 @@
-//! The stretches of a record in which its force changes: only they need a fine step.
+//! The stretches of a record in which its force changes: only they require a fine step.
 //!
-//! Between two of them the force is constant and the waves of the one before have passed, so that the fields are the
-//! static ones and a stretch is computed as if it were alone.
+//! Between two stretches the force is constant and the waves of the previous stretch have passed, so that the fields
+//! are static and each stretch is computed independently.
 
 use crate::record::ForceRecord;
 use crate::sampled::projection::{Departure, largest};
@@ -15,18 +15,18 @@ pub(crate) struct Stretch {
     pub(crate) base_n: f64,
 }
 
-/// How far a force that is constant may stray, over the tolerance.
+/// Largest deviation of a constant force, relative to the tolerance.
 const QUIET: f64 = 1e-3;
 
-/// Steps in the time in which kernels change for a force that only jumps; fewer for a force that jumps by a part.
+/// Steps within the time scale of the kernels for a force that jumps fully; fewer for a smaller jump.
 ///
 /// `the_step_follows_the_steepest_part` fails without it.
 const JUMP: f64 = 64.0;
 
 impl ForceRecord {
-    /// The stretches, those less than `quiet_s` apart as one; none where the force is zero throughout.
+    /// The stretches; those less than `quiet_s` apart are joined. None for a force that is zero everywhere.
     ///
-    /// The force is constant where it stays within [`QUIET`] of `tolerance` of its largest.
+    /// The force counts as constant while it stays within [`QUIET`] times `tolerance` of its largest value.
     pub(crate) fn stretches(&self, quiet_s: f64, tolerance: f64) -> Vec<Stretch> {
         let (time_s, force_n) = (self.time_s(), self.force_n());
         let quiet_n = QUIET * tolerance * self.largest_n();
@@ -57,10 +57,10 @@ impl ForceRecord {
         found
     }
 
-    /// How far the force without its jumps departs from its samples a step apart from `from_s` to `to_s`, joined by straight
-    /// lines.
+    /// Largest difference between the force without its jumps and straight lines between its equidistant samples from
+    /// `from_s` to `to_s`.
     ///
-    /// Force and samples are linear between the rows and the samples, so that the difference is largest at a row.
+    /// Force and lines are linear between the rows and the samples, so that the difference is largest at a row.
     fn departure_at_rows(&self, from_s: f64, to_s: f64, step_s: f64) -> Departure {
         let time_s = self.time_s();
         let rows = time_s.partition_point(|&t| t < from_s)..time_s.partition_point(|&t| t <= to_s);
@@ -81,11 +81,11 @@ impl ForceRecord {
         found
     }
 
-    /// The largest step in s, of halvings of a start, that leaves less than `tolerance` of the largest force.
+    /// The largest step in s, obtained by halving a start value, with an error below `tolerance` of the largest force.
     ///
-    /// What is left within one cell moves the fields by the fraction that the cell is of `unit_s`, the time in which
-    /// kernels change. Jumps are exact on any step, but their waves are as short as kernels are: what a jump brings is
-    /// resolved as the kernels of the largest force are. No more than about `most` samples are taken.
+    /// The error within one cell changes the fields by the ratio of the cell to `unit_s`, the time scale of the
+    /// kernels. Jumps are exact on any step, but their waves are as short as the kernels, so they are resolved like the
+    /// kernels of the largest force. At most about `most` samples are used.
     pub(crate) fn step_s(
         &self,
         stretches: &[Stretch],
@@ -146,7 +146,7 @@ mod tests {
                 .stretches(1.0, 1e-4)
                 .is_empty()
         );
-        // what an instrument leaves after a pulse is quiet; a slow drift is not, however close its rows
+        // noise of an instrument after a pulse is quiet; a slow drift is not, however close its rows
         let rests = record(&[0.0, 1.0, 2.0, 50.0, 60.0], &[0.0, 3.0, 1e-9, 2e-9, -1e-9]);
         assert_eq!(rests.stretches(10.0, 1e-4)[0].span_s, [0.0, 2.0]);
         let rows: Vec<f64> = (0..4000).map(f64::from).collect();

@@ -1,9 +1,10 @@
-//! What a force does within the cells of a convolution.
+//! Variation of a force within the cells of a convolution.
 //!
-//! Cells of the remainder hold an average, a first and a second moment. Against them the force counts with its rise over a
-//! cell, its slope and its bend, which [`lookup::absorb`] takes from the rises around: exact to fourth order for a smooth
-//! force, wrong where a contact begins and ends with the power 3/2 or a record has corners. Here slope and bend are
-//! projected from the force itself, and what the cells have not absorbed is added:
+//! Cells of the remainder hold an average, a first and a second moment. They are multiplied by the rise of the force
+//! over a cell, its slope and its bend, which [`lookup::absorb`] computes from the neighbouring rises. This is exact to
+//! fourth order for a smooth force, but wrong where a contact begins and ends with the power 3/2 or a record has
+//! corners. Therefore slope and bend are projected from the force itself, and the part that the cells have not absorbed
+//! is added:
 //!
 //! ```text
 //! rate over a cell = rise + slope s + bend (s^2 - 1/12) + what is left,     s from -1/2 to 1/2, growing into the past
@@ -18,7 +19,7 @@ use halfspace::Six;
 use lookup::{Moments, absorbed};
 use std::ops::Range;
 
-/// A slope and a bend that the cells have not absorbed, of one cell of the force.
+/// Slope and bend of one cell of the force that the cells have not absorbed.
 #[derive(Debug, Clone, Copy)]
 struct Unabsorbed {
     cell: isize,
@@ -26,24 +27,24 @@ struct Unabsorbed {
     bend: f64,
 }
 
-/// A sampled force beyond its rises.
+/// The variation of a sampled force in addition to its rises.
 #[derive(Default)]
 pub(crate) struct Projection {
-    /// For the newest cell, the one before it, and all others: their cells take slopes from other neighbours.
+    /// For the newest cell, the previous one, and all others: their slopes use different neighbours.
     unabsorbed: [Vec<Unabsorbed>; 3],
-    /// Slopes and bends of the others where they are so many, of noise, that transforms take their place.
+    /// Slopes and bends of the others as transforms, if there are as many as in noise.
     transforms: Option<[Transform; 2]>,
-    /// What rise, slope and bend leave of the force.
+    /// Residual of the force after rise, slope and bend.
     pub(crate) left: Departure,
-    /// What each cell takes of the force; the first ends at sample 1.
+    /// Projection of each cell of the force; the first cell ends at sample 1.
     taken: Vec<Taken>,
 }
 
-/// Cells of the remainder that a cell of the force is seen through by its five neighbours.
+/// Number of cells of the remainder that see a cell of the force through its five neighbours.
 const BEFORE: isize = 2;
 
 impl Projection {
-    /// Of a force with `samples` a step apart, of which so many are wanted; what is below `negligible` is left out.
+    /// Of a force with equidistant `samples`, of which some are needed; values below `negligible` are omitted.
     pub(crate) fn new(
         samples: &[f64],
         rises: &[f64],
@@ -66,7 +67,7 @@ impl Projection {
             };
             for (own, list) in found.unabsorbed.iter_mut().enumerate() {
                 let [taken, bent] = absorbed(rises, cell, own);
-                // time runs against s
+                // s increases backwards in time
                 let missing = Unabsorbed {
                     cell,
                     slope: -slope - taken,
@@ -91,7 +92,7 @@ impl Projection {
         found
     }
 
-    /// Adds to the fields at the samples `wanted` what the cells have not absorbed.
+    /// Adds the part that the cells have not absorbed to the fields at the samples `wanted`.
     pub(crate) fn add(&self, cells: &Moments, wanted: &[usize], out: &mut [Vec<f64>; 6]) {
         for (place, &n) in wanted.iter().enumerate() {
             let mut sum = Six::default();
@@ -125,12 +126,12 @@ impl Projection {
         }
     }
 
-    /// What the cell takes that ends at sample `m`, from 1 on.
+    /// The projection of the cell that ends at sample `m`, from 1 on.
     pub(crate) fn taken(&self, m: usize) -> &Taken {
         &self.taken[m - 1]
     }
 
-    /// What some of the cells brought to sample n, in kernel units times the force.
+    /// The contribution of some of the cells to sample n, in kernel units times the force.
     pub(crate) fn by_cells(&self, n: usize, part: &Range<usize>, cells: &Moments) -> Six {
         let mut sum = Six::default();
         for cell in part.start..part.end.min(n + 1) {
@@ -144,20 +145,20 @@ impl Projection {
     }
 }
 
-/// What a cell takes of a force, and what it leaves.
+/// Projection of a force onto a cell, and its residual.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Taken {
     pub(crate) rise: f64,
-    /// In time.
+    /// Slope and bend in time.
     pub(crate) slope: f64,
     pub(crate) bend: f64,
-    /// The most that is left of the force, and of its rate over a cell.
+    /// Largest residual of the force, and of its rate over a cell.
     most: f64,
     pub(crate) left: f64,
 }
 
 impl Taken {
-    /// The rise that the parabola has between two places in the cell, from -1/2 to 1/2 in time.
+    /// The rise of the parabola between two positions in the cell, from -1/2 to 1/2 in time.
     pub(crate) fn between(&self, from: f64, to: f64) -> f64 {
         let until = |x: f64| {
             self.rise * x + 0.5 * self.slope * x * x + self.bend * (x * x * x / 3.0 - x / 12.0)
@@ -166,7 +167,8 @@ impl Taken {
     }
 }
 
-/// Of the cell that ends at sample `m`: slope and bend by parts from the mean and the first moment of the force.
+/// The projection for the cell that ends at sample `m`: integration by parts gives slope and bend from the mean and the
+/// first moment of the force.
 ///
 /// ```text
 /// slope = 12 [(P0 + P1)/2 - int P dx],     bend = 180 [(P1 - P0)/6 - 2 int P x dx]
@@ -175,11 +177,11 @@ fn taken(samples: &[f64], nodes: &CellNodes, m: usize) -> Taken {
     taken_between([samples[m - 1], samples[m]], nodes.of(m - 1))
 }
 
-/// The same from the forces at the ends of the cell and its nodes.
+/// The projection from the forces at the ends of the cell and at its nodes.
 pub(crate) fn taken_between([before, after]: [f64; 2], nodes: &[Node]) -> Taken {
     let (mut mean, mut moment) = (0.0, 0.0);
     for node in nodes {
-        // less the line between the ends, so that little is left to cancel
+        // minus the line between the ends, which avoids cancellation
         let line = before + (after - before) * (node.x + 0.5);
         let above = node.weight * (node.force - line);
         mean += above;
@@ -218,7 +220,7 @@ pub(crate) fn taken_between([before, after]: [f64; 2], nodes: &[Node]) -> Taken 
     found
 }
 
-/// A place in a cell: x from -1/2 to 1/2 in time, its weight in a mean over the cell, and the force there.
+/// A node in a cell: x from -1/2 to 1/2 in time, its weight in a mean over the cell, and the force there.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Node {
     pub(crate) x: f64,
@@ -246,7 +248,7 @@ impl CellNodes {
         found
     }
 
-    /// The same places with other forces, by their number.
+    /// The same nodes with other forces, as a function of their index.
     pub(crate) fn with(&self, force: impl Fn(usize) -> f64) -> Self {
         let nodes = self.nodes.iter().enumerate();
         Self {
@@ -260,7 +262,7 @@ impl CellNodes {
         }
     }
 
-    /// All places as times in cells from the start of the first.
+    /// All nodes as times in cells from the start of the first.
     pub(crate) fn places(&self) -> impl Iterator<Item = f64> {
         let cells = self.starts.windows(2).enumerate();
         cells.flat_map(|(cell, ends)| {
@@ -269,7 +271,7 @@ impl CellNodes {
         })
     }
 
-    /// Those of one cell.
+    /// The nodes of one cell.
     pub(crate) fn of(&self, cell: usize) -> &[Node] {
         &self.nodes[self.starts[cell]..self.starts[cell + 1]]
     }
@@ -280,7 +282,7 @@ pub(crate) fn largest(samples: &[f64]) -> f64 {
     samples.iter().fold(0.0, |most, v| most.max(v.abs()))
 }
 
-/// What samples joined by straight lines leave of a force, in N.
+/// Residual of a force after joining its samples by straight lines, in N.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(crate) struct Departure {
     /// Largest difference.
@@ -301,7 +303,7 @@ impl Departure {
         self.sum_n += other.sum_n;
     }
 
-    /// How far a response may be moved by it that varies by `variation` in all and by `step` over a cell at most.
+    /// Largest effect on a response that varies by `variation` in total and by `step` over a cell.
     pub(crate) fn moves(&self, [variation, step]: [f64; 2]) -> f64 {
         (self.most_n * variation).min(self.sum_n * step)
     }

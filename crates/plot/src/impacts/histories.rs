@@ -1,4 +1,4 @@
-//! Panels over time: the contact, and what happens at the probes.
+//! Panels over time: the contact, and the fields at the probes.
 
 use crate::error::{PlotError, chosen};
 use crate::request::Request;
@@ -10,7 +10,7 @@ use formats::quantities::Described;
 use formats::stored::{StoredImpact, StoredProbes};
 use impact::{Impact, Series};
 
-/// Probes that are shown beside a contact.
+/// Number of probes that are shown together with a contact.
 pub(super) const FEW_PROBES: usize = 3;
 
 /// A quantity of a contact over time: its name in a file, its name in a panel of its own, its unit and its samples.
@@ -21,7 +21,7 @@ type OfContact = (
     fn(&StoredImpact) -> Option<&Vec<f64>>,
 );
 
-/// All of them.
+/// All quantities of a contact.
 const CONTACT: [OfContact; 4] = [
     ("force", "force", "N", |impact| Some(&impact.series.force_n)),
     (
@@ -41,19 +41,19 @@ const CONTACT: [OfContact; 4] = [
     }),
 ];
 
-/// Their names in a file.
+/// Names of the quantities in a file.
 pub(super) fn contact_names() -> [&'static str; 4] {
     CONTACT.map(|row| row.0)
 }
 
-/// An empty panel over times from and to.
+/// An empty panel over a range of times.
 fn over_time(quantity: &str, unit: &str, [from_s, to_s]: [f64; 2], legend: Legend) -> Panel {
     let time = Axis::linear("time").si("s").range(from_s, to_s);
     let value = axis(quantity, unit, Scale::Linear);
     Panel::new(time, value).height(210.0).legend(legend)
 }
 
-/// The times that a picture of contacts shows: those that are asked for, or else the contacts.
+/// The time range of a picture of contacts: the requested one, or else that of the contacts.
 fn contact_span_s(impacts: &[StoredImpact], request: &Request) -> Result<[f64; 2], PlotError> {
     let last_s = |of: fn(&Series) -> f64| {
         let ends = impacts.iter().map(|impact| of(&impact.series));
@@ -67,8 +67,8 @@ fn contact_span_s(impacts: &[StoredImpact], request: &Request) -> Result<[f64; 2
     }
 }
 
-/// Panels of the contacts, one curve an impact, of the quantities that are asked for or else of all; a single impact has
-/// Hertz's force beside its own.
+/// Panels of the contacts, one curve per impact, for the requested or else all quantities. A single impact is compared
+/// with Hertz's force.
 pub(super) fn contact_panels(
     impacts: &[StoredImpact],
     labels: &[String],
@@ -86,7 +86,7 @@ pub(super) fn contact_panels(
         if !asked.is_empty() && !asked.contains(&name) {
             continue;
         }
-        // a single impact has both displacements in one panel; several have one legend and the same colours in all panels
+        // a single impact has both displacements in one panel; several share a legend and colours in all panels
         let (quantity, curve_name) = match (single, asked, name) {
             (Some(_), [], "displacement") => ("displacement".to_owned(), "striker".to_owned()),
             (Some(_), [], "deflection") => ("displacement".to_owned(), format!("half-space{part}")),
@@ -119,19 +119,19 @@ pub(super) fn contact_panels(
         let hertz = hertz(only, span_s);
         let hertz = hertz.map(|points| Layer::line("Hertz, without waves", Style::Plain, points));
         let (speeds, start_s) = waves_of(only)?;
-        // of the faces of the block, where they are known
+        // only if the size of the block is given
         let echo_s = speeds.first_echo_s(&only.target, [0.0; 2], 0.0);
         let echo = echo_s.map(|echo_s| Layer::mark(start_s + echo_s, "first echo"));
         force.layers.extend(hertz.into_iter().chain(echo));
         if let [Layer::Line(alone)] = force.layers.as_mut_slice() {
-            // a single curve is what the axis says
+            // the axis already names a single curve
             alone.name.clear();
         }
     }
     Ok(panels)
 }
 
-/// Force against the displacement of the striker, one curve an impact.
+/// Force over displacement of the striker, one curve per impact.
 pub(super) fn loop_panel(impacts: &[StoredImpact], labels: &[String]) -> Result<Panel, PlotError> {
     let approach = Axis::linear("approach").si("m");
     let mut panel = Panel::new(approach, Axis::linear("force").si("N")).height(380.0);
@@ -151,7 +151,7 @@ pub(super) fn loop_panel(impacts: &[StoredImpact], labels: &[String]) -> Result<
     Ok(panel)
 }
 
-/// Which part of the deflection of the half-space the files have, in words: Hertz's law may hold the static one.
+/// Words for the part of the deflection in the files: Hertz's law may include the static part.
 fn deflection_part(impacts: &[StoredImpact]) -> &'static str {
     let is_dynamic =
         |impact: &StoredImpact| match (impact.model.as_str(), impact.static_share.as_str()) {
@@ -163,11 +163,11 @@ fn deflection_part(impacts: &[StoredImpact]) -> &'static str {
     match dynamic {
         0 => "",
         count if count == impacts.len() => ", dynamic part",
-        _ => ", of some the dynamic part",
+        _ => ", for some impacts its dynamic part",
     }
 }
 
-/// Hertz's force for the same bodies: no waves and no disc. None where the file is it, or has no striker.
+/// Hertz's force for the same bodies, without waves and disc. None if the file has the model hertz or no striker.
 fn hertz(impact: &StoredImpact, [from_s, to_s]: [f64; 2]) -> Option<Vec<(f64, f64)>> {
     const HERTZ_POINTS: u32 = 400;
     let strike = impact.strike.as_ref()?;
@@ -183,10 +183,10 @@ fn hertz(impact: &StoredImpact, [from_s, to_s]: [f64; 2]) -> Option<Vec<(f64, f6
     Some(points.collect())
 }
 
-/// One panel a probe of the first file, `most` at most, and how many there is no panel of; other files add their
+/// One panel per probe of the first file, at most `most`, and the number of omitted probes. Other files add their
 /// traces at the same place.
 ///
-/// Without names of quantities both displacements of a single file are shown, and the axial one of several.
+/// By default a single file shows both displacements, and several files the axial one.
 pub(super) fn probe_panels(
     impacts: &[StoredImpact],
     labels: &[String],
@@ -207,7 +207,7 @@ pub(super) fn probe_panels(
         1 => &["displacement_z", "displacement_r"],
         _ => &["displacement_z"],
     };
-    // one axis has one unit
+    // each axis has one unit
     let mut by_unit: Vec<Vec<&Described>> = Vec::new();
     for number in chosen(first.path(), &known, quantities, usual)? {
         let quantity = &known[number];
@@ -223,7 +223,7 @@ pub(super) fn probe_panels(
     for of_unit in &by_unit {
         for probe in 0..count {
             let place = [probes.r_m[probe], probes.z_m[probe]];
-            // the axis says what a single curve is; beside a contact its legend says which impact is which
+            // the axis names a single curve; together with a contact the contact's legend names the impacts
             let is_told = of_unit.len() == 1
                 && (files.len() == 1 || most == FEW_PROBES || !panels.is_empty());
             let legend = if is_told { Legend::Off } else { Legend::Auto };
@@ -241,7 +241,7 @@ pub(super) fn probe_panels(
     Ok((panels, probes.r_m.len() - count))
 }
 
-/// A panel of a place with its arrivals.
+/// A panel of a place with arrival times.
 fn probe_panel(
     impact: &StoredImpact,
     [r_m, z_m]: [f64; 2],
@@ -268,7 +268,7 @@ fn probe_panel(
     Ok(panel)
 }
 
-/// Where a probe is.
+/// Words for the place of a probe.
 fn place(r_m: f64, z_m: f64) -> String {
     let (r, z) = (with_unit(r_m, "m"), with_unit(z_m, "m"));
     match (r_m > 0.0, z_m > 0.0) {
@@ -279,7 +279,7 @@ fn place(r_m: f64, z_m: f64) -> String {
     }
 }
 
-/// A panel with the traces of a file at a probe.
+/// Adds the traces of a file at a probe to a panel.
 fn with_traces(
     mut panel: Panel,
     impact: &StoredImpact,
@@ -296,7 +296,7 @@ fn with_traces(
         };
         let samples = probes.trace(&quantity.name, probe)?;
         if shown.len() > 1 && samples.iter().all(|&x| x == 0.0) {
-            // on the axis, where nothing is radial
+            // radial components vanish on the axis
             continue;
         }
         let (from_s, to_s) = panel.x.range.unwrap_or((0.0, f64::INFINITY));

@@ -1,17 +1,17 @@
-//! What several impacts are called: by what differs between their scenes.
+//! Labels of several impacts: the differences between their scenes.
 
 use crate::words::{of_key, stem, with_unit};
 use formats::stored::{StoredImpact, Value};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Most keys that a label names.
+/// Largest number of keys in a label.
 const MOST_LABEL_KEYS: usize = 3;
 
-/// One label an impact.
+/// One label per impact.
 pub(super) fn labels(impacts: &[StoredImpact]) -> Vec<String> {
     let keys = |impact: &StoredImpact| {
         let mut keys: BTreeMap<String, Value> = impact.keys().into_iter().collect();
-        // what was computed, rather than "auto"
+        // the model in use instead of "auto"
         let model = Value::String(impact.model.clone());
         keys.insert("contact.model".to_owned(), model);
         keys
@@ -21,7 +21,7 @@ pub(super) fn labels(impacts: &[StoredImpact]) -> Vec<String> {
     by_difference(&scenes).unwrap_or_else(stems)
 }
 
-/// Labels from the keys that differ; none where there are none, too many, or two scenes get the same.
+/// Labels from the keys that differ; none if no key differs, too many differ, or two scenes get the same label.
 fn by_difference(scenes: &[BTreeMap<String, Value>]) -> Option<Vec<String>> {
     let mut keys: BTreeSet<&String> = scenes.iter().flatten().map(|(key, _)| key).collect();
     keys.retain(|&key| {
@@ -58,7 +58,7 @@ fn by_difference(scenes: &[BTreeMap<String, Value>]) -> Option<Vec<String>> {
     is_told.then_some(labels)
 }
 
-/// Whether a key is a number of the material of a section, which its name says.
+/// Whether the name of a key shows that it is a number of the material of a section.
 fn is_of_material(key: &str, section: &str) -> bool {
     const NUMBERS: [&str; 5] = ["modulus", "poisson", "density", "strength", "toughness"];
     let is_number = |key: &str| NUMBERS.iter().any(|number| key.contains(number));
@@ -94,7 +94,7 @@ mod tests {
             by_difference(&[scene(1.0, "hertz"), scene(1.0, "hertz")]),
             None
         );
-        // three scenes of which two are the same
+        // three scenes, two of them identical
         let same = [
             scene(1.0, "hertz"),
             scene(1.0, "hertz"),

@@ -1,7 +1,7 @@
-//! Figures of impacts: one kind of picture after the other.
+//! Figures of impacts, one kind of picture after the other.
 //!
-//! `histories` has the contact and the probes over time, `spectrum` that of the force, `labels` what several impacts
-//! are called.
+//! `histories` draws the contact and the probes over time, `spectrum` the spectrum of the force; `labels` names several
+//! impacts.
 
 mod histories;
 mod labels;
@@ -20,10 +20,10 @@ use spectrum::spectrum;
 use std::collections::BTreeMap;
 use std::{mem, slice};
 
-/// Frames of an animation, at most.
+/// Largest number of frames of an animation.
 const MOST_ANIMATED_FRAMES: usize = 120;
 
-/// The figure of some impacts, and what its user should know.
+/// The figure of some impacts, with notes for the user.
 pub(crate) fn of_impacts(impacts: &[StoredImpact], request: &Request) -> Drawn<Figure> {
     let suits = match impacts {
         [only] if only.section()?.is_some() => PictureKind::Waves,
@@ -36,7 +36,7 @@ pub(crate) fn of_impacts(impacts: &[StoredImpact], request: &Request) -> Drawn<F
         PictureKind::Spectrum => spectrum(impacts, &labels(impacts))?,
         PictureKind::Peak => {
             let (mut panel, notes) = peak(one()?, request)?;
-            // beside the other numbers: a star at the surface would cover a title of the panel
+            // in the subtitle: a star at the surface would cover the title of the panel
             let mut figure = headed(impacts, request, 1);
             figure.subtitle = format!("{}; {}", figure.subtitle, mem::take(&mut panel.title));
             return Ok((figure.panel(panel), notes));
@@ -54,7 +54,7 @@ pub(crate) fn of_impacts(impacts: &[StoredImpact], request: &Request) -> Drawn<F
             return Ok((figure.sharing(Sharing::Both).panels(panels), notes));
         }
         PictureKind::Impact | PictureKind::Probes => return histories(impacts, kind, request),
-        // pictures of other files do not come here
+        // pictures of other files do not reach this function
         PictureKind::Sweep
         | PictureKind::Loss
         | PictureKind::Restitution
@@ -66,7 +66,7 @@ pub(crate) fn of_impacts(impacts: &[StoredImpact], request: &Request) -> Drawn<F
     Ok((headed(impacts, request, 1).panel(panel), Vec::new()))
 }
 
-/// The frames of an animation, a figure each, and what its user should know.
+/// The frames of an animation, one figure each, with notes for the user.
 pub(crate) fn frames_of(impact: &StoredImpact, request: &Request) -> Drawn<Vec<Figure>> {
     let (panels, notes) = frames(
         impact,
@@ -92,9 +92,8 @@ fn histories(impacts: &[StoredImpact], kind: PictureKind, request: &Request) -> 
     let (of_contact, at_probes): (Vec<String>, Vec<String>) =
         request.quantities.iter().cloned().partition(is_of_contact);
     if let (true, [name, ..]) = (is_all, of_contact.as_slice()) {
-        let sentence = format!(
-            "{name} is a quantity of the contact, not of a probe: the picture impact shows it"
-        );
+        let sentence =
+            format!("{name} is a quantity of the contact, not of a probe: use the picture impact");
         return Err(PlotError::refused(None, sentence));
     }
     let (probes, left_out) = match of_contact.is_empty() || !at_probes.is_empty() {
@@ -102,10 +101,10 @@ fn histories(impacts: &[StoredImpact], kind: PictureKind, request: &Request) -> 
         false => (Vec::new(), 0),
     };
     if (is_all || !at_probes.is_empty()) && probes.is_empty() {
-        let hint = "give the scene a [[probe]] with r_m and z_m";
+        let hint = "add a [[probe]] with r_m and z_m to the scene";
         return Err(PlotError::absent(impacts[0].path(), "probes", hint));
     }
-    let note = || format!("{left_out} probes are not shown: the picture probes shows all");
+    let note = || format!("{left_out} probes are not shown: use the picture probes to see all");
     let notes = (left_out > 0).then(note).into_iter().collect();
     let mut panels = match is_all {
         true => Vec::new(),
@@ -124,7 +123,7 @@ fn histories(impacts: &[StoredImpact], kind: PictureKind, request: &Request) -> 
     Ok((figure.panels(panels), notes))
 }
 
-/// What strikes what: `bearing-steel ball of 3 mm strikes granite at 1.98 m/s`, or its mass and tip.
+/// Title of the impact: `bearing-steel ball of 3 mm strikes granite at 1.98 m/s`, or with mass and tip.
 fn title(impacts: &[StoredImpact]) -> String {
     if impacts.len() > 1 {
         return format!("{} impacts", impacts.len());

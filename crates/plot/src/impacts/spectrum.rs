@@ -8,13 +8,13 @@ use formats::stored::StoredImpact;
 use halfspace::bisected;
 use std::f64::consts::PI;
 
-/// Frequencies of a spectrum.
+/// Number of frequencies of a spectrum.
 const FREQUENCIES: usize = 1200;
 
-/// Samples that a spectrum is taken from, at most.
+/// Largest number of samples from which a spectrum is computed.
 const MOST_SPECTRUM_SAMPLES: usize = 20_000;
 
-/// Spectra of forces, one curve an impact; a single one with its corner frequency and its zeros.
+/// Spectra of forces, one curve per impact; a single one with its corner frequency and zeros.
 pub(super) fn spectrum(impacts: &[StoredImpact], labels: &[String]) -> Result<Panel, PlotError> {
     let mut panel = Panel::new(
         Axis::logarithmic("frequency").si("Hz"),
@@ -28,7 +28,7 @@ pub(super) fn spectrum(impacts: &[StoredImpact], labels: &[String]) -> Result<Pa
         found.map(|frequencies| (pulse, frequencies))
     });
     let pulses: Vec<_> = pulses.collect();
-    // several curves begin together
+    // several curves begin at the same frequency
     let lows = pulses.iter().flatten().map(|(_, [low, _])| *low);
     let low = lows.fold(f64::INFINITY, f64::min);
     for ((impact, label), pulse) in impacts.iter().zip(labels).zip(&pulses) {
@@ -56,18 +56,19 @@ pub(super) fn spectrum(impacts: &[StoredImpact], labels: &[String]) -> Result<Pa
     Ok(panel)
 }
 
-/// A force that is linear between samples, from its first sample that is not zero to its last.
+/// A force that is linear between samples, from its first to its last nonzero sample.
 struct ForcePulse {
     time_s: Vec<f64>,
     force_n: Vec<f64>,
-    /// Integral of the squared force over the square of the largest, in s.
+    /// Integral of the squared force divided by the square of the largest force, in s.
     squares_s: f64,
-    /// Mean step in s of all samples, weighed with their share of that integral; 0 for no force.
+    /// Mean step in s of all samples, weighted by their share of that integral; 0 for zero force.
     step_s: f64,
 }
 
 impl ForcePulse {
-    /// The samples; of more than [`MOST_SPECTRUM_SAMPLES`] those that straight lines between the others miss by most.
+    /// Selects the samples: of more than [`MOST_SPECTRUM_SAMPLES`], those with the largest deviation from straight
+    /// lines.
     fn new(time_s: &[f64], force_n: &[f64]) -> Self {
         let range = loaded(force_n);
         let (time_s, force_n) = (&time_s[range.clone()], &force_n[range]);
@@ -92,7 +93,7 @@ impl ForcePulse {
         }
     }
 
-    /// |int P(t) exp(-2 pi i f t) dt|, exact for what is linear between samples.
+    /// |int P(t) exp(-2 pi i f t) dt|, exact for a piecewise linear force.
     ///
     /// ```text
     /// over a step from t of length h, with x = pi f h:  h exp(-2 pi i f (t + h/2)) [mean sinc x + i change/2 (cos x - sinc x)/x]
@@ -117,12 +118,12 @@ impl ForcePulse {
         re.hypot(im)
     }
 
-    /// From which frequency on it is shown, far below the corner, and up to which, where samples can tell.
+    /// Limits of the frequency axis: far below the corner, and up to the resolution of the samples.
     ///
-    /// The length of the pulse decides the upper end, not that of its record: the length of Hertz's pulse with the same
-    /// largest force and the same integral of the squared force.
+    /// The length of the pulse determines the upper end, not the length of its record. It is the length of Hertz's
+    /// pulse with the same largest force and the same integral of the squared force.
     fn frequencies(&self) -> Option<[f64; 2]> {
-        /// Length of Hertz's pulse over the integral of its squared force in units of the largest: 3 pi/4.
+        /// Length of Hertz's pulse divided by the integral of its squared force in units of the largest force: 3 pi/4.
         const HERTZ_LENGTH: f64 = 0.75 * PI;
         let whole_s = self.time_s[self.time_s.len() - 1] - self.time_s[0];
         if !(whole_s > 0.0 && self.squares_s > 0.0) {
@@ -133,7 +134,7 @@ impl ForcePulse {
         Some([0.02 / whole_s, (0.1 * samples).clamp(4.0, 20.0) / length_s])
     }
 
-    /// Amplitudes over frequencies from and to.
+    /// Amplitudes over a range of frequencies.
     fn spectrum(&self, [low, high]: [f64; 2]) -> Vec<(f64, f64)> {
         let last = (FREQUENCIES - 1) as f64;
         (0..FREQUENCIES)
@@ -142,7 +143,7 @@ impl ForcePulse {
             .collect()
     }
 
-    /// The frequency at which the amplitude has fallen to half of the impulse.
+    /// The frequency at which the amplitude is half of the impulse.
     fn corner(&self, points: &[(f64, f64)]) -> Option<(f64, f64)> {
         let half = 0.5 * points.first()?.1;
         let below = points.iter().position(|p| p.1 < half)?;
@@ -151,7 +152,7 @@ impl ForcePulse {
         Some((corner, half))
     }
 
-    /// Frequencies at which the amplitude is smallest, and so small that it is a zero in a picture.
+    /// Frequencies of minima that are deep enough to look like zeros in a picture.
     fn zeros(&self, points: &[(f64, f64)]) -> Vec<f64> {
         let is_least = |p: &&[(f64, f64)]| p[1].1 < p[0].1 && p[1].1 < p[2].1;
         let triples = points.windows(3).filter(is_least);
@@ -173,9 +174,10 @@ impl ForcePulse {
     }
 }
 
-/// The samples that are needed for straight lines between them to miss none of the others by more than a force.
+/// The samples that keep the error of straight lines between them below a force.
 ///
-/// From each sample the line goes as far as one slope serves all between: each narrows the slopes that do.
+/// From each sample the line is extended as long as one slope fits all samples in between, which narrow the range of
+/// slopes.
 fn needed(time_s: &[f64], force_n: &[f64], missed_n: f64) -> Vec<usize> {
     let mut kept = vec![0];
     let (mut from, mut slopes) = (0, (f64::NEG_INFINITY, f64::INFINITY));
@@ -197,8 +199,8 @@ fn needed(time_s: &[f64], force_n: &[f64], missed_n: f64) -> Vec<usize> {
     kept
 }
 
-/// The samples that are kept, moved so that the straight lines between them have the integral of all samples: noise that is
-/// left out would add up over a long record.
+/// The selected samples, shifted such that the straight lines between them keep the integral over all samples.
+/// Otherwise omitted noise would accumulate over a long record.
 fn with_their_area(time_s: &[f64], force_n: &[f64], kept: &[usize]) -> Vec<f64> {
     let area = |i: usize, k: usize| 0.5 * (force_n[i] + force_n[k]) * (time_s[k] - time_s[i]);
     let mut missing = vec![0.0; kept.len()];
@@ -264,7 +266,7 @@ mod tests {
 
     #[test]
     fn a_long_record_is_as_its_pulse() {
-        // the pulse at the end of 4000 times its length, with more samples than are looked at
+        // the pulse at the end of a record 4000 times its length, with more samples than are used
         let force = |x: f64| (PI * x).sin().max(0.0).powf(1.5);
         let alone = pulse(force, 400);
         let step_s = 5e-6 / 400.0;

@@ -1,10 +1,10 @@
-//! The line along which a field on a grid has a value.
+//! Contour line of a field on a grid.
 
 use super::frames::SectionGrid;
 
-/// The contour of a value, piece by piece, each followed by a point that is no number, at which a curve breaks.
+/// The contour of a value, piece by piece, each followed by a point of NaN, which interrupts a curve.
 ///
-/// Within a triangle, half of a cell, the field is taken as linear: a piece is the straight line between two of its sides.
+/// The field is linear within each triangle, half of a cell: a piece is the straight line between two of its sides.
 pub(super) fn contour(grid: &SectionGrid, level: f64) -> Vec<(f64, f64)> {
     let width = grid.r_m.len();
     let node = |i: usize, k: usize| {
@@ -29,10 +29,10 @@ pub(super) fn contour(grid: &SectionGrid, level: f64) -> Vec<(f64, f64)> {
     points
 }
 
-/// A place and how far its value lies above the level.
+/// A place and the difference of its value from the level.
 type Node = ((f64, f64), f64);
 
-/// Where the value along a side is the level, if it is so between the ends.
+/// Point on a side with the value of the level, if it lies between the ends.
 fn crossing((from, a): Node, (to, b): Node) -> Option<(f64, f64)> {
     let part = a / (a - b);
     let on = |from: f64, to: f64| from + part * (to - from);
@@ -57,7 +57,7 @@ mod tests {
         let found = contour(&grid, 2.35);
         let known = || found.iter().filter(|p| p.0.is_finite());
         assert!(known().count() > 80);
-        // a chord of a cell's diagonal lies within 0.1^2/4/2.35 of the circle
+        // a chord of a cell's diagonal deviates by at most 0.1^2/4/2.35 from the circle
         assert!(known().all(|p| (p.0.hypot(p.1) - 2.35).abs() < 2e-3));
         assert!(contour(&grid, 9.0).is_empty());
     }

@@ -1,4 +1,4 @@
-//! The frames of a section, what can be shown of them, the near field and the fronts.
+//! The frames of a section, their quantities, the near field and the wave fronts.
 
 use crate::error::PlotError;
 use crate::request::Request;
@@ -12,25 +12,25 @@ use formats::stored::{StoredImpact, StoredSection};
 use std::f64::consts::FRAC_PI_2;
 use std::path::Path;
 
-/// A section with what its pictures need.
+/// A section with the data for its pictures.
 pub(super) struct SectionView<'a> {
     pub(super) impact: &'a StoredImpact,
     pub(super) stored: StoredSection,
     pub(super) speeds: WaveSpeeds,
     pub(super) disc_radius_m: f64,
-    /// When the force begins in s.
+    /// Onset of the force in s.
     pub(super) start_s: f64,
-    /// How long it lasts in s.
+    /// Duration of the force in s.
     pub(super) pulse_s: f64,
 }
 
-/// Distance of the S front, over the width of the section, from which on fronts are named.
+/// Distance of the S front, relative to the width of the section, above which fronts have names.
 const NAMED_FRONTS_APART: f64 = 0.12;
 
 impl<'a> SectionView<'a> {
     /// The section of a results file.
     pub(super) fn of(impact: &'a StoredImpact) -> Result<Self, PlotError> {
-        let hint = "give the scene a [map] with r_max_m, z_max_m, points and frames";
+        let hint = "add a [map] with r_max_m, z_max_m, points and frames to the scene";
         let stored = impact.section()?;
         let stored = stored.ok_or_else(|| PlotError::absent(impact.path(), "section", hint))?;
         let (speeds, start_s) = waves_of(impact)?;
@@ -44,7 +44,7 @@ impl<'a> SectionView<'a> {
         })
     }
 
-    /// The quantity that is asked for, or the usual one.
+    /// The requested quantity, or the usual one.
     pub(super) fn quantity(
         &self,
         request: &Request,
@@ -54,7 +54,7 @@ impl<'a> SectionView<'a> {
         SectionQuantity::named(name, &self.stored.quantities(), self.impact.path())
     }
 
-    /// What shows waves best among what the file holds: velocities, which only some scenes ask for.
+    /// The stored quantity that shows waves best: a velocity, if the scene requested it.
     pub(super) fn usual(&self) -> &'static str {
         let mut names = self.stored.quantities().into_iter().map(|q| q.name);
         match names.any(|name| name == "velocity_z") {
@@ -69,21 +69,21 @@ impl<'a> SectionView<'a> {
         r.min(z)
     }
 
-    /// How long the longitudinal wave takes through it in s.
+    /// Time in s that the longitudinal wave needs to cross the section.
     pub(super) fn crossing_s(&self) -> f64 {
         self.side_m() / self.speeds.p
     }
 
-    /// Whether it is all near field: the pulse is longer than the section.
+    /// Whether the whole section is near field: the pulse is longer than the section.
     pub(super) fn is_near(&self) -> bool {
         self.pulse_s > self.crossing_s()
     }
 
-    /// The frames nearest to the times that somebody asks for.
+    /// The frames nearest to the requested times.
     pub(super) fn asked(&self, times_s: &[f64]) -> Result<Vec<usize>, PlotError> {
         let known = &self.stored.time_s;
         let (first_s, last_s) = (known[0], known[known.len() - 1]);
-        // a frame at a time that the scene gives is the nearest sample of the output
+        // a frame at a time in the scene is the nearest sample of the output
         let samples_s = &self.impact.series.time_s;
         let step_s = samples_s[1] - samples_s[0];
         let frame = |&time_s: &f64| {
@@ -92,7 +92,7 @@ impl<'a> SectionView<'a> {
             }
             let [time, first, last] = [time_s, first_s, last_s].map(fault::number);
             let sentence = format!(
-                "there is no frame at {time} s: those of the section are from {first} to {last} s"
+                "there is no frame at {time} s: the frames of the section are from {first} to {last} s"
             );
             Err(PlotError::refused(None, sentence))
         };
@@ -108,8 +108,8 @@ impl<'a> SectionView<'a> {
         if is_before { before } else { after }
     }
 
-    /// Colours of a quantity up to a size below which nearly all values outside the near field lie, of some rows of
-    /// values at the same places; up to the largest ones, as decades where they have no sign, if all is near field.
+    /// Colour scale of a quantity: its end exceeds nearly all values outside the near field, for some rows of values at
+    /// the same places. If all is near field, it extends to the largest values, in decades for unsigned quantities.
     pub(super) fn colours(
         &self,
         quantity: &SectionQuantity,
@@ -131,18 +131,18 @@ impl<'a> SectionView<'a> {
         (axis.range(low, largest), map)
     }
 
-    /// Its extents along r and z in m.
+    /// Extents along r and z in m.
     pub(super) fn extent_m(&self) -> [f64; 2] {
         let last = |x: &[f64]| x.iter().copied().fold(0.0, f64::max);
         [last(&self.stored.r_m), last(&self.stored.z_m)]
     }
 
-    /// Depths in m, ascending, as images need them.
+    /// Depths in m, ascending, as images require them.
     pub(super) fn depths_m(&self) -> Vec<f64> {
         self.stored.z_m.iter().rev().copied().collect()
     }
 
-    /// The values of a frame with depths ascending: r runs fastest.
+    /// The values of a frame in the order of ascending depths; r varies fastest.
     pub(super) fn turned(&self, frame: &[f64]) -> Vec<f64> {
         let rows = frame.chunks(self.stored.r_m.len()).rev();
         rows.flatten().copied().collect()
@@ -157,8 +157,8 @@ impl<'a> SectionView<'a> {
         Ok(self.turned(&quantity.at(&self.stored, frame)?))
     }
 
-    /// Where the near field ends in m, in which values grow without bound on the scale of the picture: an eighth of
-    /// the extent, and three radii of the disc.
+    /// Radius of the near field in m, in which values grow without bound on the scale of the picture: an eighth of the
+    /// extent, and at least three radii of the disc.
     pub(super) fn near_m(&self, extent_m: f64) -> f64 {
         (0.125 * extent_m)
             .max(3.0 * self.disc_radius_m)
@@ -173,11 +173,11 @@ impl<'a> SectionView<'a> {
         depths.flat_map(row).collect()
     }
 
-    /// The values of a quantity over the section at its nodes and at places between them.
+    /// The values of a quantity over the section, at its nodes and interpolated between them.
     ///
-    /// Near a contact stresses fall with the square of the distance and displacements with the distance: between nodes it is
-    /// the value times that power of the distance that changes evenly, so that a contact much smaller than a cell does not
-    /// fill the cell.
+    /// Near a contact stresses fall with the square of the distance and displacements with the distance. Therefore the
+    /// value times that power of the distance is interpolated, so that a contact much smaller than a cell does not fill
+    /// the cell.
     pub(super) fn finer(&self, quantity: &SectionQuantity, values: &[f64]) -> SectionGrid {
         let (r_m, z_m) = (&self.stored.r_m, self.depths_m());
         let (fine_r, fine_z) = (between(r_m), between(&z_m));
@@ -246,7 +246,7 @@ impl<'a> SectionView<'a> {
             let across = self.disc_radius_m + radius * angle.sin();
             (across, radius * angle.cos())
         };
-        // names of fronts that are not apart yet would lie over one another
+        // names of fronts that have not separated yet would overlap
         if s < NAMED_FRONTS_APART * self.extent_m()[0] {
             return layers;
         }
@@ -260,18 +260,19 @@ impl<'a> SectionView<'a> {
     }
 }
 
-/// Values of a section on a grid: distances from the axis and depths, both rising, and values, of which distances run
-/// fastest.
+/// Values of a section on a grid: distances from the axis and depths, both ascending, and values, in which the distance
+/// varies fastest.
 pub(super) struct SectionGrid {
     pub(super) r_m: Vec<f64>,
     pub(super) z_m: Vec<f64>,
     pub(super) values: Vec<f64>,
 }
 
-/// Places along a side of a picture: more than its pixels on a page.
+/// Points along a side of a picture: more than its pixels on a page.
 const PICTURE_PLACES: usize = 400;
 
-/// Places at nodes and evenly between them, [`PICTURE_PLACES`] or more: the node below each, and the fraction of the way to the next.
+/// Points at nodes and uniformly between them, at least [`PICTURE_PLACES`]: the node below each, and the fraction of
+/// the way to the next.
 pub(super) fn between(nodes: &[f64]) -> Vec<(usize, f64)> {
     let cells = nodes.len() - 1;
     let parts = PICTURE_PLACES.div_ceil(cells);
@@ -279,7 +280,7 @@ pub(super) fn between(nodes: &[f64]) -> Vec<(usize, f64)> {
     inner.chain([(cells, 0.0)]).collect()
 }
 
-/// Points at a distance from a disc: a quarter circle around its edge and the plane part below it.
+/// Points at a distance from a disc: a quarter circle around its edge and the straight part below it.
 fn capsule(disc_radius_m: f64, distance_m: f64) -> Vec<(f64, f64)> {
     const QUARTER_POINTS: u32 = 90;
     let arc = (0..=QUARTER_POINTS).map(|i| {
@@ -290,37 +291,37 @@ fn capsule(disc_radius_m: f64, distance_m: f64) -> Vec<(f64, f64)> {
     arc.chain([(0.0, distance_m)]).collect()
 }
 
-/// The value below which a fraction of the sizes lies; 0 without values.
+/// The quantile of the magnitudes for a fraction; 0 without values.
 pub(super) fn quantile_of_sizes(values: impl Iterator<Item = f64>, fraction: f64) -> f64 {
     let mut sizes: Vec<f64> = values.map(f64::abs).filter(|v| v.is_finite()).collect();
     sizes.sort_unstable_by(f64::total_cmp);
     lookup::quantile(&sizes, fraction)
 }
 
-/// A quantity with the way to it.
+/// A quantity and its computation from stored ones.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct SectionQuantity {
-    /// Name, as users give it.
+    /// Name, as in the request.
     pub(super) name: String,
     /// Unit without a prefix.
     pub(super) unit: String,
-    /// What it is made of: itself where it is stored, the components of a length, or all stresses.
+    /// Stored quantities that it is computed from: itself, the components of a vector, or all stresses.
     parts: Vec<String>,
-    /// What it is of the stresses, if it follows from them; it may be stored all the same.
+    /// Function of the stresses, if it is one; it may be stored as well.
     pub(super) stress: Option<impact::Quantity>,
 }
 
-/// Stresses that others follow from.
+/// Stresses from which others are computed.
 const STRESSES: [&str; 4] = ["stress_rr", "stress_tt", "stress_zz", "stress_rz"];
 
-/// What follows from stresses without the elastic constants: other stresses.
+/// Quantities that follow from the stresses without the elastic constants.
 fn of_stresses() -> impl Iterator<Item = impact::Quantity> {
     let stresses = FIELD_QUANTITIES.into_iter().filter(|row| row.1 == "Pa");
     stresses.map(|row| row.0)
 }
 
 impl SectionQuantity {
-    /// The quantity of a name, stored or not.
+    /// The quantity with a name, stored or computed.
     pub(super) fn named(name: &str, stored: &[Described], path: &Path) -> Result<Self, PlotError> {
         let find = |name: &str| stored.iter().find(|quantity| quantity.name == name);
         let stress = of_stresses().find(|of| of.name() == name);
@@ -347,7 +348,7 @@ impl SectionQuantity {
         })
     }
 
-    /// The power of one over the distance with which it grows towards a contact: that of the static field.
+    /// The power of 1/distance with which it grows towards a contact: that of the static field.
     pub(super) fn near_power(&self) -> f64 {
         match self.unit.as_str() {
             "m" | "m/s" | "m/s^2" => 1.0,
@@ -356,7 +357,7 @@ impl SectionQuantity {
         }
     }
 
-    /// Whether it has a sign.
+    /// Whether it is signed.
     pub(super) fn has_sign(&self) -> bool {
         !["von_mises", "tresca", "max_shear", "displacement", "speed"].contains(&self.name.as_str())
     }

@@ -1,4 +1,4 @@
-//! What is seen along the surface and down the axis of a section: distance against time, and the axis beside the static
+//! Fields along the surface and down the axis of a section: distance over time, and the axis compared with the static
 //! field.
 
 use super::frames::{SectionQuantity, SectionView, between};
@@ -12,13 +12,13 @@ use formats::quantities::FIELDS;
 use formats::stored::StoredImpact;
 use halfspace::{Kernel, Medium, Profile};
 
-/// Instants that are drawn, at most.
+/// Largest number of times that are drawn.
 const MOST_INSTANTS: usize = 600;
 
-/// Frames within a pulse below which a picture of distance against time is not smooth.
+/// Frames per pulse below which a picture of distance over time is not smooth.
 const SMOOTH_FRAMES: f64 = 8.0;
 
-/// Distances along the surface against time, or depths on the axis, with the fronts that pass there.
+/// Distances along the surface over time, or depths on the axis, with the fronts that pass there.
 pub(crate) fn space_time(
     impact: &StoredImpact,
     request: &Request,
@@ -29,7 +29,7 @@ pub(crate) fn space_time(
     let width = section.stored.r_m.len();
     let speeds = section.speeds;
     let distance = Axis::linear("distance from the axis").si("m");
-    // between the nodes the largest wave is followed
+    // the interpolation between nodes follows the largest wave
     let (usual, nodes, distance, start_m, fronts, speed) = match is_surface {
         true => {
             let (r_m, start_m) = (section.stored.r_m.clone(), section.disc_radius_m);
@@ -72,7 +72,7 @@ pub(crate) fn space_time(
         .height(380.0)
         .legend(Legend::Off)
         .layer(Layer::Image(image));
-    // S and R are close together: their names are not
+    // S and R are close together, so their names differ in position
     let named = [
         ("P", speeds.p, 0.8),
         ("S", speeds.s, 0.9),
@@ -92,7 +92,7 @@ pub(crate) fn space_time(
     Ok((panel, notes))
 }
 
-/// Frames within a span and as far around it as waves need from node to node, [`MOST_INSTANTS`] at most.
+/// Frames within a span, extended on both sides by the travel time between nodes; at most [`MOST_INSTANTS`].
 fn chosen(known: &[f64], [from_s, to_s]: [f64; 2], around_s: f64) -> impl Iterator<Item = usize> {
     let first = known
         .partition_point(|&t| t <= from_s - around_s)
@@ -101,7 +101,7 @@ fn chosen(known: &[f64], [from_s, to_s]: [f64; 2], around_s: f64) -> impl Iterat
     (first..end).step_by((end - first).div_ceil(MOST_INSTANTS))
 }
 
-/// What the user should know of frames that are too far apart.
+/// Note for the user if the frames are too far apart.
 fn coarse(section: &SectionView<'_>, times: &[f64]) -> Vec<String> {
     let Some(step_s) = times
         .windows(2)
@@ -114,30 +114,30 @@ fn coarse(section: &SectionView<'_>, times: &[f64]) -> Vec<String> {
     let needed = ((known[known.len() - 1] - known[0]) / needed_s).ceil() + 1.0;
     let [step, pulse] = [step_s, section.pulse_s].map(|time_s| with_unit(time_s, "s"));
     let note = format!(
-        "the frames are {step} apart and the pulse lasts {pulse}, so waves look like dots: [map] frames = {needed} or more shows them"
+        "the frames are {step} apart but the pulse lasts {pulse}, so waves look like dots: use [map] frames = {needed} or more"
     );
     Vec::from_iter((step_s > needed_s && known.len() > 2).then_some(note))
 }
 
-/// A field along a line at some instants.
+/// A field along a line at some times.
 struct Seen<'a> {
-    /// Of the wave that is followed between nodes, in s/m.
+    /// Slowness in s/m of the wave that the interpolation follows.
     slowness: f64,
-    /// Radius of the contact in m, and the power of one over the distance with which the field grows towards it.
+    /// Radius of the contact in m, and the power of 1/distance with which the field grows towards it.
     near: (f64, f64),
     /// Distances in m.
     nodes: &'a [f64],
     times: &'a [f64],
-    /// Values at the nodes, a row an instant.
+    /// Values at the nodes, one row per time.
     rows: &'a [Vec<f64>],
 }
 
 impl Seen<'_> {
-    /// Distances at and between the nodes, and values there at every instant, instants fastest.
+    /// Distances at and between the nodes, and the values there at all times; time varies fastest.
     ///
-    /// A wave is at a place between two nodes as long after it was at the first as it needs from there, and likewise
-    /// before it is at the second: values are blended along its path. At one instant they would be those of two places,
-    /// which makes a wave that is narrower than a cell a row of dots.
+    /// A wave arrives at a place between two nodes later than at the first and earlier than at the second, so values
+    /// are interpolated along its path. Interpolating at equal times would turn a wave that is narrower than a cell
+    /// into a row of dots.
     fn finer(&self) -> (Vec<f64>, Vec<f64>) {
         let last = self.nodes.len() - 1;
         let weight = |d: f64| (d * d + self.near.0.powi(2)).powf(0.5 * self.near.1);
@@ -169,7 +169,7 @@ impl Seen<'_> {
         (distances, values)
     }
 
-    /// The value at a node at a time, linear between instants; the first before them, and none after them.
+    /// The value at a node at a time, linear between samples; the first value before them, none after them.
     fn at(&self, node: usize, time_s: f64) -> Option<f64> {
         let after = self.times.partition_point(|&t| t < time_s);
         let known = self.times.get(after)?;
@@ -182,15 +182,15 @@ impl Seen<'_> {
     }
 }
 
-/// Instants without times that are asked for: these shares of the pulse.
+/// Default times as fractions of the pulse.
 const SHARES: [f64; 4] = [0.2, 0.4, 0.6, 0.8];
 
-/// Smallest size that is shown over the largest, at most.
+/// Smallest ratio of the lower end of the axis to the largest value.
 const DECADES: f64 = 1e-6;
 
-/// The field on the axis at some instants, and what would be there if the largest force lay on the disc for ever.
+/// The field on the axis at some times, and the static field of the largest force on the disc.
 ///
-/// Sizes on logarithmic axes: the static field falls with the square of the depth, and waves run ahead of it.
+/// Magnitudes on logarithmic axes: the static field falls with the square of the depth, and waves run ahead of it.
 pub(crate) fn axis_profile(impact: &StoredImpact, request: &Request) -> Result<Panel, PlotError> {
     let section = SectionView::of(impact)?;
     let quantity = section.quantity(request, "stress_zz")?;
@@ -208,7 +208,7 @@ pub(crate) fn axis_profile(impact: &StoredImpact, request: &Request) -> Result<P
         .range(1e3 * first_m, 1e3 * last_m);
     let words = of_quantity(&quantity.name);
     let words = match quantity.has_sign() {
-        true => format!("size of the {words}"),
+        true => format!("magnitude of the {words}"),
         false => words,
     };
     let size = axis(&words, &quantity.unit, Scale::Logarithmic);
@@ -232,14 +232,14 @@ pub(crate) fn axis_profile(impact: &StoredImpact, request: &Request) -> Result<P
         panel = panel.line("static, largest force", Style::HeavyDashed, points);
     }
     if largest > 0.0 {
-        // before any wave there is nothing to see of the instants
+        // values before the first wave are not visible
         let low = (0.5 * smallest.min(largest)).max(DECADES * largest);
         panel.y = panel.y.range(low, 2.0 * largest);
     }
     Ok(panel)
 }
 
-/// Sizes of the static field on the axis under the largest force, over depths in mm; none for rates.
+/// Magnitudes of the static field on the axis under the largest force, over depths in mm; none for rates.
 fn static_points(
     section: &SectionView<'_>,
     quantity: &SectionQuantity,

@@ -1,4 +1,4 @@
-//! Maps of a section: frames, chosen so that waves are seen, and the largest value over time at every place.
+//! Maps of a section: frames at times that show the waves, and the largest value over time at every point.
 
 use super::contour::contour;
 use super::frames::{SectionGrid, SectionQuantity, SectionView, quantile_of_sizes};
@@ -8,11 +8,11 @@ use crate::words::{axis, of_quantity, with_unit};
 use figure::{ColourMap, Layer, Legend, Panel, Scale, Style};
 use formats::stored::StoredImpact;
 
-/// Frames from which on a picture is a whole history.
+/// Number of frames from which a picture is a complete history.
 const FEW_FRAMES: usize = 9;
 
-/// Frames of a section at the times that are asked for, or `count` until the longitudinal wave leaves it; and
-/// what their user should know.
+/// Frames of a section at the requested times, or `count` frames until the longitudinal wave leaves it, with notes for
+/// the user.
 pub(crate) fn frames(impact: &StoredImpact, request: &Request, count: usize) -> Drawn<Vec<Panel>> {
     let section = SectionView::of(impact)?;
     let mut notes = Vec::new();
@@ -21,7 +21,7 @@ pub(crate) fn frames(impact: &StoredImpact, request: &Request, count: usize) -> 
         ([], Some(_)) => within(&section, request, count)?,
         (given, None) => section.asked(given)?,
         (_, Some(_)) => {
-            let sentence = "times choose the frames and so does a span: give one of them";
+            let sentence = "times and a span both select frames: use only one of them";
             return Err(PlotError::refused(None, sentence.to_owned()));
         }
     };
@@ -30,13 +30,16 @@ pub(crate) fn frames(impact: &StoredImpact, request: &Request, count: usize) -> 
     if section.is_near() {
         let pulse_m = section.speeds.p * section.pulse_s;
         notes.push(format!(
-            "no waves can be told apart: the pulse is {} long and the section {}; a [map] of {} would show them",
+            "the waves overlap: the pulse is {} long and the section {}; use a [map] of {} to separate them",
             with_unit(pulse_m, "m"),
             with_unit(section.side_m(), "m"),
             with_unit(4.0 * pulse_m, "m")
         ));
     } else if request.quantities.is_empty() && quantity.name == "displacement_z" {
-        notes.push("waves are seen better as velocities: give the scene [output] quantities = [\"velocity_z\"]".to_owned());
+        notes.push(
+            "velocities show waves better: add [output] quantities = [\"velocity_z\"] to the scene"
+                .to_owned(),
+        );
     }
     let images = chosen.iter().map(|&frame| section.values(&quantity, frame));
     let images = images.collect::<Result<Vec<_>, _>>()?;
@@ -53,12 +56,12 @@ pub(crate) fn frames(impact: &StoredImpact, request: &Request, count: usize) -> 
     Ok((chosen.iter().zip(images).map(panel).collect(), notes))
 }
 
-/// Frames evenly: until the longitudinal wave leaves the section, or within a pulse that is longer.
+/// Uniformly spaced frames: until the longitudinal wave leaves the section, or within a longer pulse.
 fn instants(section: &SectionView<'_>, count: usize) -> Vec<usize> {
     let half = 0.5 / count as f64;
     let (length_s, first, last) = match section.is_near() {
         true => (section.pulse_s, half, 1.0 - half),
-        // a few frames begin where waves have parted, many where the force does
+        // few frames begin after the waves have separated, many at the onset of the force
         false if count > FEW_FRAMES => (section.crossing_s(), 0.0, 1.0),
         false => (section.crossing_s(), 0.4, 1.0),
     };
@@ -69,7 +72,7 @@ fn instants(section: &SectionView<'_>, count: usize) -> Vec<usize> {
         .collect()
 }
 
-/// Frames evenly within the span that is asked for.
+/// Uniformly spaced frames within the requested span.
 fn within(
     section: &SectionView<'_>,
     request: &Request,
@@ -82,10 +85,10 @@ fn within(
     Ok((0..count).map(|i| section.nearest(time_s(i))).collect())
 }
 
-/// The map of the largest sizes over time, in decades of colour, with the place of the largest and, where the target has a
-/// yield strength, how far von Mises' stress reaches it.
+/// The map of the largest magnitudes over time with a logarithmic colour scale and the place of the largest. If the
+/// target has a yield strength, a line marks where von Mises' stress reaches it.
 pub(crate) fn peak(impact: &StoredImpact, request: &Request) -> Drawn<Panel> {
-    /// Lower end of the colours, over the upper one.
+    /// Lower end of the colours, relative to the upper one.
     const DECADES: f64 = 1e-4;
     let section = SectionView::of(impact)?;
     let quantity = section.quantity(request, "von_mises")?;
@@ -98,7 +101,7 @@ pub(crate) fn peak(impact: &StoredImpact, request: &Request) -> Drawn<Panel> {
     let of_yield = contour_of_yield(&section, &quantity, &grid);
     let positive = || grid.values.iter().copied().filter(|v| *v > 0.0);
     let [low, high] = [0.05, 0.999].map(|share| quantile_of_sizes(positive(), share));
-    // where no wave has come there is rounding, or nothing: the colour of the lower end
+    // before the first wave there is only rounding, which gets the colour of the lower end
     let low = low.max(DECADES * high);
     for value in &mut grid.values {
         *value = value.max(low);
@@ -111,7 +114,8 @@ pub(crate) fn peak(impact: &StoredImpact, request: &Request) -> Drawn<Panel> {
     Ok((panel, notes))
 }
 
-/// The line along which von Mises' stress is the yield strength of the target; none for others, or without a strength.
+/// The contour of von Mises' stress at the yield strength of the target; none for other quantities, or without a
+/// strength.
 fn contour_of_yield(
     section: &SectionView<'_>,
     quantity: &SectionQuantity,
@@ -122,7 +126,7 @@ fn contour_of_yield(
     is_shown.then(|| (strength_pa, contour(grid, strength_pa)))
 }
 
-/// A panel with the largest value at its place, the size of the contact, and the contour of yield.
+/// Adds the largest value at its place, the size of the contact, and the contour of yield to a panel.
 fn with_landmarks(
     section: &SectionView<'_>,
     mut panel: Panel,
@@ -136,7 +140,7 @@ fn with_landmarks(
         let reached = match (points.is_empty(), largest < strength_pa) {
             (true, true) => "not reached",
             (true, false) => "reached everywhere",
-            (false, _) => "reached within the line",
+            (false, _) => "reached inside the line",
         };
         words += &format!(", yield strength {strength} {reached}");
         panel = panel.line("", Style::Rimmed, points);
@@ -145,7 +149,7 @@ fn with_landmarks(
     panel.title(&words).layer(Layer::star(at, &label))
 }
 
-/// The largest of some sizes over the section with its place.
+/// The largest magnitude over the section with its place.
 fn largest_of(section: &SectionView<'_>, sizes: &[f64]) -> (f64, (f64, f64)) {
     let width = section.stored.r_m.len();
     let by_size = |a: &usize, b: &usize| sizes[*a].total_cmp(&sizes[*b]);
@@ -154,12 +158,13 @@ fn largest_of(section: &SectionView<'_>, sizes: &[f64]) -> (f64, (f64, f64)) {
     (sizes[largest], (r_m[largest % width], z_m[largest / width]))
 }
 
-/// The largest sizes over the frames, for a file that has none over all samples, with words for them and for the user.
+/// The largest magnitudes over the frames, for a file without those over all samples, with words for the title and a
+/// note.
 fn over_frames(
     section: &SectionView<'_>,
     quantity: &SectionQuantity,
 ) -> Result<(Vec<f64>, String, Vec<String>), PlotError> {
-    /// Frames that are looked at, at most.
+    /// Largest number of frames that are searched.
     const MOST_SEARCHED_FRAMES: usize = 2000;
     let frames = section.stored.time_s.len();
     let looked_at = (0..frames).step_by(frames.div_ceil(MOST_SEARCHED_FRAMES));
@@ -183,7 +188,7 @@ fn over_frames(
         false => format!(" and quantities = [\"{name}\"]"),
     };
     let note = format!(
-        "the largest values are those of {count} frames, which may miss the true ones: [output] peaks = true{quantities} stores those of all samples"
+        "the largest values are taken over {count} frames and may be too low: set [output] peaks = true{quantities} to store those over all samples"
     );
     Ok((peaks, format!("{count} frames"), vec![note]))
 }

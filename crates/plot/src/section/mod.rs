@@ -1,7 +1,6 @@
-//! Pictures of a section: its frames and largest values as `maps`, and what is seen along its sides as `lines`.
+//! Pictures of a section: its frames and largest values (`maps`), and fields along its sides (`lines`).
 //!
-//! `frames` reads a section, says what can be shown of it, and knows its near field and its fronts; `contour` finds the
-//! line of a value.
+//! `frames` reads a section with its quantities, near field and fronts; `contour` finds contour lines.
 
 mod contour;
 mod frames;

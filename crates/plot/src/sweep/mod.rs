@@ -1,4 +1,4 @@
-//! Figures of a sweep: lines, heat maps, losses, histograms; `view` has what of it is shown.
+//! Figures of a sweep: lines, heat maps, losses, histograms; `view` selects the data.
 
 mod view;
 
@@ -12,7 +12,7 @@ use formats::stored::StoredSweep;
 use std::path::Path;
 use view::{SweepSlice, View, quantiles};
 
-/// Results that are shown when none is asked for.
+/// Results that are shown by default.
 const USUAL: [&str; 4] = [
     "peak_force_n",
     "contact_time_s",
@@ -20,29 +20,29 @@ const USUAL: [&str; 4] = [
     "peak_displacement_m",
 ];
 
-/// Curves in a panel, at most.
+/// Largest number of curves in a panel.
 const MOST_CURVES: usize = 10;
 
-/// Histograms in a panel, at most.
+/// Largest number of histograms in a panel.
 const MOST_HISTOGRAMS: usize = 4;
 
-/// Draws that are points, at most: more of them are bins.
+/// Largest number of draws that are shown as points; more are shown in bins.
 const MOST_POINTS: usize = 400;
 
-/// Bins of draws.
+/// Number of bins of draws.
 const BINS: usize = 20;
 
-/// Values along a second axis from which on it is a heat map.
+/// Number of values of a second axis from which a heat map is drawn.
 const MANY: usize = 7;
 
-/// The keys on the x axis of a picture of losses or of restitution: a velocity, or a height from which it follows.
+/// The key on the x axis of losses and restitution: a velocity, or the height that determines it.
 const VELOCITY: &str = "striker.velocity_m_s";
 const DROP_HEIGHT: &str = "striker.drop_height_m";
 
-/// The result that is above 1 where a body yields.
+/// Result that is above 1 if a body yields.
 const YIELD_ONSET: &str = "yield_onset";
 
-/// The result that restitution is drawn over, where a sweep has it.
+/// Result by which the velocity is divided in pictures of restitution, if a sweep has it.
 const AT_YIELD: &str = "yield_velocity_m_s";
 
 /// A result of all rows of a sweep, with its axis.
@@ -53,8 +53,7 @@ struct SweptQuantity<'a> {
 }
 
 impl SweptQuantity<'_> {
-    /// Quantiles of the draws of a slice at a place along the axes that are shown; those of a single value without
-    /// draws.
+    /// Quantiles over the draws of a slice at a place along the shown axes; without draws those of a single value.
     fn quantiles(&self, slice: &SweepSlice, at: &[(usize, usize)]) -> Option<[f64; 3]> {
         let rows = self.view.rows(slice, at).into_iter();
         quantiles(rows.map(|row| self.values[row]))
@@ -71,7 +70,7 @@ enum SweepPicture {
 }
 
 impl SweepPicture {
-    /// That of a kind; the kinds of other files do not come here.
+    /// The picture of a kind; kinds for other files do not reach this function.
     fn of(kind: PictureKind) -> Self {
         match kind {
             PictureKind::Loss => Self::Loss,
@@ -92,7 +91,7 @@ impl SweepPicture {
     }
 }
 
-/// The figure of a sweep, and what its user should know.
+/// The figure of a sweep, with notes for the user.
 pub(crate) fn of_sweep(path: &Path, request: &Request) -> Drawn<Figure> {
     let sweep = &StoredSweep::open(path)?;
     let view = View::new(sweep, request)?;
@@ -103,7 +102,7 @@ pub(crate) fn of_sweep(path: &Path, request: &Request) -> Drawn<Figure> {
     };
     let picture = SweepPicture::of(request.kind_or(suits)?);
     let (along, usual): (_, &[&str]) = match picture {
-        // where only draws vary, over the first of their keys
+        // if only draws vary, over the first of their keys
         SweepPicture::OverKeys => (along.or(view.drawn), &USUAL),
         SweepPicture::Loss => (along, &["loss"]),
         SweepPicture::Restitution => (along, &["restitution"]),
@@ -131,7 +130,7 @@ pub(crate) fn of_sweep(path: &Path, request: &Request) -> Drawn<Figure> {
             }
         };
         if !panels.is_empty() {
-            // a name has one look in all panels
+            // each name looks the same in all panels
             panel.legend = Legend::Off;
         }
         panels.push(panel);
@@ -145,7 +144,7 @@ pub(crate) fn of_sweep(path: &Path, request: &Request) -> Drawn<Figure> {
 
 /// The name of a sweep and the keys that vary.
 fn title(path: &Path, sweep: &StoredSweep) -> String {
-    /// Keys that are named, at most.
+    /// Largest number of keys in a title.
     const MOST_TITLE_KEYS: usize = 4;
     let columns = sweep.axes.iter().flat_map(|axis| &axis.columns);
     let keys: Vec<String> = columns.map(|column| of_key(&column.name()).0).collect();
@@ -158,7 +157,7 @@ fn title(path: &Path, sweep: &StoredSweep) -> String {
     format!("Sweep {} over {named}{more}", stem(path))
 }
 
-/// How many scenes, how many of them fail or yield, and what bands are.
+/// Number of scenes, of failures and of yielding contacts, and meaning of the bands.
 fn subtitle(
     view: &View<'_>,
     (picture, along): (SweepPicture, Option<usize>),
@@ -190,9 +189,9 @@ fn subtitle(
     {
         let draws = view.sweep.axes[axis].len;
         text.push_str(&match along == Some(axis) {
-            false => format!("; median of {draws} draws, and where 90 % of them lie"),
+            false => format!("; median and 90 % band of {draws} draws"),
             true if draws <= MOST_POINTS => format!("; {draws} draws"),
-            true => format!("; {draws} draws in {BINS} bins: median, and where 90 % lie"),
+            true => format!("; {draws} draws in {BINS} bins: median and 90 % band"),
         });
     }
     Ok(text)
@@ -208,7 +207,7 @@ fn result_words(quantity: &Described) -> String {
     name.strip_suffix(&ending).unwrap_or(name).replace('_', " ")
 }
 
-/// Whether numbers are shown better by their ratios: all positive, and over a decade and a half.
+/// A logarithmic scale for positive values over more than a decade and a half, linear otherwise.
 fn scale_of(values: &[f64]) -> Scale {
     let known = || values.iter().copied().filter(|v| v.is_finite());
     let low = known().fold(f64::INFINITY, f64::min);
@@ -218,8 +217,7 @@ fn scale_of(values: &[f64]) -> Scale {
     }
 }
 
-/// The numbers of a key along an axis of a sweep, the one that is asked for, and their axis in a picture, which is linear
-/// where that is asked for.
+/// The numbers of the requested key along an axis of a sweep, and their axis in a picture, which is linear on request.
 fn nodes(
     view: &View<'_>,
     number: usize,
@@ -229,7 +227,7 @@ fn nodes(
         return Err(PlotError::no_numbers(&view.sweep.axes[number].name));
     };
     let (name, unit) = of_key(&column.name());
-    // grams for kilograms, which have a prefix already
+    // grams instead of kilograms, which have a prefix already
     let factor = if unit == "kg" { 1e3 } else { 1.0 };
     let nodes: Vec<f64> = values.iter().map(|x| factor * x).collect();
     let linear = scale.filter(|scale| *scale == Scale::Linear);
@@ -237,14 +235,14 @@ fn nodes(
     Ok((axis(&name, unit, scale), nodes))
 }
 
-/// Nodes with their indices, rising: values of a list or of a product need not rise.
+/// Nodes with their indices, ascending: the values of a list or of a product may have any order.
 fn rising(nodes: &[f64]) -> Vec<(usize, f64)> {
     let mut rising: Vec<(usize, f64)> = nodes.iter().copied().enumerate().collect();
     rising.sort_by(|a, b| a.1.total_cmp(&b.1));
     rising
 }
 
-/// Lines over a key, or a heat map where a second key has many values.
+/// Lines over a key, or a heat map if a second key has many values.
 fn over_keys(
     shown: &SweptQuantity<'_>,
     along: usize,
@@ -296,7 +294,7 @@ fn lines(
     Ok(panel)
 }
 
-/// Draws over one of their own keys: a point each, or of many the median and 90 % in bins of as many draws.
+/// Draws over one of their keys: points, or for many draws the median and 90 % band in bins of equal counts.
 fn over_draws(panel: Panel, shown: &SweptQuantity<'_>, slice: &SweepSlice, nodes: &[f64]) -> Panel {
     let rows = shown.view.rows(slice, &[]);
     let pairs = nodes
@@ -341,7 +339,7 @@ fn heat_map(
     colours.scale = scale.unwrap_or_else(|| scale_of(&values));
     let [columns, rows] =
         [x, y].map(|nodes| nodes.into_iter().map(|node| node.1).collect::<Vec<_>>());
-    // between a few values nothing is known: each has its own column, on an axis that has room below the first
+    // few values are not interpolated: each has its own column, and the axis has room below the first
     let has_cells = columns.len() < MANY;
     if has_cells {
         x_axis.scale = Scale::Linear;
@@ -387,7 +385,7 @@ fn points_of(panel: &mut Panel) -> impl Iterator<Item = &mut (f64, f64)> {
     curves.flatten()
 }
 
-/// Losses over the velocity of approach, with the slope of Hunter's law beside them.
+/// Losses over the velocity of approach, with the slope of Hunter's law.
 fn loss(shown: &SweptQuantity<'_>) -> Result<Panel, PlotError> {
     let mut panel = over_velocity(shown)?;
     let (mut first, mut last) = (f64::INFINITY, 0.0_f64);
@@ -398,7 +396,7 @@ fn loss(shown: &SweptQuantity<'_>) -> Result<Panel, PlotError> {
         (lowest, highest) = (lowest.min(factor / 1.3), highest.max(1.3 * factor));
     }
     if highest > 0.0 {
-        // above all curves, or below them where it would leave the losses there are, so that it crosses none of them
+        // above all curves, or below them if it would exceed the possible losses, so that it crosses none
         let leaves = highest * last.powf(0.6) > 1.0;
         let factor = if leaves { lowest } else { highest };
         let on = |v: f64| (v, factor * v.powf(0.6));
@@ -407,8 +405,8 @@ fn loss(shown: &SweptQuantity<'_>) -> Result<Panel, PlotError> {
     Ok(panel)
 }
 
-/// Restitution over the velocity of approach; where a law of flow yields, over the velocity at which the first row does,
-/// with Johnson's slope.
+/// Restitution over the velocity of approach; with a plasticity law, relative to the velocity at the onset of yield of
+/// the first row, with Johnson's slope.
 fn restitution(shown: &SweptQuantity<'_>) -> Result<Panel, PlotError> {
     let mut panel = over_velocity(shown)?;
     let sweep = shown.view.sweep;
@@ -418,7 +416,7 @@ fn restitution(shown: &SweptQuantity<'_>) -> Result<Panel, PlotError> {
     let Some(yields) = at_yield.into_iter().flatten().find(|v| v.is_finite()) else {
         return Ok(panel);
     };
-    let name = "velocity of approach over that of yield";
+    let name = "velocity of approach over velocity at yield";
     panel.x = axis(name, "1", Scale::Logarithmic);
     let mut last = (0.0, f64::INFINITY);
     for point in points_of(&mut panel) {
@@ -433,7 +431,7 @@ fn restitution(shown: &SweptQuantity<'_>) -> Result<Panel, PlotError> {
     Ok(panel.line("slope -1/4", Style::HeavyDashed, ends))
 }
 
-/// How often values occur, with their quantiles where they are draws: those of a design say nothing.
+/// Histograms, with quantiles if the values are random draws; quantiles of a designed sweep have no meaning.
 fn histogram(shown: &SweptQuantity<'_>) -> Result<Panel, PlotError> {
     let view = shown.view;
     let scale = shown.axis.scale;
@@ -465,7 +463,7 @@ fn histogram(shown: &SweptQuantity<'_>) -> Result<Panel, PlotError> {
     Ok(panel)
 }
 
-/// The slices beside the axes that are shown, if they are few enough for one panel.
+/// The slices along the axes that are not shown, if one panel has room for them.
 fn few(view: &View<'_>, shown: &[usize], most: usize) -> Result<Vec<SweepSlice>, PlotError> {
     let slices = view.slices(shown);
     if slices.len() <= most {

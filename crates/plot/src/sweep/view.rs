@@ -1,4 +1,4 @@
-//! What of a sweep is shown: values over one key, for some settings of the others, with the draws as quantiles.
+//! Selection of the data of a sweep: values over one key, for some settings of the others, with quantiles of the draws.
 
 use crate::error::PlotError;
 use crate::request::Request;
@@ -6,19 +6,19 @@ use crate::words::{of_key, with_unit};
 use formats::stored::StoredSweep;
 use formats::sweep::{SweptKey, Values};
 
-/// Shares of draws below the band, at its middle and below its upper end.
+/// Quantiles at the lower end of the band, its middle and its upper end.
 const SHARES: [f64; 3] = [0.05, 0.5, 0.95];
 
-/// A choice along every axis but those that are shown.
+/// A choice along every axis that is not shown.
 #[derive(Debug, Clone)]
 pub(super) struct SweepSlice {
-    /// What is chosen, in words; empty where there is nothing to choose.
+    /// Words for the choice; empty if there is nothing to choose.
     pub(super) label: String,
-    /// Index along each axis; none along those that are shown.
+    /// Index along each axis; none along the shown axes.
     pub(super) fixed: Vec<Option<usize>>,
 }
 
-/// The axes of a sweep and what becomes of each.
+/// The axes of a sweep and their roles.
 pub(super) struct View<'a> {
     pub(super) sweep: &'a StoredSweep,
     /// Axis of random draws.
@@ -42,7 +42,7 @@ impl<'a> View<'a> {
         })
     }
 
-    /// Axes that vary still, the draws apart.
+    /// Axes that still vary, except the draws.
     pub(super) fn free(&self) -> Vec<usize> {
         let axes = 0..self.sweep.axes.len();
         axes.filter(|&i| {
@@ -51,7 +51,7 @@ impl<'a> View<'a> {
         .collect()
     }
 
-    /// The numbers along an axis: those of the key that is asked for, or of the first that has numbers.
+    /// The numbers along an axis: those of the requested key, or of the first key with numbers.
     pub(super) fn numbers(&self, axis: usize, asked: Option<&str>) -> Option<(&SweptKey, &[f64])> {
         let columns = self.sweep.axes[axis].columns.iter();
         let mut asked = columns.filter(|column| asked.is_none_or(|name| name == column.name()));
@@ -61,7 +61,7 @@ impl<'a> View<'a> {
         })
     }
 
-    /// The axis along x: of the key that is asked for, or the longest of numbers.
+    /// The x axis: that of the requested key, or the longest with numbers.
     pub(super) fn along(&self, asked: Option<&str>) -> Result<Option<usize>, PlotError> {
         if let Some(key) = asked {
             let (axis, column) = find(self.sweep, key)?;
@@ -76,7 +76,7 @@ impl<'a> View<'a> {
         Ok(with_numbers.rev().max_by_key(|&i| self.sweep.axes[i].len))
     }
 
-    /// Rows that are shown: those at the values that are held, draws and everything that varies included.
+    /// Shown rows: those at the fixed values, including all draws and all values of free axes.
     pub(super) fn shown(&self) -> Vec<usize> {
         let axes = &self.sweep.axes;
         let rows: usize = axes.iter().map(|axis| axis.len).product();
@@ -92,7 +92,7 @@ impl<'a> View<'a> {
         (0..rows).filter(is_shown).collect()
     }
 
-    /// A value of a key that can be held, along a free axis that is not shown, as `key=value`.
+    /// An example `key=value` that fixes a free axis which is not shown.
     pub(super) fn example(&self, shown: &[usize]) -> Option<String> {
         let mut free = self.free().into_iter().filter(|axis| !shown.contains(axis));
         let column = self.sweep.axes[free.next()?].columns.first()?;
@@ -126,7 +126,7 @@ impl<'a> View<'a> {
         found
     }
 
-    /// What is held, in words; none without anything.
+    /// Words for the fixed values; none if there are none.
     pub(super) fn held(&self) -> Option<String> {
         let fixed = self.fixed.iter().enumerate();
         let held = fixed.filter_map(|(axis, index)| Some(self.name(axis, (*index)?)));
@@ -134,7 +134,7 @@ impl<'a> View<'a> {
         (!held.is_empty()).then(|| held.join(", "))
     }
 
-    /// What is at a place of an axis, in words: `granite`, `tip radius 2 mm`.
+    /// Words for a place of an axis: `granite`, `tip radius 2 mm`.
     fn name(&self, axis: usize, index: usize) -> String {
         let parts = self.sweep.axes[axis].columns.iter().map(|column| {
             let (name, unit) = of_key(&column.name());
@@ -149,7 +149,7 @@ impl<'a> View<'a> {
         parts.collect::<Vec<_>>().join(", ")
     }
 
-    /// The rows of a slice at a place along the axes that are shown, over all draws.
+    /// The rows of a slice at a place along the shown axes, over all draws.
     pub(super) fn rows(&self, slice: &SweepSlice, at: &[(usize, usize)]) -> Vec<usize> {
         let axes = &self.sweep.axes;
         let index = |i: usize, draw: usize| {
@@ -174,9 +174,9 @@ fn find<'a>(sweep: &'a StoredSweep, key: &str) -> Result<(usize, &'a SweptKey), 
     found.ok_or_else(|| PlotError::unknown(sweep.path(), format!("the key {key}"), key, names))
 }
 
-/// The index of a value of a key, a number to nine digits.
+/// The index of a value of a key; numbers are compared to nine digits.
 fn index_of(sweep: &StoredSweep, column: &SweptKey, value: &str) -> Result<usize, PlotError> {
-    /// Numbers that are told, at most.
+    /// Largest number of values in a message.
     const MOST_NUMBERS_SHOWN: usize = 12;
     let key = column.name();
     if let Values::Texts(words) = &column.values {
@@ -200,11 +200,11 @@ fn index_of(sweep: &StoredSweep, column: &SweptKey, value: &str) -> Result<usize
         format!("{} values from {low} to {high}", column.values.count())
     };
     let (path, file) = (sweep.path(), sweep.path().display());
-    let sentence = format!("{key} = {value} is not in {file}; it has {allowed}");
+    let sentence = format!("{key} = {value} does not exist in {file}; choose one of {allowed}");
     Err(PlotError::refused(Some(path), sentence))
 }
 
-/// Lower, middle and upper quantile of values, those that are no numbers apart.
+/// 5 %, 50 % and 95 % quantiles of values, without NaN.
 pub(super) fn quantiles(values: impl Iterator<Item = f64>) -> Option<[f64; 3]> {
     let mut known: Vec<f64> = values.filter(|v| v.is_finite()).collect();
     if known.is_empty() {

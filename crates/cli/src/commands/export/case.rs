@@ -1,4 +1,4 @@
-//! The contact of a scene as a particle code has it.
+//! The contact of a scene in the terms of a particle code.
 
 use crate::failure::Failure;
 use crate::report::{short, si, understood};
@@ -6,35 +6,37 @@ use contact::law::radiation::LOSS;
 use contact::{Choice, ContactError, Model, Plasticity, Results, Scheme, Shape, Striker};
 use impact::{Impact, ImpactError, Run, Scene};
 
-/// Relative error of the loss of an elastic contact where the scene asks for none: that of one that flows is of order one.
+/// Default relative error of the loss of an elastic contact; a plastic contact loses a fraction of order one.
 const LOSS_TOLERANCE: f64 = 1e-4;
 
 /// A contact, solved at the velocity of its scene.
 pub(super) struct Case {
-    /// The bodies; of two balls one with the reduced mass and radius strikes.
+    /// The bodies. Two balls are reduced to one striker with their reduced mass and radius.
     pub(super) impact: Impact,
     pub(super) run: Run,
     /// Radius in m and mass in kg of each ball, the striker first.
     pub(super) balls: Vec<[f64; 2]>,
-    /// When the first echo comes back in s, where the target is a ball.
+    /// Time in s at which the first echo returns, if the target is a ball.
     echo_s: Option<f64>,
-    /// Whether waves take energy: no echo comes back within the contact.
+    /// Whether waves carry energy away: no echo returns during the contact.
     radiates: bool,
-    /// What it is and where it holds, in sentences.
+    /// Description of the case and its range of validity, in sentences.
     pub(super) notes: Vec<String>,
 }
 
 impl Case {
-    /// Of a scene, whose target may be a ball of a diameter in m.
+    /// The case of a scene; with `target_diameter_m` the target is a ball.
     pub(super) fn new(scene: &Scene, target_diameter_m: Option<f64>) -> Result<Self, Failure> {
         let strike = scene.strike().ok_or_else(|| {
-            Failure::input("a force record has no rebound: give the scene a [striker]")
+            Failure::input(
+                "a force record has no rebound: replace [force] by a [striker] in the scene",
+            )
         })?;
         let settings = &scene.settings;
         let on_disc = settings.model.on_disc() && settings.model != Model::Auto;
         if on_disc || settings.disc_radius_m.is_some() || settings.scheme == Scheme::Explicit {
             return Err(Failure::input(
-                "the contact of a particle code follows the load: leave contact.disc_radius_m, and a model or scheme of a fixed disc, out",
+                "the contact area of a particle code changes with the load: remove contact.disc_radius_m, and use a model and a scheme without a fixed disc",
             ));
         }
         let (block, striker) = (scene.target.clone(), strike.striker.clone());
@@ -67,9 +69,9 @@ impl Case {
         Ok(case)
     }
 
-    /// The same contact at another velocity in m/s, elastic or as the scene has it.
+    /// The same contact at another velocity in m/s, elastic or with the plasticity of the scene.
     ///
-    /// A target that is a ball radiates where its first echo comes after the contact.
+    /// If the target is a ball, it radiates only if the first echo arrives after the contact.
     pub(super) fn at(&self, velocity_m_s: f64, elastic: bool) -> Result<Run, Failure> {
         let mut impact = self.impact.clone();
         impact.velocity_m_s = velocity_m_s;
@@ -88,7 +90,7 @@ impl Case {
         Ok(run)
     }
 
-    /// The lag c of the waves in collision times; zero where nothing is radiated.
+    /// The lag c of the waves in collision times; zero if nothing is radiated.
     pub(super) fn lag(&self) -> f64 {
         match self.radiates {
             true => self.run.solved.chosen.regime.lag,
@@ -96,19 +98,19 @@ impl Case {
         }
     }
 
-    /// The elastic loss to first order over v^(3/5), in SI units; zero without waves.
+    /// Coefficient of v^(3/5) in the first-order elastic loss, in SI units; zero without waves.
     pub(super) fn loss_factor(&self) -> f64 {
         LOSS * self.lag() / self.impact.velocity_m_s.powf(0.6)
     }
 
-    /// The velocity in m/s below which echoes come back to a target that is a ball and radiates.
+    /// For a radiating ball as target: the velocity in m/s below which echoes return during the contact.
     pub(super) fn echoes_below_m_s(&self) -> Option<f64> {
         // Hertz's contact time goes with v^(-1/5)
         let longer = self.run.contact_time_s / self.echo_s?;
         Some(self.impact.velocity_m_s * longer.powi(5))
     }
 
-    /// Whether a target that is a ball radiates, of a contact as on a half-space.
+    /// A sentence on whether a ball as target radiates, from the contact on a half-space.
     fn waves(&self, echo_s: f64) -> String {
         if self.impact.settings.model == Model::Hertz {
             return "waves: none in the model \"hertz\"".to_owned();
@@ -118,18 +120,18 @@ impl Case {
         if self.radiates {
             let below = self.echoes_below_m_s().map(|v| short(v, "m/s"));
             return format!(
-                "waves: the first echo in the target returns after {echo}, when the contact of {touch} has ended: it radiates as a half-space, as it does from about {} on",
+                "waves: the first echo in the target returns after {echo}, after the contact of {touch}: the target radiates like a half-space, as at all velocities above about {}",
                 below.unwrap_or_default()
             );
         }
         format!(
-            "waves: echoes cross the target {:.0} times in the contact of {touch} and bring their energy back: the law of a half-space, which would radiate {:.2e} of the energy, does not apply, and nothing is radiated here",
+            "waves: echoes cross the target {:.0} times during the contact of {touch} and return their energy: a half-space would radiate {:.2e} of the energy, this file radiates nothing",
             contact_s / echo_s,
             self.run.radiated_energy_j / self.run.initial_energy_j
         )
     }
 
-    /// From which velocity on the contact yields, where a strength is known.
+    /// A sentence on the velocity at which yielding begins, if a strength is known.
     fn onset(&self) -> Option<String> {
         let law = self.impact.settings.plasticity;
         let (results, v) = (&self.run.results, self.impact.velocity_m_s);
@@ -139,22 +141,22 @@ impl Case {
             Some(onset) => {
                 let over = results.plastic.velocity_over_trusted;
                 let trusted =
-                    over.map(|over| format!("; trusted up to {}", short(v / over, "m/s")));
+                    over.map(|over| format!("; the law is valid up to {}", short(v / over, "m/s")));
                 format!(
-                    "yield: begins at {} by the plasticity \"{}\"; below it the contact is elastic{}",
+                    "yield: begins at {} in the plasticity \"{}\"; the contact is elastic at lower velocities{}",
                     short(onset, "m/s"),
                     law.name(),
                     trusted.unwrap_or_default()
                 )
             }
             None => format!(
-                "yield: begins under the surface at {}, and from there on the elastic restitution is an upper bound; set contact.plasticity",
+                "yield: begins under the surface at {}; at higher velocities the elastic restitution is only an upper bound: set contact.plasticity",
                 short(onset?, "m/s")
             ),
         })
     }
 
-    /// The results of the model, which a code has only in part.
+    /// The results of the model, which the particle code reproduces only in part.
     fn outcome(&self) -> String {
         let (run, velocity) = (&self.run, short(self.impact.velocity_m_s, "m/s"));
         let [time, force] = [si(run.contact_time_s, "s"), si(run.peak_force_n, "N")];
@@ -172,7 +174,7 @@ impl Case {
     }
 }
 
-/// Solves a contact; an elastic one to [`LOSS_TOLERANCE`] where its scene has no tolerance of the loss.
+/// Solves a contact; an elastic one to [`LOSS_TOLERANCE`] if its scene sets no tolerance of the loss.
 fn solve(impact: &Impact) -> Result<Run, ContactError> {
     let settings = &impact.settings;
     if settings.plasticity != Plasticity::None || settings.loss_tolerance.is_some() {
@@ -186,7 +188,7 @@ fn solve(impact: &Impact) -> Result<Run, ContactError> {
     elastic.solve()
 }
 
-/// Makes the target a ball, free to move: Hertz's law of the reduced radius and mass.
+/// Replaces the target by a free ball: Hertz's law with the reduced radius and mass.
 fn onto_ball(
     impact: &mut Impact,
     balls: &mut Vec<[f64; 2]>,
@@ -212,7 +214,7 @@ fn onto_ball(
     ))
 }
 
-/// Results of a velocity, with the names that the report and the columns of a table have.
+/// Results at a velocity, with their names in the report and in the columns of a table.
 pub(super) fn named(results: &Results) -> [(&'static str, f64); 5] {
     [
         ("restitution", results.restitution),

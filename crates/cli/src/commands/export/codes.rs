@@ -1,4 +1,4 @@
-//! Inputs of LAMMPS and YADE: the numbers of a case and its laws, and scripts that take them.
+//! Inputs of LAMMPS and YADE: the numbers of a case and its laws, and scripts that use them.
 
 use crate::commands::export::case::Case;
 use crate::commands::export::law::{Laws, PairLaw};
@@ -6,17 +6,17 @@ use crate::commands::export::law::{Laws, PairLaw};
 /// Hertz's contact time over (m^2/(E*^2 R v))^(1/5).
 const HERTZ_TIME: f64 = 2.868;
 
-/// Steps over the shortest contact that the balls of a file can have: more change the loss by less than 1e-3 of itself
+/// Time steps per shortest contact between balls of a file. More steps change the loss by a relative 1e-3 at most
 /// (`scripts/check-exports`).
 const LAMMPS_STEPS: f64 = 250.0;
 const YADE_STEPS: f64 = 2500.0;
 
-/// Steps over the shortest contact below which a run stops: with these the loss of the dashpot on the area is within 2 %
-/// (`scripts/check-exports`), with a fifth to a tenth of them a ball gains energy. YADE's comes a step late and needs more.
+/// Steps per shortest contact below which a run stops. With this number the loss of the area dashpot is accurate to 2 %
+/// (`scripts/check-exports`); with 1/10 to 1/5 of it a ball gains energy. YADE's damping lags by a step and needs more.
 const LEAST_LAMMPS_STEPS: f64 = 25.0;
 const LEAST_YADE_STEPS: f64 = 100.0;
 
-/// An input of LAMMPS, whose atoms of type 1 are of the striker's material and those of type 2 of the target's.
+/// An input of LAMMPS. Atoms of type 1 are of the striker's material, atoms of type 2 of the target's.
 pub(super) fn lammps(case: &Case, laws: &Laws) -> String {
     let mut text = String::new();
     let mut variable = |name: &str, value: f64, what: &str| {
@@ -98,13 +98,13 @@ variable    e equal vz[1]/v_V
 ";
 
 const PAIR: &str = "
-# balls of the striker's material on each other, of any radius: Hertz's law and one restitution, without friction
+# contacts between balls of the striker's material, of any radius: Hertz's law with a constant restitution, no friction
 pair_style  granular
 pair_coeff  1 1 hertz $(4/3*v_ES1) ${E01} tangential linear_nohistory 0 0 damping coeff_restitution
 ";
 
 const SECOND: &str = "
-# the second ball, at rest: on the striker, and balls of its material on each other
+# the second ball, at rest; its contacts with the striker, and contacts between balls of its material
 create_atoms 2 single 0 0 $(-v_R2)
 set         atom 2 diameter $(2*v_R2)
 set         atom 2 mass ${M2}
@@ -113,25 +113,25 @@ pair_coeff  1 2 hertz $(4/3*v_ES) ${E0} tangential linear_nohistory 0 0 damping 
 pair_coeff  2 2 hertz $(4/3*v_ES2) ${E02} tangential linear_nohistory 0 0 damping coeff_restitution
 ";
 
-/// The dashpot on the contact's area needs no memory: it is a force on each ball above the plane z = 0. It stands before
-/// the stock block, which it makes a comment.
+/// The area dashpot needs no memory: it is a force on each ball above the plane z = 0. It precedes the stock block,
+/// which its last line turns into a comment.
 const DASHPOT: &str = "
-# the block below z = 0, for balls of any radius at any velocity below yield; d is the depth, fz not below zero
+# the block below z = 0, for balls of any radius at any velocity below yield; d is the depth, fz the force, cut at zero
 variable    d  atom \"(z<radius)*(radius-z)\"
 variable    f  atom \"4/3*v_ES*sqrt(radius)*v_d*sqrt(v_d)-4*v_C*v_ES^2*radius*v_d*vz\"
 variable    fz atom \"(v_f>0)*v_f\"
 fix         block all addforce 0 0 v_fz
-# at V alone, the same by a stock model:
+# a stock model with the same result, at velocity V only:
 # ";
 
 const BLOCK: &str = "fix block all wall/gran granular hertz $(4/3*v_ES) ${E0} tangential linear_nohistory 0 0 damping coeff_restitution zplane 0 NULL
 ";
 
-/// The shortest contact has the lightest ball and the highest velocity: m >= m1/2, R <= R1 and v <= V + 2 max v in Hertz's
-/// contact time, which no pair of balls in the file falls below.
+/// The shortest contact has the lightest ball and the highest velocity. With m >= m1/2, R <= R1 and v <= V + 2 max v,
+/// Hertz's contact time is a lower bound for all pairs of balls in the file.
 const RUN: &str = "
-# time step: by the shortest contact that the balls here can have, which goes with the radius; a later, smaller or faster
-# ball that is left with too few steps stops the run
+# time step: a fraction of the shortest possible contact of the balls, which is proportional to the radius; the run stops
+# if a smaller or faster ball that is added later has too few steps per contact
 variable    light atom mass^2/radius
 variable    speed atom sqrt(vx^2+vy^2+vz^2)
 compute     light all reduce min v_light
@@ -163,8 +163,12 @@ pub(super) fn yade(case: &Case, laws: &Laws) -> String {
             HERTZ_TIME,
             "Hertz's contact time over (m^2/(E*^2 R v))^(1/5)",
         ),
-        ("STEPS", YADE_STEPS, "steps over the shortest contact"),
-        ("LEAST", LEAST_YADE_STEPS, "steps below which the run stops"),
+        ("STEPS", YADE_STEPS, "steps per shortest contact"),
+        (
+            "LEAST",
+            LEAST_YADE_STEPS,
+            "steps per contact below which the run stops",
+        ),
     ];
     for (name, value, what) in numbers {
         text += &format!("{name} = {value:?}  # {what}\n");

@@ -1,4 +1,4 @@
-//! The force laws in the input of a code: that of the two bodies, and that of two balls of the same material.
+//! The force laws in the input of a code: between the two bodies, and between two balls of the same material.
 
 use crate::commands::export::case::Case;
 use crate::commands::export::motion::{Damping, Rebound};
@@ -8,18 +8,18 @@ use contact::{BodyError, HalfSpace, Material, Model, Plasticity, Striker};
 use impact::{Impact, Run};
 use serde::Serialize;
 
-/// The area dashpot's relative error in the loss over the square of the memory in collision times, and the memory up to
-/// which that holds: for Poisson's ratios from 0 to 0.45 and 0.02 to 0.99 of the compliance in the block 0.146 at most,
-/// below 0.01 where the block has a third of it.
+/// Relative error of the area dashpot's loss divided by the square of the memory in collision times. Measured for
+/// Poisson's ratios from 0 to 0.45 and a share of 0.02 to 0.99 of the compliance in the block: 0.146 at most, and below
+/// 0.01 with a third of the compliance in the block. The next constant is the largest memory for which this holds.
 const LEFT_OUT: f64 = 0.15;
 const LARGEST_MEMORY: f64 = 0.5;
 
-/// Relative error of the loss up to which one restitution serves other velocities: 10 %, less the 1e-3 that the steps of a
-/// code may change (`scripts/check-exports` runs both ends).
+/// Relative error of the loss within which one restitution serves other velocities: 10 %, minus the 1e-3 that the time
+/// steps of a code may change (`scripts/check-exports` runs both ends).
 const OFF: f64 = 0.1 - 1e-3;
 
-/// Largest ratio of such a velocity to that of the scene that is tried, the ratio of two tries, and how far an end is moved
-/// inwards: more than is lost where it is printed with four digits.
+/// Largest ratio of such a velocity to the velocity of the scene, the ratio of two trial velocities, and the factor by
+/// which an end is moved inwards, larger than the rounding to four digits in print.
 const FURTHEST: f64 = 100.0;
 const FACTOR: f64 = 1.1;
 const RANGE_MARGIN: f64 = 1e-3;
@@ -41,41 +41,41 @@ pub(super) enum Code {
 }
 
 impl Code {
-    /// Whether its damping pulls at the end of a contact; the other code cuts the force at zero.
+    /// Whether the damping force may be tensile at the end of a contact; the other code cuts the force at zero.
     fn pulls(self) -> bool {
         self == Self::Lammps
     }
 }
 
-/// A law: Hertz's spring of E*, and what it loses.
+/// A law: Hertz's spring with E*, and its damping.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct PairLaw {
     pub(super) modulus_pa: f64,
     /// Restitution at the velocity of the scene.
     pub(super) restitution: f64,
-    /// C = J/(mu c2) in m s/N of the dashpot on the contact's area, zero without one.
+    /// C = J/(mu c2) in m s/N of the area dashpot; zero without one.
     pub(super) lag_m_s_n: f64,
-    /// The ratio of damping where every velocity has the same restitution.
+    /// Damping ratio of a law with the same restitution at all velocities.
     pub(super) ratio: f64,
 }
 
 /// The laws of a file.
 pub(super) struct Laws {
-    /// Of striker and target.
+    /// Between striker and target.
     pub(super) both: PairLaw,
-    /// Of two balls of the striker's material, and of two of the target's where it is a ball.
+    /// Between two balls of the striker's material, and of the target's if the target is a ball.
     pub(super) like: Vec<PairLaw>,
     /// Contact time of `both` at the velocity of the scene in s.
     pub(super) contact_time_s: f64,
-    /// Its largest force there in N.
+    /// Largest force of `both` at the velocity of the scene in N.
     pub(super) peak_force_n: f64,
-    /// Velocities in m/s from and to which the loss of one restitution holds.
+    /// Velocities in m/s between which the loss of one restitution holds.
     range_m_s: Option<[f64; 2]>,
     pub(super) notes: Vec<String>,
 }
 
 impl Laws {
-    /// Of a case, in a code.
+    /// The laws of a case in a code.
     pub(super) fn new(case: &Case, code: Code) -> Result<Self, Failure> {
         let (collision, v) = (case.impact.collision(), case.impact.velocity_m_s);
         let units = collision.units();
@@ -95,11 +95,11 @@ impl Laws {
         let pulls = code.pulls() && range_m_s.is_some();
         let found = damping.rebound(pulls);
         let depth_m = found.depth * units.length_m;
-        // a code takes a centre beyond the other body for a contact from its other side
+        // if a centre passes the other body, a code sees a contact from the other side
         let deepest_m: f64 = case.balls.iter().map(|[radius_m, _]| radius_m).sum();
         if depth_m >= deepest_m {
             return Err(Failure::input(format!(
-                "the contact is {} deep at {}, and a particle code loses it from {} on: use a lower striker.velocity_m_s",
+                "the indentation is {} at {}, but a particle code loses a contact deeper than {}: use a lower striker.velocity_m_s",
                 short(depth_m, "m"),
                 short(v, "m/s"),
                 short(deepest_m, "m")
@@ -129,7 +129,7 @@ impl Laws {
         Ok(laws)
     }
 
-    /// Its numbers.
+    /// The numbers for the report.
     pub(super) fn report(&self) -> LawReport {
         LawReport {
             contact_time_s: self.contact_time_s,
@@ -139,7 +139,7 @@ impl Laws {
         }
     }
 
-    /// The law of striker and target, and where it holds.
+    /// The law of striker and target and its range of validity.
     fn text(&self, case: &Case) -> String {
         let (here, memory) = (
             short(case.impact.velocity_m_s, "m/s"),
@@ -152,16 +152,16 @@ impl Laws {
                 None => "contact with waves",
             };
             return format!(
-                "law: F = 4/3 E* sqrt(R) d^1.5 with one restitution, that of the {kind} at {here}; {}, and the table format has other velocities",
+                "law: F = 4/3 E* sqrt(R) d^1.5 with the restitution of the {kind} at {here}; {}; for other velocities use the format table",
                 held(range)
             );
         }
         if self.both.lag_m_s_n == 0.0 {
-            return "law: F = 4/3 E* sqrt(R) d^1.5, Hertz's, exact while nothing yields; no energy is lost to waves".to_owned();
+            return "law: F = 4/3 E* sqrt(R) d^1.5 (Hertz), exact below yield; no energy is lost to waves".to_owned();
         }
         if memory > LARGEST_MEMORY {
             return format!(
-                "{dashpot}, not to be trusted at {here}: the waves cross the contact in {memory:.2} collision times, more than {LARGEST_MEMORY}"
+                "{dashpot}, not accurate at {here}: the waves cross the contact in {memory:.2} collision times, more than {LARGEST_MEMORY}"
             );
         }
         let target = match case.balls.len() {
@@ -171,17 +171,17 @@ impl Laws {
         let error = LEFT_OUT * memory * memory;
         let below = case.impact.velocity_m_s * ((1e-3 / LEFT_OUT).sqrt() / memory).powf(5.0 / 3.0);
         format!(
-            "{dashpot}, for balls of the striker's material and any radius on {target}; the loss is within {error:.1e} of that with full memory at {here}, and within 1e-3 below {}",
+            "{dashpot}, for balls of the striker's material and any radius on {target}; the relative error of its loss is {error:.1e} at {here} and below 1e-3 at velocities under {}",
             short(below, "m/s")
         )
     }
 }
 
-/// How the law of striker and target loses energy: by a dashpot on the area where the code can have one.
+/// Damping of the law of striker and target: the area dashpot if the code supports it.
 fn damping(case: &Case, code: Code) -> Damping {
     let (flows, lag) = (case.run.solved.flow.is_some(), case.lag());
     let has_area = match code {
-        // a force on each ball from a plane; its pairs have stock models alone
+        // a force on each ball from a plane; LAMMPS supports only stock models for pairs
         Code::Lammps => case.balls.len() == 1,
         Code::Yade => true,
     };
@@ -203,7 +203,7 @@ fn ratio(damping: Damping) -> f64 {
 
 fn held([from, to]: [f64; 2]) -> String {
     let [from, to] = [from, to].map(|v| short(v, "m/s"));
-    format!("the loss is within 10 % of that contact's from {from} to {to}")
+    format!("its loss is accurate to 10 % from {from} to {to}")
 }
 
 fn outcome(v: f64, found: &Rebound, contact_time_s: f64, peak_force_n: f64) -> String {
@@ -217,7 +217,7 @@ fn outcome(v: f64, found: &Rebound, contact_time_s: f64, peak_force_n: f64) -> S
     )
 }
 
-/// The velocities in m/s between which the loss at v is within [`OFF`] of that of the contact.
+/// The velocities in m/s between which the loss at v is within [`OFF`] of the loss of the contact.
 fn range<E>(v: f64, loss: f64, at: impl Fn(f64) -> Result<Run, E>) -> [f64; 2] {
     let holds = |v| at(v).is_ok_and(|run| (loss - run.loss).abs() <= OFF * run.loss);
     [1.0 / FACTOR, FACTOR].map(|factor| {
@@ -228,7 +228,7 @@ fn range<E>(v: f64, loss: f64, at: impl Fn(f64) -> Result<Run, E>) -> [f64; 2] {
                 return inside;
             }
         }
-        // to 3e-6
+        // to a relative 3e-6
         for _ in 0..15 {
             let middle = (inside * outside).sqrt();
             *if holds(middle) {
@@ -244,10 +244,10 @@ fn range<E>(v: f64, loss: f64, at: impl Fn(f64) -> Result<Run, E>) -> [f64; 2] {
     })
 }
 
-/// The law of two balls of one material and like size, and a sentence on it.
+/// The law of two balls of one material and similar size, and a sentence on it.
 ///
-/// Echoes cross such balls many times in a contact, so nothing is radiated; where the scene has a law of flow they follow
-/// it with the strength of their own material.
+/// Echoes cross such balls many times in a contact, so nothing is radiated. If the scene has a plasticity law, the
+/// balls follow it with the strength of their own material.
 fn alike(
     case: &Case,
     code: Code,
@@ -279,12 +279,12 @@ fn alike(
         Ok(Some(run)) if run.solved.flow.is_some() => run,
         Ok(_) => {
             let note = format!(
-                "{begin}, elastic at {here}; no energy is lost, since echoes bring back the waves of balls of like size"
+                "{begin}, elastic at {here}; no energy is lost, because echoes return the energy of the waves in balls of similar size"
             );
             return Ok((elastic, note));
         }
         Err(error) => {
-            let note = format!("{begin}, elastic, since their flow is not known: {error}");
+            let note = format!("{begin}, elastic, because their plasticity is unknown: {error}");
             return Ok((elastic, note));
         }
     };
@@ -299,7 +299,7 @@ fn alike(
         pair.solve()
     };
     let note = format!(
-        "{begin} and one restitution {:.8}, that of their own plastic contact at {here}; {}",
+        "{begin} and the restitution {:.8} of their own plastic contact at {here}; {}",
         run.restitution,
         held(range(v, run.loss, at))
     );
@@ -332,7 +332,7 @@ fn pair(
     pair.settings = case.impact.settings;
     (pair.settings.model, pair.settings.step_s) = (Model::Hertz, None);
     if !is_softest {
-        // the pressure given is that of the softer body
+        // the given pressure belongs to the softer body
         pair.settings.yield_pressure_pa = None;
     }
     Ok(pair)

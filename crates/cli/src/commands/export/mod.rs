@@ -1,4 +1,4 @@
-//! `hertzlamb export`: the contact of a scene as inputs of particle codes, and its rebound over velocities.
+//! `hertzlamb export`: inputs of particle codes for the contact of a scene, and a table of its rebound over velocity.
 
 mod case;
 mod codes;
@@ -26,25 +26,26 @@ const EXAMPLES: &str = "Examples:
   hertzlamb export table scenes/plastic-drop.toml --velocities 0.01,10 -o drop.csv
   hertzlamb export lammps scenes/plastic-drop.toml --target-diameter 0.005 -o in.pair
 
-Run them with `lmp -in in.drop` and `yade -n -x drop.py`: both print restitution, peak force and contact time.";
+Run the files with `lmp -in in.drop` and `yade -n -x drop.py`: both print restitution, peak force and contact time.";
 
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Arguments {
-    /// What is written.
+    /// Format of the file.
     format: Format,
     /// Scene file (TOML, see data-schema/scene.md); - is standard input.
     scene: PathBuf,
-    /// The file to write.
+    /// File to write.
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
-    /// The target is no block but a ball of this diameter in m, free to move.
+    /// Replace the block by a free ball of this diameter in m.
     #[arg(long, value_name = "METRES", allow_negative_numbers = true)]
     target_diameter: Option<f64>,
-    /// Velocities of a table in m/s, evenly in their logarithm; a hundredth of the scene's up to it otherwise.
+    /// Velocities of a table in m/s, with logarithmic spacing. Default: from 1/100 of the scene's velocity up to that
+    /// velocity.
     #[arg(long, value_name = "FROM,TO", value_delimiter = ',', num_args = 1)]
     velocities: Option<Vec<f64>>,
-    /// Rows of a table.
+    /// Number of rows of a table. Default: 41.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=10_000))]
     rows: Option<u32>,
     #[command(flatten)]
@@ -56,11 +57,11 @@ pub(crate) struct Arguments {
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Format {
-    /// An input of LAMMPS.
+    /// Input file for LAMMPS.
     Lammps,
-    /// A script for YADE.
+    /// Script for YADE.
     Yade,
-    /// Restitution, loss, contact time and peak force against velocity, as CSV.
+    /// CSV table of restitution, loss, contact time and peak force over velocity.
     Table,
 }
 
@@ -71,7 +72,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         CSV.check(output)?;
     } else if velocities.is_some() || rows.is_some() {
         return Err(Failure::input(
-            "--velocities and --rows are those of a table: leave them out",
+            "--velocities and --rows apply only to the format table: leave them out",
         ));
     }
     let (scene, inputs) = read_with_inputs(&arguments.scene)?;
@@ -112,11 +113,11 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     show(arguments.json, &report)
 }
 
-/// The file that was written, and what it holds.
+/// Report of the written file.
 #[derive(Serialize)]
 struct Exported {
     output: String,
-    /// Of a file with a force law.
+    /// Absent from a table.
     #[serde(skip_serializing_if = "Option::is_none")]
     law: Option<LawReport>,
     #[serde(flatten)]
@@ -131,7 +132,7 @@ impl Display for Exported {
     }
 }
 
-/// Notes and warnings as comments, which all three formats have in the same way.
+/// Notes and warnings as comments, the same in all three formats.
 fn head(run: &Run, notes: &[String]) -> String {
     let version = env!("CARGO_PKG_VERSION");
     let mut text = format!("# hertzlamb {version}: SI units\n");

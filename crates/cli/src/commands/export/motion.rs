@@ -1,6 +1,6 @@
-//! A ball on a force law of a particle code, followed from the first contact to the last.
+//! Motion of a ball under a force law of a particle code, from the first to the last contact.
 //!
-//! In the units of a collision: v' = -(5/4) p, and Hertz's law is p = d^1.5.
+//! In collision units: v' = -(5/4) p, and Hertz's law is p = d^1.5.
 
 use std::f64::consts::PI;
 
@@ -8,11 +8,11 @@ use std::f64::consts::PI;
 const TOUCH: f64 = 1e-10;
 const LARGEST_RELATIVE_STEP: f64 = 0.05;
 
-/// Largest step, and the step with which the end of a contact that does not pull is found.
+/// Largest time step, and the step that locates the end of a contact without tensile force.
 const LARGEST_STEP: f64 = 2e-3;
 const SMALLEST_STEP: f64 = 1e-9;
 
-/// Largest ratio of damping, whose restitution is below 1e-3.
+/// Largest damping ratio; its restitution is below 1e-3.
 const MOST_DAMPING: f64 = 50.0;
 
 /// Results of a contact.
@@ -25,27 +25,27 @@ pub(super) struct Rebound {
     pub(super) depth: f64,
 }
 
-/// How a law loses energy.
+/// Damping of a force law.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Damping {
     None,
-    /// (9/4) c d v with the lag c: the dashpot on the contact's area.
+    /// (9/4) c d v with the lag c: the area dashpot.
     Area(f64),
-    /// 2 beta sqrt(m k) v with the stiffness k = dp/dd: one restitution at every velocity.
+    /// 2 beta sqrt(m k) v with the stiffness k = dp/dd: the same restitution at all velocities.
     Ratio(f64),
 }
 
 impl Damping {
-    /// The ratio of a restitution e in (0, 1] for a code whose contacts pull: `sqrt(5/6) |ln e|/sqrt(pi^2 + ln^2 e)`.
+    /// The ratio for a restitution e in (0, 1] in a code with tensile damping: `sqrt(5/6) |ln e|/sqrt(pi^2 + ln^2 e)`.
     ///
-    /// Where the force is cut at zero the ratio is the one with which the ball leaves with e.
+    /// If the force is cut at zero, the ratio is solved for such that the ball leaves with e.
     pub(super) fn of_restitution(restitution: f64, pulls: bool) -> Self {
         let decay = -restitution.ln();
         if pulls || decay <= 0.0 {
             return Self::Ratio((5.0_f64 / 6.0).sqrt() * decay / decay.hypot(PI));
         }
         let (mut low, mut high) = (0.0, MOST_DAMPING);
-        // a ratio to 1e-13 of the largest
+        // bisects to 1e-13 of the largest ratio
         for _ in 0..43 {
             let middle = 0.5 * (low + high);
             let slow = Self::Ratio(middle).rebound(false).restitution < restitution;
@@ -65,7 +65,7 @@ impl Damping {
         d * root + damping * v
     }
 
-    /// The contact of this damping beside Hertz's spring, to 1e-6; `pulls` where the force is not cut at zero.
+    /// The contact with this damping and Hertz's spring, to 1e-6; `pulls` if the force is not cut at zero.
     pub(super) fn rebound(self, pulls: bool) -> Rebound {
         let slope = |[d, v]: [f64; 2]| [v, -1.25 * self.force(d.max(0.0), v)];
         let moved =

@@ -1,6 +1,6 @@
 
-# Stiffness and damping are given at each step, by the material, radius and mass of the two bodies in contact: YADE takes
-# half of the radius between a sphere and a wall.
+# Stiffness and damping are set at each step from the material, radius and mass of the two bodies in contact, because YADE
+# uses half of the radius between a sphere and a wall.
 from math import pi, sqrt
 
 forces = []
@@ -25,7 +25,7 @@ def law():
 
 
 def shortest():
-    """A time in s below that of any contact that the balls can have: it goes with the radius of the lightest."""
+    """A lower bound in s of all contact times of the balls; it is proportional to the radius of the lightest."""
     balls = spheres(O.bodies)
     stiffest = max(modulus for modulus, _, _ in LAWS.values())
     speed = V + 2 * max(ball.state.vel.norm() for ball in balls)
@@ -35,7 +35,7 @@ def shortest():
 def check():
     steps = shortest() / O.dt
     if steps < LEAST:
-        raise ValueError(f"{steps:.0f} steps over the shortest contact, fewer than {LEAST:.0f}: give a smaller O.dt")
+        raise ValueError(f"{steps:.0f} steps over the shortest contact, fewer than {LEAST:.0f}: use a smaller O.dt")
 
 
 MODULUS = LAWS["striker", "target"][0]  # for the first step of a contact

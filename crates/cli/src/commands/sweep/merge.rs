@@ -11,12 +11,13 @@ use std::path::{Path, PathBuf};
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// The folder of the parts.
+    /// Folder with the parts.
     folder: PathBuf,
-    /// Results file: HDF5, or Parquet where the name ends with .parquet, whatever the parts are.
+    /// Results file: Parquet if the name ends with .parquet, HDF5 otherwise. The format of the parts does not matter.
     #[arg(short, long, value_name = "OUT")]
     output: PathBuf,
-    /// Copy no results: the output (HDF5) refers to the parts (HDF5), which have to stay where they are, seen from it.
+    /// Copy no results: the output (HDF5) refers to the parts (HDF5) by their relative paths, so they must not move
+    /// relative to it.
     #[arg(long = "virtual")]
     refer: bool,
     #[command(flatten)]
@@ -31,13 +32,13 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     check_rows(output)?;
     let claimed = arguments.overwrite.claim(output, &[])?;
     let mut parts = Parts::in_folder(&arguments.folder, None).map_err(failure)?;
-    // with --force the output itself may be a merged sweep of before
+    // with --force the output itself may be an earlier merged sweep
     let there = claimed.real.canonicalize().ok();
     let is_there = |path: &Path| there.is_some() && path.canonicalize().ok() == there;
     if let Some(part) = parts.parts.iter().find(|part| is_there(&part.path)) {
         let part = part.path.display();
         return Err(Failure::input(format!(
-            "{part} is a part that this command reads: give the output another name"
+            "{part} is a part that this command reads: choose another name for the output"
         )));
     }
     parts.foreign.retain(|(path, _)| !is_there(path));
@@ -57,7 +58,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     show(arguments.json, &report)
 }
 
-/// The sweep that was written.
+/// Report of the written sweep.
 #[derive(Serialize)]
 struct Merged {
     output: String,

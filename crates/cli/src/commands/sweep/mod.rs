@@ -37,7 +37,7 @@ const EXAMPLES: &str = "Examples:
   hertzlamb sweep merge out -o sweep.h5
   hertzlamb sweep scenes/sweep.toml -o sweep.parquet
 
-An interrupted sweep goes on where it stopped when the same command is given again.
+To resume an interrupted sweep, run the same command again.
 Recipes for Slurm, Snakemake and dask are in docs/cluster.md.";
 
 #[derive(Debug, Args)]
@@ -55,9 +55,9 @@ pub(crate) struct Arguments {
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum SweepAction {
-    /// Says which parts of a sweep a folder has, which are missing and what else lies there.
+    /// Lists present, missing and unrelated parts in a folder.
     Status(status::Arguments),
-    /// Joins the parts of a sweep: byte by byte the file that one run would have written.
+    /// Joins the parts of a sweep; the result is byte for byte the file that one run would have written.
     Merge(merge::Arguments),
 }
 
@@ -66,36 +66,39 @@ pub(crate) struct RunArguments {
     /// Sweep file (TOML, see data-schema/sweep.md); - is standard input.
     #[arg(required = true)]
     sweep: Option<PathBuf>,
-    /// Results file: HDF5, or Parquet where the name ends with .parquet (see data-schema/sweep.md).
+    /// Results file: Parquet if the name ends with .parquet, HDF5 otherwise (see data-schema/sweep.md).
     #[arg(short, long, value_name = "OUT", required_unless_present_any = ["plan", "csv"])]
     output: Option<PathBuf>,
-    /// Also write the rows as text; - is standard output, for which no OUT is needed.
+    /// Also write the rows as text. With - for standard output, -o OUT is not required.
     #[arg(long, value_name = "OUT.csv")]
     csv: Option<PathBuf>,
     #[command(flatten)]
     kernels: KernelOptions,
-    /// Compute part I of N into the output, which is then a part for `hertzlamb sweep merge`.
+    /// Compute part I of N into the output, a part for `hertzlamb sweep merge`.
     #[arg(long, value_name = "I/N")]
     shard: Option<Shard>,
-    /// Compute the rows from A up to B, which is not among them, into the output, which is then a part.
+    /// Compute the rows A to B-1 into the output, a part for `hertzlamb sweep merge`.
     #[arg(long, value_name = "A:B", conflicts_with = "shard", value_parser = range)]
     rows: Option<Range<usize>>,
-    /// Results to write, comma-separated, such as peak_force_n,restitution; all otherwise. Model and failure always are.
+    /// Results to write, comma-separated, such as peak_force_n,restitution. Default: all. Model and failure are always
+    /// written.
     #[arg(long, value_name = "NAME,...", value_delimiter = ',')]
     columns: Option<Vec<String>>,
-    /// Write results with 32 bits instead of 64, rounded by up to 6e-8 of themselves.
+    /// Write results with 32 bits instead of 64, which rounds them by a relative 6e-8 at most.
     #[arg(long)]
     float32: bool,
-    /// Succeed at once where the output is whole and of the same sweep, rows and version; fail with 1 where it is not.
+    /// If the output exists: succeed at once if it is complete and of the same sweep, rows and version, fail with exit
+    /// code 1 otherwise.
     #[arg(long, conflicts_with = "force", requires = "output")]
     skip_complete: bool,
-    /// End with exit code 1 if a scene failed. Default: only if all of them failed. The outputs are written in both cases.
+    /// Exit with code 1 if any scene failed. Default: only if all scenes failed. The outputs are written in both cases.
     #[arg(long)]
     fail_if_failed: bool,
-    /// Compute a few rows and say what the sweep takes, in shards; nothing is written.
+    /// Compute a few rows and print the time, memory and disk space that the sweep needs, in total and per shard; write
+    /// nothing.
     #[arg(long, conflicts_with_all = ["output", "csv", "shard", "rows", "skip_complete", "force"])]
     plan: bool,
-    /// Shards of the plan; as many as take five minutes each otherwise.
+    /// Number of shards in the plan. Default: such that each takes five minutes.
     #[arg(long, value_name = "N", requires = "plan", value_parser = clap::value_parser!(u32).range(1..))]
     shards: Option<u32>,
     #[command(flatten)]
@@ -107,11 +110,11 @@ pub(crate) struct RunArguments {
     json: bool,
 }
 
-/// A:B.
+/// Parses A:B.
 fn range(text: &str) -> Result<Range<usize>, String> {
     let ends = text.split_once(':');
     let ends = ends.and_then(|(a, b)| Some((a.parse().ok()?, b.parse().ok()?)));
-    let (start, end) = ends.ok_or("give A:B with whole numbers, as in 0:32768")?;
+    let (start, end) = ends.ok_or("use A:B with whole numbers, as in 0:32768")?;
     if start > end {
         return Err(format!("{start} is after {end}"));
     }
@@ -129,28 +132,28 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
             stream(run, sweep)
         }
         (None, _, _) => Err(Failure::input(
-            "give a sweep file and -o OUT; only --csv - needs no OUT",
+            "pass a sweep file and -o OUT; only --csv - works without OUT",
         )),
     }
 }
 
-/// The sweep with the rows that are asked for, within the memory that there is.
+/// The sweep with the selected rows, if it fits into memory.
 fn selected(arguments: &RunArguments, sweep: &Path) -> Result<Spec, Failure> {
     let mut spec = spec(arguments, sweep)?;
     let (memory, needed) = (arguments.memory, spec.memory_bytes());
-    memory.check(needed, "the sweep", "ask for fewer values")?;
+    memory.check(needed, "the sweep", "use fewer values")?;
     match (arguments.shard, &arguments.rows) {
         (Some(shard), _) => spec.select_shard(shard),
         (None, Some(rows)) => spec.select_rows(rows.clone())?,
         (None, None) => {}
     }
     let fields = fields_bytes(&spec).map_err(|error| error.in_file(sweep))?;
-    let change = "ask for fewer probes, a larger step_s or a smaller duration_s, or compute on fewer threads";
+    let change = "use fewer probes, a larger step_s, a smaller duration_s or fewer threads";
     memory.check(needed + fields, "the sweep with its fields", change)?;
     Ok(spec)
 }
 
-/// Writes rows to standard output as they are computed; none of them is kept.
+/// Writes rows to standard output as they are computed and keeps none.
 fn stream(arguments: &RunArguments, sweep: &Path) -> Result<(), Failure> {
     if arguments.json {
         return Err(Failure::input(STREAMED));
@@ -170,7 +173,8 @@ fn stream(arguments: &RunArguments, sweep: &Path) -> Result<(), Failure> {
     tally.verdict(arguments, spec.selected().len())
 }
 
-const STREAMED: &str = "--csv - and --json both go to standard output: give the rows a file";
+const STREAMED: &str =
+    "--csv - and --json both write to standard output: use --csv OUT.csv for the rows";
 
 /// Rows that are counted while they are computed.
 struct Watched<'a> {
@@ -208,7 +212,7 @@ fn compute(arguments: &RunArguments, sweep: &Path, output: &Path) -> Result<(), 
     outputs.write(&spec, &kept)?;
     let took_s = [start.elapsed().as_secs_f64(), computing_s];
     let report = SweepReport::new(arguments, &spec, &outputs, &tally, took_s, kept.resumed);
-    // where the rows or the report cannot be printed, the same command goes on with what is kept
+    // if the rows or the report cannot be printed, the same command resumes from the kept rows
     if outputs.print {
         report.to_string().lines().for_each(say);
         print_rows(&spec, &kept)?;
@@ -219,7 +223,7 @@ fn compute(arguments: &RunArguments, sweep: &Path, output: &Path) -> Result<(), 
     tally.verdict(arguments, spec.selected().len())
 }
 
-/// Rows that were computed and written.
+/// Report of computed and written rows.
 #[derive(Serialize)]
 struct SweepReport {
     output: String,
@@ -236,12 +240,12 @@ struct SweepReport {
     untrusted: usize,
     wall_s: f64,
     computing_s: f64,
-    /// Of rows that are a part of the sweep.
+    /// First row, if the rows are a part of the sweep.
     #[serde(skip_serializing_if = "Option::is_none")]
     first_row: Option<usize>,
     #[serde(skip_serializing_if = "Option::is_none")]
     shard: Option<String>,
-    /// Rows whose fields were looked up, of a sweep with probes.
+    /// Rows whose fields were looked up, for a sweep with probes.
     #[serde(skip_serializing_if = "Option::is_none")]
     looked_up: Option<usize>,
     /// Name and length of each axis.
@@ -307,7 +311,7 @@ impl Display for SweepReport {
         }
         if self.untrusted > 0 {
             let faster = format!(
-                "{} faster than plasticity = \"jackson_green\" is trusted (velocity_over_trusted above 1): use \"thornton\" or \"recovery\" there",
+                "{} are too fast for plasticity = \"jackson_green\" (velocity_over_trusted above 1): use \"thornton\" or \"recovery\" there",
                 self.untrusted
             );
             text.push(("untrusted", faster));
@@ -325,7 +329,7 @@ impl Display for SweepReport {
     }
 }
 
-/// The sweep, and what of its results is written.
+/// The sweep with its kernels and the selected results.
 fn spec(arguments: &RunArguments, sweep: &Path) -> Result<Spec, Failure> {
     let read = match is_standard(sweep) {
         true => Spec::from_standard_input(),
@@ -333,7 +337,7 @@ fn spec(arguments: &RunArguments, sweep: &Path) -> Result<Spec, Failure> {
     };
     let spec = read.map_err(|error| {
         let is_scene = error.culprit().key.as_deref() == Some("scene");
-        Failure::from(error).hint_if(is_scene, "; one scene is computed by `hertzlamb impact`")
+        Failure::from(error).hint_if(is_scene, "; for one scene use `hertzlamb impact`")
     })?;
     let mut spec = arguments.kernels.with_fields(spec)?;
     if let Some(names) = &arguments.columns {
@@ -345,13 +349,13 @@ fn spec(arguments: &RunArguments, sweep: &Path) -> Result<Spec, Failure> {
     Ok(spec)
 }
 
-/// Computes the rows; what is done is kept from moment to moment.
+/// Computes the rows and keeps finished blocks in the journal.
 fn rows(overwrite: Overwrite, spec: &Spec, outputs: &Outputs) -> Result<Option<Kept>, SweepError> {
     static KEPT: AtomicUsize = AtomicUsize::new(0);
     let (rows, place) = (spec.selected().len(), outputs.part.clone());
     process::say_then(move || {
         let (kept, place) = (KEPT.load(Ordering::Relaxed), place.display());
-        format!("{kept} of {rows} scenes are kept in {place}; the same command goes on with them")
+        format!("{kept} of {rows} scenes are kept in {place}; run the same command again to resume")
     });
     let progress = Bar::new();
     progress.total("scenes", rows as u64);
@@ -362,28 +366,28 @@ fn rows(overwrite: Overwrite, spec: &Spec, outputs: &Outputs) -> Result<Option<K
     })
 }
 
-/// A sweep that could not be run or joined, with what to do.
+/// Failure to run or join a sweep, with a hint.
 fn failure(error: SweepError) -> Failure {
     let other = matches!(error, SweepError::Output(OutputError::Begun(..)));
     let missing = matches!(error, SweepError::Missing(..));
-    let drop = "; give --force to drop it, or another output to keep it";
+    let drop = "; pass --force to drop it, or choose another output to keep it";
     Failure::from(error)
         .hint_if(other, drop)
-        .hint_if(missing, "; hertzlamb sweep status lists them")
+        .hint_if(missing, "; `hertzlamb sweep status` lists them")
 }
 
-/// Where a sweep goes, claimed before any work.
+/// Outputs of a sweep, claimed before any work.
 struct Outputs {
     results: Output,
     csv: Option<Output>,
     /// Whether the rows go to standard output.
     print: bool,
-    /// Where finished blocks are kept until all are there: beside the results, under their name and `.part`.
+    /// Journal of finished blocks until all are computed: the name of the results with `.part` appended.
     part: PathBuf,
 }
 
 impl Outputs {
-    /// Claims all outputs; nothing where they are there already and that is enough.
+    /// Claims all outputs; returns none if they exist already and `--skip-complete` accepts them.
     fn claim(
         arguments: &RunArguments,
         sweep: &Path,
@@ -413,16 +417,18 @@ impl Outputs {
         apart(&outputs, &inputs)?;
         let claim = |path: &Path| Output::claim(path, Existing::KeepUnlessSame);
         let (results, csv) = (claim(output)?, csv.map(claim).transpose()?);
-        // a run that was killed while it gave its outputs their names has left some of them
+        // a run that was killed while it renamed its outputs has left some of them
         let wanted = arguments.overwrite.existing();
         let finish = wanted == Existing::Keep && is_computed(spec, &part);
         if arguments.skip_complete && !finish && results.real.exists() {
             check_complete(output, spec).map_err(Failure::work)?;
             return match csv.filter(|csv| !csv.real.exists()) {
                 None if !print => Ok(None),
-                None => Err(Failure::work("--skip-complete has no rows for --csv -")),
+                None => Err(Failure::work(
+                    "--csv - cannot print rows that --skip-complete does not compute: leave one of them out",
+                )),
                 Some(csv) => Err(Failure::work(format!(
-                    "{} is complete, but {} is not there; give --force to compute both",
+                    "{} is complete, but {} does not exist; pass --force to compute both",
                     output.display(),
                     csv.path.display()
                 ))),
@@ -442,7 +448,7 @@ impl Outputs {
         }))
     }
 
-    /// Writes all outputs, then gives them their names.
+    /// Writes all outputs, then renames them to their final names.
     fn write(&self, spec: &Spec, blocks: &impl Blocks) -> Result<(), Failure> {
         let results = stage_rows(&self.results, spec, blocks)?;
         let csv = self.csv.as_ref();
@@ -452,14 +458,14 @@ impl Outputs {
     }
 }
 
-/// Refuses rows that the disk does not hold, in the file and, while it is written, in the journal.
+/// Rejects rows that exceed the free disk space, counted for the file and, while it is written, the journal.
 fn check_disk(spec: &Spec, part: &Path) -> Result<(), Failure> {
     let (rows, (bytes, kept)) = (spec.selected().len(), row_bytes(spec));
     let there = std::fs::metadata(part).map_or(0.0, |journal| journal.len() as f64);
     let needed = rows as f64 * (bytes + kept) as f64 - there;
     match free_disk(part) {
         Some(free) if needed > free => Err(Failure::until_later(format!(
-            "no space left: {rows} rows need about {:.3} GB of disk while they are written, more than the {:.3} GB free beside {}: ask for fewer, or for a shard of them elsewhere",
+            "no space left: {rows} rows need about {:.3} GB of disk while they are written, more than the {:.3} GB free in the folder of {}: compute fewer rows, or write shards to another disk",
             1e-9 * needed,
             1e-9 * free,
             part.display()
@@ -477,12 +483,13 @@ fn print_rows(spec: &Spec, blocks: &impl Blocks) -> Result<(), Failure> {
     }
 }
 
-/// What is counted over all rows.
+/// Counts over all rows.
 #[derive(Debug, Default)]
 struct Tally {
     failed: usize,
     first: Option<(usize, String)>,
-    /// Scenes with one of [`COUNTED`] above 1: those that yield, that may crack, and whose law of flow is not trusted.
+    /// Scenes with one of [`COUNTED`] above 1: those that yield, that may crack, and that are too fast for their
+    /// plasticity law.
     beyond: [usize; 3],
     /// Rows whose fields were looked up.
     looked_up: usize,
@@ -509,7 +516,7 @@ impl Tally {
         }
     }
 
-    /// Warns of scenes that failed; an error where all of them did, or one where that is asked for.
+    /// Warns about failed scenes; returns an error if all failed, or if one failed and `--fail-if-failed` is set.
     fn verdict(&self, arguments: &RunArguments, rows: usize) -> Result<(), Failure> {
         let Some((row, reason)) = &self.first else {
             return Ok(());

@@ -1,4 +1,4 @@
-//! `hertzlamb sweep --plan`: what a sweep takes, measured on a few of its rows.
+//! `hertzlamb sweep --plan`: cost of a sweep, measured on a few of its rows.
 
 use super::RunArguments;
 use crate::failure::{Failure, lines, show};
@@ -9,11 +9,11 @@ use std::fmt::{self, Display, Formatter};
 use std::path::Path;
 use std::time::Instant;
 
-/// Time in s that a shard is to take.
+/// Target time of a shard in s.
 const SHARD_S: f64 = 300.0;
-/// Shards at most: what Slurm takes as one array unless told otherwise.
+/// Largest number of shards: the default limit of Slurm for the size of an array.
 const MOST_SHARDS: usize = 1000;
-/// Time in s of the measurement, about.
+/// Approximate time of the measurement in s.
 const MEASURED_S: f64 = 1.0;
 /// Rows of the first measurement.
 const FIRST_ROWS: usize = 64;
@@ -31,7 +31,7 @@ pub(crate) fn run(arguments: &RunArguments, sweep: &Path, spec: &Spec) -> Result
     let count = arguments.shards.map_or(own, |count| count as usize);
     let rows_per_shard = (grains.div_ceil(count) * grain).min(rows);
     let (bytes, kept) = row_bytes(spec);
-    // 32 bytes of its seal for each 8192
+    // the checksum trailer has 32 bytes for each 8192
     let sealed = |bytes: usize| bytes + bytes / 256;
     let bytes_per_shard = sealed(rows_per_shard * bytes);
     let report = SweepPlan {
@@ -52,7 +52,7 @@ pub(crate) fn run(arguments: &RunArguments, sweep: &Path, spec: &Spec) -> Result
     show(arguments.json, &report)
 }
 
-/// Time, memory and disk that a sweep takes, as a whole and by shards.
+/// Time and disk space that a sweep needs, in total and per shard.
 #[derive(Serialize)]
 struct SweepPlan {
     rows: usize,
@@ -79,7 +79,7 @@ impl Display for SweepPlan {
             self.shards, self.rows_per_shard, self.seconds_per_shard
         );
         let rate = format!(
-            "{:.0} rows a second on {} threads, from {} rows",
+            "{:.0} rows per second on {} threads, measured on {} rows",
             self.rows_per_second, self.threads, self.measured_rows
         );
         let all = format!("{all}, {:.3} s on this machine", self.seconds);
@@ -89,13 +89,13 @@ impl Display for SweepPlan {
             ("shards", shards),
             ("in all", all),
             ("rate", rate),
-            ("disk", format!("{disk} a shard while it is written")),
+            ("disk", format!("{disk} per shard while it is written")),
         ]))
     }
 }
 
-/// Rows spread over the sweep, and how many of them a second takes; time is that of the processor, which other work on
-/// the machine changes little.
+/// Number of measured rows, spread over the sweep, and rows per second. The time is processor time, which depends little
+/// on other work on the machine.
 fn measure(spec: &Spec, threads: usize) -> Result<(usize, f64), formats::SceneError> {
     let mut count = FIRST_ROWS.min(spec.rows());
     loop {

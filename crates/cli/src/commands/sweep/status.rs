@@ -1,4 +1,4 @@
-//! `hertzlamb sweep status`: what a folder of parts has and lacks.
+//! `hertzlamb sweep status`: present, missing and unrelated parts in a folder.
 
 use super::failure;
 use crate::arguments::KernelOptions;
@@ -12,17 +12,17 @@ use std::path::PathBuf;
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// The folder of the parts.
+    /// Folder with the parts.
     folder: PathBuf,
-    /// The sweep file; that of most parts otherwise.
+    /// Sweep file. Default: the sweep of most parts.
     #[arg(long, value_name = "SWEEP.toml")]
     sweep: Option<PathBuf>,
     #[command(flatten)]
     kernels: KernelOptions,
-    /// Into how many shards it is divided; as the parts say otherwise.
+    /// Number of shards of the sweep. Default: the number stored in the parts.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=Shard::MOST as i64))]
     shards: Option<u32>,
-    /// Print the missing shards alone, as a Slurm array takes them: 3,17,40-42; an empty line for none.
+    /// Print only the missing shards, in the format of a Slurm array: 3,17,40-42; an empty line if none is missing.
     #[arg(long, conflicts_with = "json")]
     missing: bool,
     /// Print one JSON object instead of text.
@@ -38,15 +38,14 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let shards = shards.or(parts.shards());
     let missing_shards = shards.map(|count| parts.missing_shards(count));
     if arguments.missing {
-        let unknown =
-            "the parts do not say into how many shards the sweep is divided: give --shards N";
+        let unknown = "the parts do not store the number of shards of the sweep: pass --shards N";
         let missing = missing_shards.ok_or_else(|| Failure::input(unknown))?;
         return print(ranges(&missing));
     }
     show(arguments.json, &Status::of(&parts, shards, missing_shards))
 }
 
-/// The parts of a sweep in a folder, and what the folder lacks.
+/// Present and missing parts of a sweep in a folder.
 #[derive(Serialize)]
 struct Status {
     sweep_sha256: String,
@@ -73,14 +72,14 @@ struct PartReport {
     sealed: bool,
 }
 
-/// A file that is none of the parts.
+/// A file in the folder that is not a part of the sweep.
 #[derive(Serialize)]
 struct ForeignFile {
     file: String,
     reason: String,
 }
 
-/// A run that is at work or was interrupted.
+/// A run that is in progress or was interrupted.
 #[derive(Serialize)]
 struct UnfinishedRun {
     file: String,
@@ -127,7 +126,7 @@ impl Status {
         }
     }
 
-    /// Shards and ranges of rows that no part has, a line each.
+    /// Missing shards and ranges of rows, one line each.
     fn missing(&self) -> Vec<String> {
         let mut text = Vec::new();
         if let (Some(missing), Some(count)) = (&self.missing_shards, self.shards)
@@ -167,7 +166,7 @@ impl Display for Status {
         let unsealed = self.parts.iter().filter(|part| !part.sealed).count();
         if unsealed > 0 {
             let of_older =
-                format!("{unsealed} parts of an older version: damage to them is not seen");
+                format!("{unsealed} parts of an older version, in which damage is not detected");
             text.push(("unsealed", of_older));
         }
         if self.complete {
@@ -177,10 +176,10 @@ impl Display for Status {
     }
 }
 
-/// Ranges that are told one by one.
+/// Number of missing ranges that are listed individually.
 const MOST_LINES: usize = 5;
 
-/// Ascending numbers as a Slurm array takes them.
+/// Ascending numbers in the format of a Slurm array.
 fn ranges(numbers: &[usize]) -> String {
     let runs = numbers.chunk_by(|before, next| before + 1 == *next);
     let told: Vec<String> = runs

@@ -1,16 +1,16 @@
-//! A run of rows with their results.
+//! Consecutive rows with their results.
 
 use crate::quantities::QUANTITIES;
 use contact::{Choice, Model};
 use output::OutputFault;
 use std::ops::Range;
 
-/// Consecutive rows, of which no more than a block needs to be in memory.
+/// Source of consecutive rows that holds only one block in memory.
 pub trait Blocks {
-    /// Shows the blocks in the order of their rows; ends with the first reason to stop.
+    /// Visits the blocks in the order of their rows; stops at the first error.
     ///
     /// # Errors
-    /// That of `visit`, or why a block cannot be read.
+    /// An error of `visit`, or a block that cannot be read.
     fn each(
         &self,
         visit: &mut dyn FnMut(&Block) -> Result<(), OutputFault>,
@@ -26,21 +26,21 @@ impl<T: AsRef<[Block]> + ?Sized> Blocks for T {
     }
 }
 
-/// Sentence about a block that cannot have been computed.
-pub(crate) const NOT_HELD: &str = "it has models that are not known, or failures without reasons";
+/// Message about a block that cannot have been computed.
+pub(crate) const NOT_HELD: &str = "it has unknown models or failures without reasons";
 
 /// Results of consecutive rows.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Block {
     /// First row.
     pub start: usize,
-    /// Numbers of a row: those of [`QUANTITIES`], and behind them what the probes bring.
+    /// Numbers per row: those of [`QUANTITIES`], followed by those of the probes.
     pub width: usize,
-    /// All numbers, one row behind the other; NaN where a scene, or its fields, failed.
+    /// All numbers, row by row; NaN if a scene or its fields failed.
     pub numbers: Vec<f64>,
     /// Model of each row as an index into the list of models.
     pub models: Vec<u8>,
-    /// Rows that failed, or whose fields did, and why.
+    /// Rows that failed, or whose fields failed, and the reasons.
     pub failures: Vec<(usize, String)>,
 }
 
@@ -55,7 +55,7 @@ impl Block {
         block
     }
 
-    /// Room for rows, with whatever stood there before.
+    /// Resizes the block for rows; the numbers keep arbitrary old values.
     pub(crate) fn make_room(&mut self, start: usize, rows: usize, width: usize) {
         (self.start, self.width) = (start, width);
         self.numbers.resize(width * rows, f64::NAN);
@@ -63,12 +63,12 @@ impl Block {
         self.failures.clear();
     }
 
-    /// How many rows.
+    /// Number of rows.
     pub fn len(&self) -> usize {
         self.models.len()
     }
 
-    /// Whether there are none.
+    /// Whether the block is empty.
     pub fn is_empty(&self) -> bool {
         self.models.is_empty()
     }
@@ -91,7 +91,7 @@ impl Block {
         }
     }
 
-    /// The failures of some rows, which count from the first.
+    /// The failures of some rows, counted from the first.
     pub(super) fn failures_of(&self, some: &Range<usize>) -> &[(usize, String)] {
         let before = |end: usize| {
             self.failures
@@ -100,7 +100,7 @@ impl Block {
         &self.failures[before(some.start)..before(some.end)]
     }
 
-    /// Adds some rows of another block, which count from its first and follow those that are there.
+    /// Appends some rows of another block, counted from its first; they follow the existing rows.
     #[cfg(feature = "parquet")]
     pub(super) fn extend(&mut self, other: &Self, some: Range<usize>) {
         if self.is_empty() {
@@ -118,7 +118,7 @@ impl Block {
         self.rows().filter(first_of_probes).count()
     }
 
-    /// Whether it can have been computed: known models, and a reason within the block for each scene that failed.
+    /// Whether the block can have been computed: known models, and a reason within the block for each failed scene.
     pub(crate) fn holds(&self) -> bool {
         let rows = self.range();
         let failed = |model: &u8| *model == NO_MODEL;
@@ -128,7 +128,7 @@ impl Block {
             && self.failures.is_sorted_by(|a, b| a.0 < b.0)
             && self.numbers.len() == self.width * self.len()
             && {
-                // each failed contact has a reason, and nothing else but fields
+                // each failed contact has a reason; other reasons concern fields only
                 let count = self.models.iter().filter(|m| failed(m)).count();
                 let of_contact = |row: usize| failed(&self.models[row - self.start]);
                 let reasons = self.failures.iter();

@@ -1,4 +1,4 @@
-//! The columns of a file of rows, whatever its format, and their values.
+//! The columns of a file of rows in any format, and their values.
 
 use super::block::{Block, Blocks};
 use crate::quantities::Described;
@@ -10,25 +10,25 @@ use crate::sweep::spec::Spec;
 use output::OutputFault;
 use std::ops::Range;
 
-/// What a column holds.
+/// Content of a column.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum What<'a> {
     /// The number of the row in the sweep.
     Row,
     /// The value of a key that varies.
     Key {
-        /// Rows from one value of the axis to the next.
+        /// Rows between consecutive values of the axis.
         stride: usize,
         values: &'a Values,
     },
-    /// A result, by its place.
+    /// A result, by its index.
     Number(usize),
     Model,
     /// The reason of a failure.
     Failure,
 }
 
-/// A column of such a file.
+/// A column of a file of rows.
 #[derive(Debug)]
 pub(crate) struct Column<'a> {
     pub(crate) described: Described,
@@ -48,7 +48,7 @@ pub(crate) enum Cells<'b> {
     Reasons(Vec<Option<&'b str>>),
 }
 
-/// The number of the row, the keys that vary, the results, the model and the reason of a failure.
+/// All columns: number of the row, keys that vary, results, model and reason of a failure.
 pub(crate) fn columns(spec: &Spec) -> Vec<Column<'_>> {
     let fixed = |described, what| Column { described, what };
     let mut found = vec![fixed(part::ROW.into(), What::Row)];
@@ -65,12 +65,12 @@ pub(crate) fn columns(spec: &Spec) -> Vec<Column<'_>> {
     found
 }
 
-/// What a key that varies is.
+/// Description of a key that varies.
 pub(super) fn described(key: &SweptKey) -> Described {
     of_key(key.name())
 }
 
-/// What a key is, by its name with its section.
+/// Description of a key, by its name with its section.
 fn of_key(name: String) -> Described {
     Described {
         meaning: format!("scene key {name}"),
@@ -79,7 +79,7 @@ fn of_key(name: String) -> Described {
     }
 }
 
-/// What each key of a scene is.
+/// Descriptions of all keys of a scene.
 pub fn described_keys() -> impl Iterator<Item = Described> {
     SECTIONS.into_iter().flat_map(|section| {
         keys_of(section).map(move |key| of_key(format!("{section}.{}", key.name)))
@@ -93,7 +93,7 @@ pub fn column_names(spec: &Spec) -> Vec<String> {
 }
 
 impl What<'_> {
-    /// Whether it is a word of a list.
+    /// The words of a key, if its values are words.
     pub(crate) fn words(&self) -> Option<&Vec<String>> {
         match self {
             Self::Key { values, .. } => values.texts(),
@@ -101,7 +101,7 @@ impl What<'_> {
         }
     }
 
-    /// The values of some rows of a block, which count from its first.
+    /// The values of some rows of a block, counted from its first.
     pub(crate) fn cells<'b>(
         &self,
         spec: &Spec,
@@ -142,7 +142,7 @@ impl What<'_> {
     }
 }
 
-/// A number in single precision, where it has one.
+/// A number in single precision, if it is in range.
 fn single(number: f64, row: usize, name: &str) -> Result<f32, OutputFault> {
     let rounded = number as f32;
     if rounded.is_infinite() && number.is_finite() {
@@ -153,7 +153,7 @@ fn single(number: f64, row: usize, name: &str) -> Result<f32, OutputFault> {
     Ok(rounded)
 }
 
-/// Shows blocks that have to be all rows that are asked for, in order; gives the number of failed ones.
+/// Visits blocks, which must be all selected rows in order; returns the number of failed rows.
 pub(super) fn each_of(
     spec: &Spec,
     blocks: &(impl Blocks + ?Sized),
@@ -161,7 +161,7 @@ pub(super) fn each_of(
 ) -> Result<usize, OutputFault> {
     let rows = spec.selected();
     let (mut next, mut failed) = (rows.start, 0);
-    let missing = |row: usize| OutputFault::from(format!("row {row} is not there"));
+    let missing = |row: usize| OutputFault::from(format!("row {row} is missing"));
     blocks.each(&mut |block| {
         let end = block.start + block.len();
         if block.start != next || end > rows.end {
@@ -179,9 +179,9 @@ pub(super) fn each_of(
     }
 }
 
-/// The unit that a scene key carries in its name, and the ending that says so; `1` and nothing without one.
+/// The unit at the end of a key's name, and that suffix; `1` and an empty suffix for dimensionless keys.
 pub fn key_unit(key: &str) -> (&'static str, &'static str) {
-    // the longest first
+    // longest suffix first
     const KEY_UNITS: [(&str, &str); 9] = [
         ("Pa m^(1/2)", "_pa_sqrt_m"),
         ("kg/m^3", "_kg_m3"),

@@ -10,8 +10,8 @@ use rayon::prelude::*;
 use std::fmt::{Display, Write as _};
 use std::io::{self, BufWriter, Write};
 
-/// Writes one line a row: the varied keys, the results, the model, the reason of a failure; into an output that was claimed
-/// before the work, under its name when it is committed.
+/// Writes one line per row with the varied keys, the results, the model and the reason of a failure into an output that
+/// was claimed before the work; committing it gives the file its name.
 ///
 /// # Errors
 /// [`OutputError`].
@@ -27,16 +27,16 @@ pub fn stage_csv<'a>(
     })
 }
 
-/// The same to something that is open.
+/// Writes the same text to an open writer.
 ///
 /// # Errors
-/// What the system says, or why the rows cannot be read.
+/// An error of the system, or of reading the rows.
 pub fn print_csv(
     file: &mut impl Write,
     spec: &Spec,
     blocks: &(impl Blocks + ?Sized),
 ) -> io::Result<()> {
-    // the lines are numbered by their order
+    // the order of the lines numbers the rows
     let columns = &columns(spec)[1..];
     let mut head = Writer::from_writer(Vec::new());
     head.write_record(columns.iter().map(|column| &column.described.name))?;
@@ -57,7 +57,7 @@ pub fn print_csv(
     unwritten.map_or_else(unread, Err)
 }
 
-/// Lines that are made together.
+/// Lines that are formatted together.
 const AT_A_TIME: usize = 1024;
 
 /// Some lines of a block.
@@ -87,7 +87,7 @@ fn lines(
     Ok(finished(writer)?)
 }
 
-/// The text of a cell; numbers are written into `digits`. A scene that failed has empty fields.
+/// The text of a cell; numbers are formatted into `digits`. Cells of a failed scene are empty.
 fn field<'a>(
     digits: &'a mut String,
     cells: &'a Cells<'_>,
@@ -116,7 +116,7 @@ fn shown(digits: &mut String, number: impl Display) -> &str {
     digits
 }
 
-/// The bytes of the lines that a writer has.
+/// The bytes of a writer's lines.
 fn finished(writer: Writer<Vec<u8>>) -> io::Result<Vec<u8>> {
     writer
         .into_inner()

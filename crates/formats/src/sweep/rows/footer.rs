@@ -1,6 +1,6 @@
-//! What a Parquet file of rows says of itself: one JSON text in its footer, with a seal over the footer.
+//! The footer of a Parquet file of rows: one JSON text with a checksum of the footer.
 //!
-//! It is found and checked without a reader of Parquet: that trusts what it reads.
+//! It is found and checked without a Parquet reader, which would trust its input.
 
 use crate::scene::section::parse;
 use crate::sweep::fields::{Precision, WrittenResults, stored_columns};
@@ -13,25 +13,25 @@ use std::io::{self, Read, Seek, SeekFrom};
 use std::ops::Range;
 use std::path::Path;
 
-/// Version of the format: the first number changes when a reader of the old one would fail.
+/// Version of the format. The first number changes when older readers would fail.
 pub const FORMAT_VERSION: &str = "1.3";
 
-/// How the file begins and ends.
+/// First and last bytes of the file.
 pub(crate) const MAGIC: &[u8; 4] = b"PAR1";
-/// How the text begins: with the type of the file, whichever it is, and the seal behind it.
+/// First bytes of the text: the file type, followed by the checksum.
 const BEGIN: &[u8] = b"{\"file_type\":\"hertzlamb sweep";
 const SEAL: &[u8] = b",\"seal\":\"";
-/// Digits of a seal.
+/// Hexadecimal digits of the checksum.
 pub(super) const DIGITS: usize = 64;
-/// Bytes behind the footer: its length and the magic number.
+/// Bytes after the footer: its length and the magic number.
 pub(super) const TAIL: u64 = 8;
 
-/// The text, key by key.
+/// The JSON text.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(crate) struct Footer {
     /// `hertzlamb sweep` or `hertzlamb sweep part`.
     pub(crate) file_type: String,
-    /// Blank until the file is written.
+    /// Checksum; blank until the file is written.
     pub(super) seal: String,
     pub(crate) format_version: String,
     pub(super) software_version: String,
@@ -43,48 +43,48 @@ pub(crate) struct Footer {
     pub(super) first_row: usize,
     pub(super) rows: usize,
     pub(super) failed: usize,
-    /// Unit and meaning of each.
+    /// Unit and meaning of each column.
     pub(super) columns: Map<String, Value>,
     pub(super) bits: usize,
-    /// SHA-256 of the bytes of each.
+    /// SHA-256 of the bytes of each group.
     pub(crate) row_groups: Vec<String>,
     /// Bytes before the footer.
     pub(super) data_bytes: u64,
 }
 
 impl Footer {
-    /// Reads the text of a file that begins like Parquet, with what it says of the rows; nothing where it is none of the
-    /// program's.
+    /// Reads the text of a file that begins like Parquet, and the description of its rows; none if the program did not
+    /// write it.
     ///
     /// # Errors
-    /// What is wrong with it, in a few words.
+    /// The defect, in a few words.
     pub(crate) fn read(path: &Path) -> Result<Option<(Self, Part)>, String> {
         let found = File::open(path).and_then(|file| footer_in(&file));
         let (bytes, length) = found.map_err(|error| error.to_string())?;
         let Some(bytes) = bytes else {
-            return Err("it has no end: it was cut short".to_owned());
+            return Err("it has no end: it was truncated".to_owned());
         };
         let Some(begin) = find(&bytes, BEGIN) else {
             return Ok(None);
         };
-        let digits = seal_in(&bytes).ok_or("its footer has no seal")?;
+        let digits = seal_in(&bytes).ok_or("its footer has no checksum")?;
         if bytes[digits.clone()] != *sum_without(&bytes, &digits).as_bytes() {
             return Err("its footer was changed".to_owned());
         }
         let mut texts = serde_json::Deserializer::from_slice(&bytes[begin..]).into_iter();
         let found: Option<Self> = texts.next().and_then(Result::ok);
         let found = found.and_then(|found| Some((found.part(path)?, found)));
-        let (part, found) = found.ok_or("its footer does not say what it has")?;
+        let (part, found) = found.ok_or("its footer does not describe its rows")?;
         if part.selection.rows.end > part.sweep_rows {
-            return Err("it has rows beyond those of its sweep".to_owned());
+            return Err("it has more rows than its sweep".to_owned());
         }
         if found.data_bytes.checked_add(bytes.len() as u64 + TAIL) != Some(length) {
-            return Err("its length is not what its footer says".to_owned());
+            return Err("its length differs from the one in its footer".to_owned());
         }
         Ok(Some((found, part)))
     }
 
-    /// All of the footer, as Parquet has it.
+    /// All entries of the footer, as Parquet stores them.
     #[cfg(feature = "parquet")]
     pub(crate) fn bytes(path: &Path) -> io::Result<Vec<u8>> {
         Ok(footer_in(&File::open(path)?)?.0.unwrap_or_default())
@@ -114,7 +114,7 @@ impl Footer {
     }
 }
 
-/// The footer without its length and magic number, if there is one, and the length of the file.
+/// The footer without its length and magic number, if it exists, and the length of the file.
 pub(super) fn footer_in(mut file: &File) -> io::Result<(Option<Vec<u8>>, u64)> {
     let length = file.metadata()?.len();
     file.rewind()?;
@@ -136,7 +136,7 @@ pub(super) fn footer_in(mut file: &File) -> io::Result<(Option<Vec<u8>>, u64)> {
     Ok((Some(bytes), length))
 }
 
-/// Where the digits of the seal are.
+/// Position of the digits of the checksum.
 pub(super) fn seal_in(footer: &[u8]) -> Option<Range<usize>> {
     let begin = find(footer, BEGIN)?;
     let start = begin + find(&footer[begin..], SEAL)? + SEAL.len();
@@ -144,7 +144,7 @@ pub(super) fn seal_in(footer: &[u8]) -> Option<Range<usize>> {
     footer.get(digits.clone()).map(|_| digits)
 }
 
-/// SHA-256 of a footer whose seal is blank.
+/// SHA-256 of a footer whose checksum is blank.
 pub(super) fn sum_without(footer: &[u8], digits: &Range<usize>) -> String {
     sha256_hex([
         &footer[..digits.start],

@@ -1,7 +1,7 @@
-//! Rows as HDF5, as `data-schema/sweep.md` writes it down: all of a sweep in its dimensions, some of them as a part, or all
-//! of them by reference to their parts.
+//! Rows as HDF5, as `data-schema/sweep.md` describes them: a whole sweep in its dimensions, some rows as a part, or a
+//! whole sweep that refers to its parts.
 //!
-//! The datasets are reserved through the library and filled a block at a time.
+//! The library reserves the datasets; they are filled one block at a time.
 
 use super::block::{Blocks, NO_MODEL};
 use super::columns::{Cells, Column, What, columns, described, each_of};
@@ -27,19 +27,20 @@ use std::io;
 use std::io::{Seek, Write};
 use std::ops::Range;
 
-/// Reasons of failures that a file has at most: drawn numbers may make each its own, and all are in memory together.
+/// Largest number of failure reasons in a file: random numbers may make each reason unique, and all are in memory
+/// together.
 const MOST_REASONS: usize = 100_000;
-/// What stands for all later ones.
-const OTHER_REASON: &str = "a reason unlike the first 100000: compute the row by itself";
+/// Replacement for all later reasons.
+const OTHER_REASON: &str = "a reason other than the first 100000: compute this row alone";
 
-/// Writes rows, whose blocks are all there in order, into an output that was claimed before the work: those that are
-/// selected as a part, or all of them.
+/// Writes rows, whose blocks must be complete and in order, into an output that was claimed before the work: the
+/// selected rows as a part, or all rows.
 ///
-/// With `sources` the results of the whole lie in files that have some of the rows each, with their paths seen from the folder
-/// of the output: only which failure a scene has is copied, because each of them counts its own, and nothing but the failures
-/// is taken of the blocks. What is not there when it is read is NaN, and model 255.
+/// With `sources` the results remain in other files, whose paths are relative to the folder of the output. Only the
+/// indices of failures are copied, because each part counts its own reasons, and only the failures of the blocks are
+/// used. Results that are missing when the file is read are NaN, and the model is 255.
 ///
-/// No more than a block is in memory, and the bytes do not depend on how rows are divided into blocks.
+/// Only one block is in memory, and the bytes do not depend on the division into blocks.
 pub(crate) fn stage_hdf5<'a>(
     output: &'a Output,
     spec: &Spec,
@@ -56,14 +57,14 @@ pub(crate) fn stage_hdf5<'a>(
     })
 }
 
-/// What is known once all rows are written.
+/// Writes the data that are known only after all rows.
 fn finish(file: &hdf5::File, failed: usize, reasons: &[String]) -> Result<(), hdf5::Error> {
     scalar(file, schema::FAILED, failed as u64)?;
     let reasons = texts(file, &schema::FAILURES, reasons)?;
     set_scale(&reasons, schema::FAILURES.0)
 }
 
-/// Bytes that a row takes in a part, and in the journal while it is computed.
+/// Bytes per row in a part, and in the journal during the computation.
 pub fn row_bytes(spec: &Spec) -> (usize, usize) {
     let fields = &spec.fields;
     let cells = columns(spec).into_iter();
@@ -73,7 +74,7 @@ pub fn row_bytes(spec: &Spec) -> (usize, usize) {
     (bytes, 8 * kept + 1)
 }
 
-/// What stands in a column for what is not there; it has the type of the column.
+/// Value of a missing number in a column, with the type of the column.
 fn missing(what: What<'_>, precision: Precision) -> OwnedDynValue {
     match (what, precision) {
         (What::Row, _) => 0_i64.into(),
@@ -85,11 +86,11 @@ fn missing(what: What<'_>, precision: Precision) -> OwnedDynValue {
     }
 }
 
-/// A column that is reserved in a file, with the place of its numbers there.
+/// A column that is reserved in a file, with its offset.
 type Reserved<'a> = (What<'a>, Option<u64>);
 
-/// Everything but the rows of a whole sweep, which has its keys along the dimensions of the results, or of a part, which has
-/// them as columns.
+/// Writes all data except the rows: of a whole sweep, with its keys along the dimensions of the results, or of a part,
+/// with its keys as columns.
 fn begin<'a>(
     file: &hdf5::File,
     spec: &'a Spec,
@@ -137,7 +138,7 @@ fn begin<'a>(
             continue;
         }
         if let What::Model = what {
-            // by their indices, divided by blanks
+            // by their indices, separated by blanks
             let names: Vec<&str> = Model::ALL.iter().map(|m| m.name()).collect();
             text(&dataset, schema::NAMES, &names.join(" "))?;
         }
@@ -148,7 +149,7 @@ fn begin<'a>(
             text(&dataset, COORDINATES, &beside.join(" "))?;
         }
     }
-    // the root is what programs open that are told no group
+    // programs that are given no group open the root
     for name in group.member_names()? {
         file.link_hard(&format!("{}/{name}", schema::RESULTS), &name)?;
     }
@@ -159,8 +160,8 @@ fn begin<'a>(
     Ok(reserved)
 }
 
-/// Writes all rows into a file that the library has open: it writes to other places of it, and to them by their places alone.
-/// Gives the number of failed rows, and the distinct reasons in the order in which they come.
+/// Writes all rows into a file that the library has open, at offsets that the library does not touch. Returns the
+/// number of failed rows, and the distinct reasons in order of appearance.
 fn fill(
     file: &File,
     spec: &Spec,
@@ -191,7 +192,7 @@ fn fill(
     Ok((failed, reasons))
 }
 
-/// Writes bytes at a place; where the library writes next is not changed by it.
+/// Writes bytes at an offset without moving the library's file position.
 fn write_at(file: &File, place: u64, bytes: &[u8]) -> io::Result<()> {
     #[cfg(unix)]
     return std::os::unix::fs::FileExt::write_all_at(file, bytes, place);
@@ -203,7 +204,7 @@ fn write_at(file: &File, place: u64, bytes: &[u8]) -> io::Result<()> {
     }
 }
 
-/// The bytes of some cells, and of one of them; reasons are told by their numbers.
+/// The bytes of some cells, and the size of one; reasons are written as their indices.
 fn bytes(cells: Cells<'_>, reasons: &HashMap<String, i32>) -> (Vec<u8>, usize) {
     fn all<T, const N: usize>(
         values: impl IntoIterator<Item = T>,
@@ -226,7 +227,7 @@ fn bytes(cells: Cells<'_>, reasons: &HashMap<String, i32>) -> (Vec<u8>, usize) {
     }
 }
 
-/// What the root of a sweep or of a part says of it and, of a whole sweep, its axes.
+/// Writes the attributes of the root of a sweep or part, and the axes of a whole sweep.
 fn write_root(file: &hdf5::File, spec: &Spec) -> Result<(), hdf5::Error> {
     let [file_type, version] = match spec.selection {
         Some(_) => [part::FILE_TYPE, part::FORMAT_VERSION],
@@ -249,7 +250,7 @@ fn write_root(file: &hdf5::File, spec: &Spec) -> Result<(), hdf5::Error> {
     scalar(file, schema::ROWS, rows.len() as u64)
 }
 
-/// The keys that vary, each with the axis that it belongs to.
+/// Writes the keys that vary, each with the name of its axis.
 fn write_axes(file: &hdf5::File, axes: &[SweepAxis]) -> Result<(), hdf5::Error> {
     let group = file.create_group(schema::AXES)?;
     for axis in axes {
@@ -262,8 +263,8 @@ fn write_axes(file: &hdf5::File, axes: &[SweepAxis]) -> Result<(), hdf5::Error> 
     Ok(())
 }
 
-/// One scale for each dimension beside the results: a group is opened by itself; and the names of the keys that vary along
-/// a dimension with others.
+/// Writes a scale for each dimension into the group of results, which may be opened on its own, and the names of the
+/// keys that share a dimension.
 ///
 /// Of keys that vary together the scale is their number, and each of them a list over it.
 fn write_scales(
@@ -300,7 +301,7 @@ fn write_key(group: &Group, key: &SweptKey) -> Result<Dataset, hdf5::Error> {
     }
 }
 
-/// A dataset of the numbers in the parts.
+/// A dataset that refers to the numbers in the parts.
 fn refer(
     group: &Group,
     labels: &Labels<'_>,
@@ -320,7 +321,7 @@ fn refer(
         for ranges in boxes(shape, rows.clone()) {
             let count: usize = ranges.iter().map(ExactSizeIterator::len).product();
             let slices: Vec<SliceOrIndex> = ranges.into_iter().map(SliceOrIndex::from).collect();
-            // the library takes %b for the number of a file
+            // the library reads %b as the number of a file
             builder = builder.virtual_map(
                 path.replace('%', "%%"),
                 &name,
@@ -337,8 +338,8 @@ fn refer(
     Ok(dataset)
 }
 
-/// Boxes that hold the rows of a range in their order, each once: ranges along the dimensions, the last of which runs
-/// fastest; twice as many as dimensions at most.
+/// Boxes that contain the rows of a range in order, each row once: ranges along the dimensions, of which the last
+/// varies fastest. Their number is at most twice the number of dimensions.
 fn boxes(shape: &[usize], rows: Range<usize>) -> Vec<Vec<Range<usize>>> {
     let (mut found, mut at) = (Vec::new(), rows.start);
     while at < rows.end {
@@ -370,7 +371,7 @@ fn boxes(shape: &[usize], rows: Range<usize>) -> Vec<Vec<Range<usize>>> {
 mod tests {
     use super::*;
 
-    /// Rows of a box in their order.
+    /// Rows of a box in order.
     fn rows(shape: &[usize], ranges: &[Range<usize>]) -> Vec<usize> {
         let mut found = vec![0];
         for (length, range) in shape.iter().zip(ranges) {

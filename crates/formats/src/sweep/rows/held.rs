@@ -1,27 +1,27 @@
-//! Rows that are held in memory together, a result at a time.
+//! Rows that are held in memory together, by result.
 
 use super::block::{Block, Blocks, NO_MODEL};
 use crate::sweep::shard::BLOCK;
 use output::OutputFault;
 use rayon::prelude::*;
 
-/// Some results of rows, which count from 0.
+/// Some results of rows, counted from 0.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Held {
-    /// Numbers that a row of the sweep has.
+    /// Number of results per row of the sweep.
     pub width: usize,
-    /// Places of the results among them.
+    /// Indices of the held results.
     pub places: Vec<usize>,
-    /// All rows of the first result, then of the second; NaN where a row failed.
+    /// All rows of the first result, then of the second, and so on; NaN for failed rows.
     pub numbers: Vec<f64>,
     /// Model of each row, as in [`Block`].
     pub models: Vec<u8>,
-    /// Rows that failed, ascending, and why.
+    /// Rows that failed, ascending, and the reasons.
     pub failures: Vec<(usize, String)>,
 }
 
 impl Held {
-    /// So many rows without results.
+    /// `rows` rows without results.
     pub(crate) fn blank(rows: usize, width: usize, places: Vec<usize>) -> Self {
         Self {
             width,
@@ -32,7 +32,7 @@ impl Held {
         }
     }
 
-    /// Puts the rows of a block in their places.
+    /// Copies the rows of a block to their places.
     pub(crate) fn put(&mut self, block: &Block) {
         let rows = block.range();
         let columns = self.numbers.par_chunks_exact_mut(self.models.len().max(1));

@@ -1,7 +1,7 @@
-//! Rows of a sweep and their files, in the format that a name ends with.
+//! Files with the rows of a sweep, in the format of the file extension.
 //!
-//! `block` is a run of rows in memory, `held` is all rows a result at a time, and `columns` is what a file has of each; `csv`, [`hdf5`] and `parquet` write
-//! them, a few blocks at a time, and `footer` is what a Parquet file says of itself.
+//! `block` is a run of rows in memory, `held` has all rows by result, and `columns` describes the columns of a file.
+//! `csv`, [`hdf5`] and `parquet` write files a few blocks at a time, and `footer` describes a Parquet file.
 
 mod block;
 mod columns;
@@ -29,7 +29,7 @@ use super::spec::Spec;
 use output::{Output, OutputError, PARQUET, ROWS, Staged};
 use std::path::Path;
 
-/// Checks that a file of rows can have a name: HDF5 or, where it is built in, Parquet.
+/// Checks the name of a file of rows: HDF5, or Parquet if the program was built with it.
 ///
 /// # Errors
 /// [`OutputError::Refused`], [`OutputError::Unbuilt`].
@@ -41,9 +41,9 @@ pub fn check_rows(path: &Path) -> Result<(), OutputError> {
     Ok(())
 }
 
-/// Writes all rows of a sweep, or those that it selects as a part, into an output that was claimed before the work.
+/// Writes all rows of a sweep, or its selected rows as a part, into an output that was claimed before the work.
 ///
-/// No more than a few blocks are in memory, and the bytes do not depend on how rows are divided into blocks.
+/// Only a few blocks are in memory, and the bytes do not depend on the division into blocks.
 ///
 /// # Errors
 /// [`OutputError`].

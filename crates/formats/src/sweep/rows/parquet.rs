@@ -1,4 +1,5 @@
-//! Rows as Parquet, as `data-schema/sweep.md` writes it down: groups of rows, each column of one encoded by itself.
+//! Rows as Parquet, as `data-schema/sweep.md` describes them: groups of rows in which each column is encoded
+//! independently.
 
 use super::block::{Block, Blocks};
 use super::columns::{Cells, Column, What, columns, each_of};
@@ -27,15 +28,15 @@ use std::fs::File;
 use std::io::{self, BufWriter, Seek, SeekFrom, Write};
 use std::sync::Arc;
 
-/// Rows of a group.
+/// Rows per group.
 const GROUP: usize = 131_072;
 
-/// Values of an axis up to which a number among them is written as its index.
+/// Largest axis whose numbers are written as indices.
 const MOST_INDEXED: usize = 1 << 16;
 
-/// Writes rows, whose blocks are all there in order, into an output that was claimed before the work.
+/// Writes rows, whose blocks must be complete and in order, into an output that was claimed before the work.
 ///
-/// No more than a group is in memory, and the bytes depend neither on blocks nor on threads.
+/// Only one group is in memory, and the bytes depend neither on blocks nor on threads.
 ///
 /// # Errors
 /// [`OutputError`].
@@ -84,7 +85,7 @@ pub(super) fn stage_parquet<'a>(
     })
 }
 
-/// The words that a column has by their numbers.
+/// The words of a column in the order of their indices.
 fn words_of(column: &Column<'_>) -> Vec<ByteArray> {
     if let What::Model = column.what {
         return Model::ALL.iter().map(|model| model.name().into()).collect();
@@ -93,7 +94,7 @@ fn words_of(column: &Column<'_>) -> Vec<ByteArray> {
     words.map(|word| word.as_str().into()).collect()
 }
 
-/// Writes a group of rows; gives the SHA-256 of its bytes.
+/// Writes a group of rows; returns the SHA-256 of its bytes.
 fn write_group(
     writer: &mut SerializedFileWriter<BufWriter<&File>>,
     spec: &Spec,
@@ -120,7 +121,7 @@ fn write_group(
     Ok(sha256_hex(written.iter().map(|bytes| &bytes[..])))
 }
 
-/// What the file says of itself, but for its groups.
+/// The footer of the file without the entries of its groups.
 fn footer(spec: &Spec, columns: &[Column<'_>], failed: usize) -> Footer {
     let described = columns.iter().map(|Column { described, .. }| {
         let labels = json!({ "units": described.unit, "long_name": described.meaning });
@@ -147,7 +148,7 @@ fn footer(spec: &Spec, columns: &[Column<'_>], failed: usize) -> Footer {
     }
 }
 
-/// Seals the footer of a file that is written.
+/// Writes the checksum into the footer of a finished file.
 fn seal(mut file: &File) -> io::Result<()> {
     let (bytes, length) = footer_in(file)?;
     let placed = bytes.and_then(|bytes| Some((seal_in(&bytes)?, bytes)));
@@ -157,7 +158,7 @@ fn seal(mut file: &File) -> io::Result<()> {
     file.write_all(sum_without(&bytes, &digits).as_bytes())
 }
 
-/// The bytes of a column in a group; NaN is no value.
+/// The bytes of a column in a group; NaN is written as a missing value.
 fn encode(
     cells: Cells<'_>,
     words: &[ByteArray],
@@ -190,7 +191,7 @@ fn encode(
             let text = |reason: Option<&str>| reason.map(ByteArray::from);
             write(to, reasons.into_iter().map(text))
         }
-        // the type of a column follows from what it holds
+        // the type of a column follows from its content
         _ => Err(ParquetError::General("a column of another type".to_owned())),
     };
     written?;
@@ -198,7 +199,7 @@ fn encode(
     Ok((Bytes::from(sink.into_inner()?), closed))
 }
 
-/// Writes the values of all rows, those that are there.
+/// Writes the values of all rows that have one.
 fn write<T: DataType>(
     writer: &mut ColumnWriterImpl<'_, T>,
     found: impl ExactSizeIterator<Item = Option<T::T>>,
@@ -214,7 +215,7 @@ fn write<T: DataType>(
     Ok(())
 }
 
-/// Names and types.
+/// Names and types of the columns.
 fn schema(spec: &Spec, columns: &[Column<'_>]) -> Result<TypePtr, ParquetError> {
     let fields = columns.iter().map(|column| {
         let physical = match (column.what, spec.fields.precision) {
@@ -240,7 +241,7 @@ fn schema(spec: &Spec, columns: &[Column<'_>]) -> Result<TypePtr, ParquetError> 
     root.build().map(Arc::new)
 }
 
-/// How each column is encoded.
+/// Encodings of the columns.
 fn properties(columns: &[Column<'_>]) -> Result<WriterProperties, ParquetError> {
     let mut properties = WriterProperties::builder()
         .set_created_by(format!("hertzlamb version {}", env!("CARGO_PKG_VERSION")))
@@ -259,7 +260,7 @@ fn properties(columns: &[Column<'_>]) -> Result<WriterProperties, ParquetError> 
             {
                 (true, Encoding::PLAIN)
             }
-            // the first bytes of all numbers, which are alike, stand together
+            // the first bytes of all numbers are similar and are stored together
             What::Key { .. } | What::Number(_) => (false, Encoding::BYTE_STREAM_SPLIT),
         };
         properties = properties.set_column_encoding(path.clone(), encoding);
