@@ -1,15 +1,15 @@
-"""The book: chapters whose commands are run, links that are checked, and pages.
+"""The book: runs the commands in chapters, checks links, and prepares the pages.
 
-Usage: book.py run [--pictures] [CHAPTER...]   runs the commands of chapters; with --pictures keeps what they draw
+Usage: book.py run [--pictures] [CHAPTER...]   runs the commands in chapters; --pictures stores their pictures
        book.py links                           checks every link between documents
-       book.py source FOLDER PROGRAM           lays the documents out for mdBook, formulas as MathML, with the pages
-                                               that reference.py makes
+       book.py source FOLDER PROGRAM           copies the documents to a folder for mdBook, with formulas as MathML and the
+                                               pages of reference.py
        book.py pages FOLDER                    checks every link of finished pages
 
-In a chapter a block of TOML that begins with `# file: NAME` is written into that file; blocks of sh and Python are run
-in a folder that has the scenes, except those that begin with `# not run: REASON`; both notes may also stand in the line
-before the block, as `<!-- file: NAME -->`; a block of text after one that is run is
-its output, where `...` stands for anything and numbers may differ by 1e-3 of themselves.
+A TOML block that begins with `# file: NAME` is written to that file. Blocks of sh and Python are run in a folder with the
+scenes, except blocks that begin with `# not run: REASON`. Both notes may also be in the line before the block, as
+`<!-- file: NAME -->`. A text block after a block that is run is its expected output: `...` matches anything, and numbers may
+have a relative difference of 1e-3.
 """
 
 import os
