@@ -219,7 +219,8 @@ def test_arguments_outside_their_range_are_one_kind_of_error(table):
             with pytest.raises(hl.DomainError, match=r"threads = -?\d+ is outside \[1, 1024\]") as caught:
                 call()
             assert caught.value.argument == "threads" and float(caught.value.value) == float(threads)
-    with pytest.raises(TypeError, match="threads"):
+    # the name of the argument is a note of the exception, and Python 3.10 has no notes
+    with pytest.raises(TypeError, match="threads" if sys.version_info >= (3, 11) else "integer"):
         hl.impact(FORCE, threads=2.5)
     assert hl.impact(FORCE, threads=np.int64(1)).numbers == hl.impact(FORCE).numbers
     for name in ("cells", "coarsening"):
