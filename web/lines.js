@@ -3,7 +3,7 @@
 import { digits, prefixed, thousands } from "./words.js";
 
 const COLOURS = ["#0b5394", "#b3202c", "#3d7a37"];
-const SIZE = { width: 560, height: 300, left: 64, right: 14, top: 34, bottom: 44 };
+const MARGIN = { left: 64, right: 14, top: 34, bottom: 44 };
 
 /** Round steps between two numbers, about `count` of them. */
 export function ticks(low, high, count) {
@@ -25,10 +25,11 @@ const escaped = (text) => text.replace(/&/g, "&amp;").replace(/</g, "&lt;").repl
 
 /**
  * A chart: `x` and `y` have a name, a unit and, for x, `log`; each of `curves` a name, numbers over `at`, and `error`, the half
- * width of a band; `marks` are vertical lines {at, label}.
+ * width of a band; `marks` are vertical lines {at, label}; `width` is in pixels.
  */
-export function chart({ title, x, y, curves, marks = [] }) {
-  const { width, height, left, right, top, bottom } = SIZE;
+export function chart({ title, x, y, curves, marks = [], width = 560 }) {
+  const { left, right, top, bottom } = MARGIN;
+  const height = Math.round(0.45 * width + 50);
   const shown = curves.flatMap(({ at, values, error = 0 }) =>
     Array.from(values, (value, i) => [at[i], value - error, value + error]).filter((three) => three.every(Number.isFinite)),
   );

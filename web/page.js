@@ -24,6 +24,9 @@ const section = new Section(of("section"), ([r_m, z_m]) => {
   change({ "probe.r_m": written(r_m), "probe.z_m": written(z_m) });
 });
 
+/** Draws a chart into a figure, as wide as that is. */
+const draw = (id, what) => (of(id).innerHTML = chart({ ...what, width: Math.max(300, of(id).clientWidth) }));
+
 /** A number for a scene: four digits are plenty for a place that was clicked. */
 const written = (value) => String(Number(value.toPrecision(4)));
 
@@ -148,7 +151,6 @@ let pending = 0;
 /** Computes the numbers at once, and the pictures when the controls have rested for a moment. */
 async function update() {
   numbers.begin("impact");
-  for (const kind of ["rows", "curve"]) pictures.begin(kind);
   clearTimeout(pending);
   const found = await numbers.ask("impact", "impact", toToml(scene));
   of("error").hidden = !found.error;
@@ -193,7 +195,7 @@ function report(found) {
   const until = (list) => list.subarray(0, end < 0 ? list.length : end);
   const curves = [{ name: "force", at: until(time_s), values: until(force_n), error: found.relative_error_estimate * found.peak_force_n }];
   if (hertz_n) curves.push({ name: "Hertz, without waves", at: until(time_s), values: until(hertz_n) });
-  of("force").innerHTML = chart({ title: "Contact force over time", x: { name: "time", unit: "s" }, y: { name: "force", unit: "N" }, curves });
+  draw("force", { title: "Contact force over time", x: { name: "time", unit: "s" }, y: { name: "force", unit: "N" }, curves });
   drawProbe(found);
   speeds = found.speeds_m_s;
 }
@@ -210,20 +212,32 @@ function drawProbe({ probe, lists }) {
   const words = named(meaning);
   const marks = probe.arrival_s.map((at, i) => ({ at, label: "PSR"[i] })).filter(({ at }) => Number.isFinite(at));
   const curves = [{ name: words, at: lists.time_s, values: lists[name], error }];
-  of("probe").innerHTML = chart({ title: `${words} over time`, x: { name: "time", unit: "s" }, y: { name: words, unit }, curves, marks });
+  draw("probe", { title: `${words} over time`, x: { name: "time", unit: "s" }, y: { name: words, unit }, curves, marks });
   const peak = lists[name].reduce((most, value) => Math.max(most, Math.abs(value)), 0);
   of("probe-note").textContent = `Largest ${words}: ${withUnit(peak, unit)}, with an estimated error of ${withUnit(error, unit)}.`;
 }
 
+/** The scenes of the pictures that are shown or on their way: a point that is clicked changes none of them. */
+const drawn = {};
+
+function isNew(kind, text) {
+  if (drawn[kind] === text) return false;
+  drawn[kind] = text;
+  pictures.begin(kind);
+  return true;
+}
+
 async function drawCurve() {
-  const { lists } = await pictures.ask("curve", "curve", toToml(scene, { probe: false }));
+  const text = toToml(scene, { probe: false });
+  if (!isNew("curve", text)) return;
+  const { lists } = await pictures.ask("curve", "curve", text);
   if (!lists.velocity_m_s) return;
   const at = lists.velocity_m_s;
   const curves = [{ name: "elastic", at, values: lists.elastic }];
   if (lists.plastic) curves.unshift({ name: scene["contact.plasticity"], at, values: lists.plastic });
   const now = Math.sqrt(at[0] * at[at.length - 1]);
   const axes = { x: { name: "velocity", unit: "m/s", log: true }, y: { name: "restitution", unit: "1", free: true } };
-  of("curve").innerHTML = chart({ title: "Restitution over velocity", ...axes, curves, marks: [{ at: now, label: "now" }] });
+  draw("curve", { title: "Restitution over velocity", ...axes, curves, marks: [{ at: now, label: "now" }] });
 }
 
 /** Computes the section in tiles of a few rows, those at the surface first. */
@@ -232,6 +246,7 @@ function drawSection({ contact_time_s, contact_radius_m }) {
   const duration_s = 1.1 * contact_time_s + reach_m / speeds[2];
   const map = { r_max_m: reach_m, points: POINTS, frames: FRAMES, duration_s };
   const text = toToml(scene, { map, probe: false, tolerance: COARSE });
+  if (!isNew("rows", text)) return;
   section.begin(POINTS, reach_m, speeds);
   let done = 0;
   const errors = [];

@@ -26,14 +26,25 @@ const MARGIN = { left: 56, right: 92, top: 26, bottom: 40 };
 export class Section {
   constructor(canvas, picked) {
     this.canvas = canvas;
+    // in pixels of the page; the canvas has as many as the screen
+    this.width = 640;
+    this.height = 372;
+    new ResizeObserver(() => this.resize()).observe(canvas);
     this.shown = null;
     this.frame = 0;
     this.point = null;
     canvas.addEventListener("click", (event) => {
       const box = canvas.getBoundingClientRect();
-      const place = this.place(((event.clientX - box.left) / box.width) * canvas.width, ((event.clientY - box.top) / box.height) * canvas.height);
+      const place = this.place(event.clientX - box.left, event.clientY - box.top);
       if (place) picked(place);
     });
+  }
+
+  resize() {
+    const width = this.canvas.clientWidth;
+    if (width === 0 || width === this.width) return;
+    [this.width, this.height] = [width, Math.round(0.5 * (width - MARGIN.left - MARGIN.right)) + MARGIN.top + MARGIN.bottom];
+    this.draw();
   }
 
   /** A new section of `points` times `points` places up to `reach_m`, empty at first. */
@@ -69,8 +80,8 @@ export class Section {
   }
 
   area() {
-    const { width, height } = this.canvas;
-    return { x: MARGIN.left, y: MARGIN.top, w: width - MARGIN.left - MARGIN.right, h: height - MARGIN.top - MARGIN.bottom };
+    const [w, h] = [this.width - MARGIN.left - MARGIN.right, this.height - MARGIN.top - MARGIN.bottom];
+    return { x: MARGIN.left, y: MARGIN.top, w, h };
   }
 
   /** Distance and depth in m of a pixel. */
@@ -88,8 +99,10 @@ export class Section {
 
   draw() {
     const context = this.canvas.getContext("2d");
-    context.fillStyle = "#fff";
-    context.fillRect(0, 0, this.canvas.width, this.canvas.height);
+    const fine = devicePixelRatio || 1;
+    Object.assign(this.canvas, { width: Math.round(fine * this.width), height: Math.round(fine * this.height) });
+    context.setTransform(fine, 0, 0, fine, 0, 0);
+    context.font = "12px Ubuntu, system-ui, sans-serif";
     if (!this.shown?.about) return;
     const { points, rows, time_s } = this.shown;
     const frame = Math.min(this.frame, time_s.length - 1);
@@ -151,7 +164,6 @@ export class Section {
   axes(context, time_s) {
     const { x, y, w, h } = this.area();
     const { reach_m, about, limit } = this.shown;
-    context.font = "12px Ubuntu, system-ui, sans-serif";
     context.fillStyle = "#111";
     context.strokeStyle = "#111";
     context.strokeRect(x, y, w, h);
