@@ -182,6 +182,11 @@ def source(folder, program):
         else:
             shutil.copy(ROOT / name, goal)
     reference.main(program, folder / "reference")
+    built = folder.parent.parent / "page/hertzlamb.html"
+    if built.exists():
+        shutil.copy(built, folder / "hertzlamb.html")
+        page = folder / "docs/page.md"
+        page.write_text(page.read_text().replace("<!-- the page -->", "**[Open the page](../hertzlamb.html)**"))
     summary = (ROOT / "docs/SUMMARY.md").read_text()
     listed = {(folder / target).resolve() for target in LINK.findall(summary)}
     for document in folder.rglob("*.md"):

@@ -52,6 +52,9 @@ pub enum ImpactError {
         /// Error of the kernel.
         source: DomainError,
     },
+    /// The scene has no section with rows.
+    #[error("the scene has no [striker] or no [map]: its section has no rows")]
+    NoRows,
     /// Too many samples.
     #[error(
         "the output needs {samples:.3e} samples of {step_s:.3e} s, more than {limit}: use a larger step_s or a smaller duration_s"
@@ -155,6 +158,7 @@ impl Fault for ImpactError {
             Self::TooMuchMemory { .. } => Culprit::of(Class::Memory),
             Self::TooManySamples { .. } | Self::GivenUp { .. } | Self::NotFinite { .. } => culprit,
             Self::NoDisc => culprit.key("disc_radius_m"),
+            Self::NoRows => culprit.key("map"),
             Self::LateFrame { wanted_s, end_s } => Culprit {
                 limits: Some([0.0, *end_s]),
                 ..culprit.key("map.times_s").number(*wanted_s)

@@ -59,5 +59,5 @@ pub use record::jump::{Jump, follows};
 pub use record::{ASCENDING, ForceRecord, Reading, RecordError, Treated};
 pub use sampled::convolve;
 pub use scene::{Load, Probe, Scene, Section, Strike};
-pub use simulate::{simulate, simulate_within};
+pub use simulate::{simulate, simulate_rows, simulate_within};
 pub use source::{KernelChoice, Shared, Tables};

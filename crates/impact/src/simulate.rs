@@ -6,7 +6,7 @@ use crate::energy::EnergySeries;
 use crate::error::ImpactError;
 use crate::excitation::Excitation;
 use crate::fields::faces;
-use crate::fields::probes::{at_probes, frames, on_section};
+use crate::fields::probes::{SectionFields, at_probes, frames, on_rows};
 use crate::grid::{Grid, Wanted};
 use crate::impact::Impact;
 use crate::kernels::KernelSource;
@@ -18,6 +18,7 @@ use crate::scene::{Load, Scene, Strike};
 use crate::source::{KernelChoice, choose_source};
 use contact::{Model, Scheme, StaticShare};
 use halfspace::Medium;
+use std::ops::Range;
 
 /// Contact radii within which the fields are not those of a yielding block.
 const CLOSE: f64 = 2.0;
@@ -55,18 +56,43 @@ pub fn simulate_within(
     checked(outcome)
 }
 
+/// The fields on some rows of a scene's section, counted from its deepest, by computed kernels: for a caller that divides the
+/// section among its own workers. Of all rows they are those of [`simulate()`].
+///
+/// # Errors
+/// [`ImpactError`]; a scene without a striker or without a section has no rows.
+pub fn simulate_rows(scene: &Scene, rows: Range<usize>) -> Result<SectionFields, ImpactError> {
+    let (Some(strike), Some(section)) = (scene.strike(), &scene.section) else {
+        return Err(ImpactError::NoRows);
+    };
+    let run = impact_of(scene, strike).solve()?;
+    let source = choose_source(scene, &KernelChoice::Direct, run.excitation())?;
+    let (source, _) = source.ok_or(ImpactError::NoRows)?;
+    let grid = Grid::new(&Wanted::of(scene), run.excitation(), Some(&source))?;
+    let time_s: Vec<f64> = grid.times_s().collect();
+    let wanted = frames(section, &time_s)?;
+    let shown: Vec<usize> = (0..wanted.len()).collect();
+    let fields = Convolution::new(&source, &grid, &wanted, &scene.quantities, &|| {})?;
+    on_rows(&fields, (section, &shown), rows, false)
+}
+
+/// The contact of a scene.
+fn impact_of(scene: &Scene, strike: &Strike) -> Impact {
+    Impact {
+        half_space: scene.target.clone(),
+        striker: strike.striker.clone(),
+        velocity_m_s: strike.velocity_m_s,
+        settings: scene.settings,
+    }
+}
+
 fn of_strike(
     scene: &Scene,
     strike: &Strike,
     kernels: &KernelChoice,
     allowance: &Allowance<'_>,
 ) -> Result<Outcome, ImpactError> {
-    let impact = Impact {
-        half_space: scene.target.clone(),
-        striker: strike.striker.clone(),
-        velocity_m_s: strike.velocity_m_s,
-        settings: scene.settings,
-    };
+    let impact = impact_of(scene, strike);
     let medium = Medium::new(scene.target.material().poisson_ratio)?;
     let rayleigh_m_s = medium.rayleigh_speed() * scene.target.longitudinal_speed_m_s();
     Wanted::of(scene).check_step(&impact.collision(), rayleigh_m_s)?;
@@ -246,9 +272,10 @@ fn add_fields(
             false => (&at, (0..at.len()).collect()),
         };
         let fields = of(wanted)?;
+        let rows = 0..section.points[1];
         let warnings = faces::of_section(&fields, &scene.target, section, end_s);
         outcome.warnings.extend(warnings);
-        outcome.section = Some(on_section(&fields, (section, &shown), scene.peaks)?);
+        outcome.section = Some(on_rows(&fields, (section, &shown), rows, scene.peaks)?);
         method = fields.method();
     }
     let table = match source {

@@ -14,6 +14,8 @@ pub(crate) struct Sets {
     follows: bool,
     /// Inverse distance up to which two discs serve between fronts.
     two_serve: f64,
+    /// Whether one does outside the contact, below shallow depths.
+    one_serves: bool,
 }
 
 /// The road of one point.
@@ -53,6 +55,8 @@ impl Sets {
             true => 0.0,
             false => tuning::TWO_SERVE * tolerance / (chi * chi),
         };
+        let shorter = if rates { 10.0 } else { 1.0 };
+        let one_serves = shorter * chi * chi < tuning::ONE_SERVES * tolerance;
         let all = match (follows, reach) {
             (false, _) => vec![Discs::one()],
             (true, Some(_)) => {
@@ -67,6 +71,7 @@ impl Sets {
                     Discs::between(tuning::SMALLEST, 2),
                     Discs::between(tuning::SMALLEST, inside),
                     Discs::between(tuning::SMALLEST_FAR, outside),
+                    Discs::one(),
                 ]
             }
         };
@@ -75,6 +80,7 @@ impl Sets {
             reach,
             follows,
             two_serve,
+            one_serves,
         }
     }
 
@@ -100,6 +106,7 @@ impl Sets {
                 self.all.iter().position(has).unwrap_or(self.all.len() - 1)
             }
             None if distance < tuning::INSIDE => 2,
+            None if self.one_serves && z >= tuning::SHALLOW * r => 4,
             None if distance > tuning::FAR => 3,
             None if self.two_serve > distance.recip() => 1,
             None => 0,

@@ -11,6 +11,7 @@ use crate::scene::{Probe, Scene, Section};
 use crate::source::{KernelChoice, choose_source};
 use contact::HalfSpace;
 use rayon::prelude::*;
+use std::ops::Range;
 
 /// Fields at the probes in SI units.
 #[derive(Debug, Clone, PartialEq)]
@@ -147,10 +148,12 @@ pub(crate) fn frames(section: &Section, time_s: &[f64]) -> Result<Vec<usize>, Im
     Ok(found)
 }
 
-/// The fields on a section; `frames` are places among the samples that are wanted, all of which count for `peaks`.
-pub(crate) fn on_section(
+/// The fields on some rows of a section, counted from its deepest; `frames` are places among the samples that are wanted, all of
+/// which count for `peaks`.
+pub(crate) fn on_rows(
     convolution: &Convolution<'_>,
     (section, frames): (&Section, &[usize]),
+    rows: Range<usize>,
     peaks: bool,
 ) -> Result<SectionFields, ImpactError> {
     let all_s = convolution.times_s();
@@ -160,6 +163,8 @@ pub(crate) fn on_section(
     let r_m: Vec<f64> = even(section.r_max_m, section.points[0]).collect();
     let mut z_m: Vec<f64> = even(section.z_max_m, section.points[1]).collect();
     z_m.reverse();
+    z_m.truncate(rows.end);
+    z_m.drain(..rows.start.min(z_m.len()));
     let (radii, size) = (r_m.len(), r_m.len() * z_m.len());
     let count = 6 + quantities.len();
     let mut fields = SectionFields {
