@@ -3,7 +3,7 @@
 import { digits, prefixed, thousands } from "./words.js";
 
 const COLOURS = ["#0b5394", "#b3202c", "#3d7a37"];
-const MARGIN = { left: 64, right: 14, top: 34, bottom: 44 };
+const EDGES = { left: 64, right: 14, top: 34, bottom: 44 };
 
 /** Round steps between two numbers, about `count` of them. */
 export function ticks(low, high, count) {
@@ -28,7 +28,7 @@ const escaped = (text) => text.replace(/&/g, "&amp;").replace(/</g, "&lt;").repl
  * width of a band; `marks` are vertical lines {at, label}; `width` is in pixels.
  */
 export function chart({ title, x, y, curves, marks = [], width = 560 }) {
-  const { left, right, top, bottom } = MARGIN;
+  const { left, right, top, bottom } = EDGES;
   const height = Math.round(0.45 * width + 50);
   const shown = curves.flatMap(({ at, values, error = 0 }) =>
     Array.from(values, (value, i) => [at[i], value - error, value + error]).filter((three) => three.every(Number.isFinite)),
