@@ -69,7 +69,8 @@ export function chart({ title, x, y, curves, marks = [], width = 560 }) {
     const dash = i > 0 ? ' stroke-dasharray="6 4"' : "";
     svg += `<path d="${path(points)}" fill="none" stroke="${COLOURS[i]}" stroke-width="1.6"${dash}/>`;
     if (curves.length > 1) {
-      const [px, py] = [left + 10 + 190 * i, top - 8];
+      const before = curves.slice(0, i).reduce((sum, one) => sum + 50 + 6.5 * one.name.length, 0);
+      const [px, py] = [left + 4 + before, top - 8];
       svg += `<path d="M${px} ${py - 4}h22" stroke="${COLOURS[i]}" stroke-width="1.6"${dash}/>${text(px + 27, py, name)}`;
     }
   });

@@ -240,44 +240,56 @@ async function drawCurve() {
   draw("curve", { title: "Restitution over velocity", ...axes, curves, marks: [{ at: now, label: "now" }] });
 }
 
-/** Computes the section in tiles of a few rows, those at the surface first. */
+/** Computes the section, first coarsely, unless it is shown already. */
 function drawSection({ contact_time_s, contact_radius_m }) {
-  const reach_m = Number(scene["map.r_max_m"]) || Number((Math.max(1.5 * speeds[2] * contact_time_s, 8 * contact_radius_m)).toPrecision(2));
-  const duration_s = 1.1 * contact_time_s + reach_m / speeds[2];
-  const map = { r_max_m: reach_m, points: POINTS, frames: FRAMES, duration_s };
-  const text = toToml(scene, { map, probe: false, tolerance: COARSE });
-  if (!isNew("rows", text)) return;
-  section.begin(POINTS, reach_m, speeds);
-  let done = 0;
-  const errors = [];
+  const automatic = Math.max(2.5 * speeds[2] * contact_time_s, 8 * contact_radius_m);
+  const reach_m = Number(scene["map.r_max_m"]) || Number(automatic.toPrecision(2));
+  const duration_s = Math.max(1.1 * contact_time_s, reach_m / speeds[2]);
+  const text = (points) => toToml(scene, { map: { r_max_m: reach_m, points, frames: FRAMES, duration_s }, probe: false, tolerance: COARSE });
+  if (!isNew("rows", text(POINTS))) return;
   of("section-note").textContent = "";
-  for (let to = POINTS; to > 0; to -= ROWS_OF_TILE) {
-    const from = Math.max(0, to - ROWS_OF_TILE);
-    pictures.ask("rows", "rows", text, from, to).then((found) => {
-      done += to - from;
-      of("progress").value = done / POINTS;
-      if (found.error) {
-        of("section-note").textContent = found.error.message;
-        return;
-      }
-      section.add(POINTS - to, flipped(found.lists, to - from), found);
-      errors.push(...found.lists.errors);
-      if (done === POINTS) {
-        errors.sort((a, b) => a - b);
-        const median = errors[Math.floor(errors.length / 2)];
-        of("section-note").textContent = `${POINTS} by ${POINTS} points, ${FRAMES} frames, relative tolerance ${COARSE}: estimated error ${withUnit(median, found.unit)} at half of the points. Colours end at ${withUnit(section.shown.limit, found.unit)}, which 3 of 100 values exceed.`;
-      }
-    });
-  }
+  of("progress").value = 0;
+  drawRows(POINTS / 2, reach_m, text).then(() => drawRows(POINTS, reach_m, text));
+}
+
+/** Computes a section in tiles of a few rows, those at the surface first. */
+function drawRows(points, reach_m, text) {
+  const isFiner = points === POINTS;
+  section.begin(points, reach_m, speeds, isFiner);
+  const errors = [];
+  let done = 0;
+  return new Promise((complete) => {
+    for (let to = points; to > 0; to -= ROWS_OF_TILE) {
+      const from = Math.max(0, to - ROWS_OF_TILE);
+      pictures.ask("rows", "rows", text(points), from, to).then((found) => {
+        done += to - from;
+        if (isFiner) of("progress").value = done / points;
+        if (found.error) {
+          of("section-note").textContent = found.error.message;
+          return;
+        }
+        section.add(points - to, flipped(found.lists, to - from, points), found);
+        errors.push(...found.lists.errors);
+        if (done === points) complete(tell(points, errors, found.unit));
+      });
+    }
+  });
+}
+
+/** A sentence on the section below it. */
+function tell(points, errors, unit) {
+  errors.sort((a, b) => a - b);
+  const median = withUnit(errors[Math.floor(errors.length / 2)], unit);
+  of("section-note").textContent = `${points} by ${points} points, ${FRAMES} frames, relative tolerance ${COARSE}: estimated error ${median} at half of the points. Colours end at ${withUnit(section.shown.limit, unit)}, which 3 of 100 values exceed.`;
 }
 
 /** Rows from the surface down instead of from below. */
-function flipped({ time_s, values }, rows) {
+function flipped({ time_s, values }, rows, points) {
   const turned = new Float64Array(values.length);
   for (let n = 0; n < time_s.length; n += 1) {
     for (let row = 0; row < rows; row += 1) {
-      const from = (n * rows + row) * POINTS;
-      turned.set(values.subarray(from, from + POINTS), (n * rows + rows - 1 - row) * POINTS);
+      const from = (n * rows + row) * points;
+      turned.set(values.subarray(from, from + points), (n * rows + rows - 1 - row) * points);
     }
   }
   return { time_s, values: turned };

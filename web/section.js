@@ -20,7 +20,10 @@ export function colour(map, fraction) {
   return [mixed(16), mixed(8), mixed(0)];
 }
 
-const MARGIN = { left: 56, right: 92, top: 26, bottom: 40 };
+const MARGIN = { left: 56, right: 110, top: 26, bottom: 40 };
+
+/** The map of a quantity: magnitudes have no sign. */
+const mapOf = ({ name }) => (["von_mises", "tresca", "max_shear"].includes(name) ? "sequential" : "diverging");
 
 /** The picture on a canvas; `picked` hears the point in m that is clicked. */
 export class Section {
@@ -31,6 +34,7 @@ export class Section {
     this.height = 372;
     new ResizeObserver(() => this.resize()).observe(canvas);
     this.shown = null;
+    this.under = null;
     this.frame = 0;
     this.point = null;
     canvas.addEventListener("click", (event) => {
@@ -47,8 +51,9 @@ export class Section {
     this.draw();
   }
 
-  /** A new section of `points` times `points` places up to `reach_m`, empty at first. */
-  begin(points, reach_m, speeds) {
+  /** A new section of `points` times `points` places up to `reach_m`, empty at first; a finer one covers what is shown. */
+  begin(points, reach_m, speeds, isFiner) {
+    this.under = isFiner ? this.shown : null;
     this.shown = { points, reach_m, speeds, rows: new Map(), time_s: [], limit: 0, about: null };
   }
 
@@ -92,26 +97,29 @@ export class Section {
     return [Math.abs(((px - x) / w) * 2 - 1) * reach_m, ((py - y) / h) * reach_m];
   }
 
-  map() {
-    const name = this.shown.about?.name ?? "";
-    return ["von_mises", "tresca", "max_shear"].includes(name) ? "sequential" : "diverging";
-  }
-
   draw() {
     const context = this.canvas.getContext("2d");
     const fine = devicePixelRatio || 1;
     Object.assign(this.canvas, { width: Math.round(fine * this.width), height: Math.round(fine * this.height) });
     context.setTransform(fine, 0, 0, fine, 0, 0);
     context.font = "12px Ubuntu, system-ui, sans-serif";
-    if (!this.shown?.about) return;
-    const { points, rows, time_s } = this.shown;
+    const top = this.shown?.about ? this.shown : this.under;
+    if (!top?.about) return;
+    const time_s = top.time_s[Math.min(this.frame, top.time_s.length - 1)];
+    for (const layer of [this.under, this.shown]) if (layer?.about) this.paint(context, layer, top.limit);
+    this.fronts(context, time_s);
+    this.axes(context, time_s, top);
+  }
+
+  /** The values of a section as colours; rows that are not there yet show what is under them. */
+  paint(context, { points, rows, time_s, about }, limit) {
     const frame = Math.min(this.frame, time_s.length - 1);
     const image = new ImageData(2 * points - 1, points);
-    const signed = this.map() === "diverging";
+    const map = mapOf(about);
     for (const [row, frames] of rows) {
       for (let i = 0; i < points; i += 1) {
-        const part = frames[frame][i] / this.shown.limit;
-        const rgb = colour(this.map(), signed ? 0.5 + 0.5 * part : part);
+        const part = frames[frame][i] / limit;
+        const rgb = colour(map, map === "diverging" ? 0.5 + 0.5 * part : part);
         for (const column of [points - 1 + i, points - 1 - i]) {
           image.data.set([...rgb, 255], 4 * (row * image.width + column));
         }
@@ -123,8 +131,6 @@ export class Section {
     context.imageSmoothingEnabled = true;
     // values stand at the middles of pixels, the outermost half a pixel inside
     context.drawImage(small, 0.5, 0.5, image.width - 1, image.height - 1, x, y, w, h);
-    this.fronts(context, time_s[frame]);
-    this.axes(context, time_s[frame]);
   }
 
   fronts(context, time_s) {
@@ -161,9 +167,8 @@ export class Section {
     context.restore();
   }
 
-  axes(context, time_s) {
+  axes(context, time_s, { reach_m, about, limit }) {
     const { x, y, w, h } = this.area();
-    const { reach_m, about, limit } = this.shown;
     context.fillStyle = "#111";
     context.strokeStyle = "#111";
     context.strokeRect(x, y, w, h);
@@ -182,14 +187,14 @@ export class Section {
     context.fillText(`depth [${prefixed("m", power)}]`, 0, 0);
     context.restore();
     const bar = { x: x + w + 14, w: 12 };
-    const signed = this.map() === "diverging";
+    const map = mapOf(about);
     for (let i = 0; i < h; i += 1) {
-      context.fillStyle = `rgb(${colour(this.map(), 1 - i / h).join()})`;
+      context.fillStyle = `rgb(${colour(map, 1 - i / h).join()})`;
       context.fillRect(bar.x, y + i, bar.w, 1.5);
     }
     context.fillStyle = "#111";
     context.textAlign = "left";
-    const ends = signed ? [limit, 0, -limit] : [limit, limit / 2, 0];
+    const ends = map === "diverging" ? [limit, 0, -limit] : [limit, limit / 2, 0];
     ends.forEach((value, i) => context.fillText(withUnit(value, about.unit), bar.x + bar.w + 4, y + (i / 2) * h + 4));
   }
 }

@@ -68,6 +68,8 @@ test("the first numbers are there at once, and the file is small", async () => {
 test("a section plays, a click shows a history, and the address holds it all", async () => {
   const page = await opened();
   const start = Date.now();
+  await page.waitForFunction(() => document.getElementById("section-note").textContent.startsWith("30 by 30"), null, { timeout: 60000 });
+  console.log(`coarse section complete ${Date.now() - start} ms after the first numbers`);
   await isDone(page);
   console.log(`section complete ${Date.now() - start} ms after the first numbers`);
   assert.match(await page.textContent("#section-note"), /60 by 60 points, 20 frames, relative tolerance 1e-2: estimated error/);

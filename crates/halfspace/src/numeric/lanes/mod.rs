@@ -1,6 +1,6 @@
 //! Real or complex numbers in vector registers, with the functions of the closed forms.
 //!
-//! A register contains four or eight numbers. No operation is fused, and sums are those of blocks of eight, so that
+//! A register contains two, four or eight numbers. No operation is fused, and sums are those of blocks of eight, so that
 //! results are bit-identical on every machine.
 
 /// Operators between registers, each by its formula.
@@ -43,6 +43,10 @@ pub(crate) fn dispatch<W: WithSimd>(work: W) -> W::Output {
         if let Some(simd) = pulp::x86::V3::try_new() {
             return Simd::vectorize(simd, work);
         }
+    }
+    #[cfg(target_arch = "wasm32")]
+    if let Some(simd) = pulp::wasm::Simd128::try_new() {
+        return Simd::vectorize(simd, work);
     }
     Simd::vectorize(pulp::Scalar256b, work)
 }
