@@ -1,7 +1,7 @@
 //! The library of the page in a browser, through plain WebAssembly exports.
 //!
-//! The page writes the name of a call and a scene into memory from [`allocate`](exports), calls `call`, and reads four numbers at
-//! the address that it returns: where the JSON is and its bytes, where the numbers are and their count. `release` frees them.
+//! The page writes the name of a call and a scene into memory from `allocate`, calls `call`, and reads four numbers at the address
+//! that it returns: where the JSON is and its bytes, where the numbers are and their count. `release` frees them.
 
 mod answers;
 
