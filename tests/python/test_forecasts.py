@@ -1,10 +1,15 @@
 """What a scene takes is what the program says before: processor time, which other work on the machine disturbs little."""
 
+import contextlib
 import importlib.machinery
 import importlib.util
 import json
 import os
+import re
 import subprocess
+import sys
+import time
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -121,13 +126,16 @@ def test_a_point_inside_a_contact_takes_at_most_three_times_its_forecast(case, t
 
 
 def peak_bytes(*arguments):
-    """Largest memory of a run that succeeds."""
-    with open(os.devnull, "w") as nothing:
-        process = subprocess.Popen([PROGRAM, *map(str, arguments)], stdout=nothing, stderr=nothing)
-        _, status, usage = os.wait4(process.pid, 0)
-        process.returncode = os.waitstatus_to_exitcode(status)
+    """Largest memory of a run that succeeds, from the kernel's high-water mark: that of wait4 counts this process, too."""
+    process = subprocess.Popen([PROGRAM, *map(str, arguments)], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    largest = 0
+    while process.poll() is None:
+        with contextlib.suppress(OSError):
+            status = Path(f"/proc/{process.pid}/status").read_text()
+            largest = max([largest, *(1024 * int(kb) for kb in re.findall(r"^VmHWM:\s+(\d+) kB", status, re.MULTILINE))])
+        time.sleep(0.002)
     assert process.returncode == 0
-    return 1024 * usage.ru_maxrss
+    return largest
 
 
 ROD = """
@@ -153,6 +161,7 @@ z_m = 0.0
 """
 
 
+@pytest.mark.skipif(sys.platform != "linux", reason="/proc has the largest memory of a process")
 def test_memory_under_a_wide_contact_is_forecast_and_bounded(tmp_path):
     path = tmp_path / "scene.toml"
     path.write_text(ROD.format(""))
