@@ -1,9 +1,10 @@
 //! A striker and a half-space: from two bodies and a velocity to an excitation.
 
 use crate::excitation::{Excitation, PressureRadius};
+use crate::scene::{Scene, Strike};
 use contact::{
-    Choice, Collision, ContactError, Exact, HalfSpace, Plasticity, Responses, Results, Settings,
-    Solved, Solver, StaticShare, Striker, fixed_disc_m, warnings,
+    Choice, Collision, ContactError, Exact, HalfSpace, Model, Plasticity, Responses, Results,
+    Settings, Solved, Solver, StaticShare, Striker, fixed_disc_m, warnings,
 };
 use std::ops::Deref;
 
@@ -98,6 +99,26 @@ impl Impact {
             velocity_m_s,
             settings: Settings::default(),
         }
+    }
+
+    /// The impact of a scene by its striker.
+    pub fn of(scene: &Scene, strike: &Strike) -> Self {
+        Self {
+            half_space: scene.target.clone(),
+            striker: strike.striker.clone(),
+            velocity_m_s: strike.velocity_m_s,
+            settings: scene.settings,
+        }
+    }
+
+    /// The same bodies under Hertz's law alone: elastic, without waves and without a disc.
+    #[must_use]
+    pub fn without_waves(self) -> Self {
+        let settings = Settings {
+            model: Model::Hertz,
+            ..Settings::default()
+        };
+        Self { settings, ..self }
     }
 
     /// Sets the relative tolerance of the results.

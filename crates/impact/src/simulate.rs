@@ -65,7 +65,7 @@ pub fn simulate_rows(scene: &Scene, rows: Range<usize>) -> Result<SectionFields,
     let (Some(strike), Some(section)) = (scene.strike(), &scene.section) else {
         return Err(ImpactError::NoRows);
     };
-    let run = impact_of(scene, strike).solve()?;
+    let run = Impact::of(scene, strike).solve()?;
     let source = choose_source(scene, &KernelChoice::Direct, run.excitation())?;
     let (source, _) = source.ok_or(ImpactError::NoRows)?;
     let grid = Grid::new(&Wanted::of(scene), run.excitation(), Some(&source))?;
@@ -76,23 +76,13 @@ pub fn simulate_rows(scene: &Scene, rows: Range<usize>) -> Result<SectionFields,
     on_rows(&fields, (section, &shown), rows, false)
 }
 
-/// The contact of a scene.
-fn impact_of(scene: &Scene, strike: &Strike) -> Impact {
-    Impact {
-        half_space: scene.target.clone(),
-        striker: strike.striker.clone(),
-        velocity_m_s: strike.velocity_m_s,
-        settings: scene.settings,
-    }
-}
-
 fn of_strike(
     scene: &Scene,
     strike: &Strike,
     kernels: &KernelChoice,
     allowance: &Allowance<'_>,
 ) -> Result<Outcome, ImpactError> {
-    let impact = impact_of(scene, strike);
+    let impact = Impact::of(scene, strike);
     let medium = Medium::new(scene.target.material().poisson_ratio)?;
     let rayleigh_m_s = medium.rayleigh_speed() * scene.target.longitudinal_speed_m_s();
     Wanted::of(scene).check_step(&impact.collision(), rayleigh_m_s)?;

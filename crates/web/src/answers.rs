@@ -119,26 +119,12 @@ fn impact(scene: &Scene) -> Result<Answer, ImpactError> {
     Ok(answer)
 }
 
-/// The contact of the same bodies by Hertz's law alone, as `hertzlamb plot` draws it; none where the scene is that.
+/// The force of the same bodies without waves, as `hertzlamb plot` draws it; none where the scene is that.
 fn without_waves(scene: &Scene, strike: &Strike) -> Option<impact::Run> {
-    let mut alone = of(scene, strike);
-    if alone.settings.model == Model::Hertz {
+    if scene.settings.model == Model::Hertz {
         return None;
     }
-    alone.settings = impact::Settings {
-        model: Model::Hertz,
-        ..impact::Settings::default()
-    };
-    alone.solve().ok()
-}
-
-fn of(scene: &Scene, strike: &Strike) -> Impact {
-    Impact {
-        half_space: scene.target.clone(),
-        striker: strike.striker.clone(),
-        velocity_m_s: strike.velocity_m_s,
-        settings: scene.settings,
-    }
+    Impact::of(scene, strike).without_waves().solve().ok()
 }
 
 /// The last quantity of a scene, its first field where it asks for none, on some rows of its section, the deepest first.
@@ -172,7 +158,7 @@ fn curve(scene: &Scene) -> Result<Answer, ImpactError> {
         .map(|i| strike.velocity_m_s * 10_f64.powf(DECADES * part(i)))
         .collect();
     let restitution = |plasticity: Plasticity| {
-        let mut one = of(scene, strike);
+        let mut one = Impact::of(scene, strike);
         one.settings.plasticity = plasticity;
         velocities.iter().map(move |&velocity_m_s| {
             one.velocity_m_s = velocity_m_s;

@@ -4,7 +4,6 @@ use crate::error::{PlotError, chosen};
 use crate::request::Request;
 use crate::series::{curve, end_s, waves_of};
 use crate::words::{axis, component, of_quantity, with_unit};
-use contact::Model;
 use figure::{Axis, Layer, Legend, Panel, Scale, Style};
 use formats::quantities::Described;
 use formats::stored::{StoredImpact, StoredProbes};
@@ -175,9 +174,8 @@ fn hertz(impact: &StoredImpact, [from_s, to_s]: [f64; 2]) -> Option<Vec<(f64, f6
         return None;
     }
     let target = impact.target.clone();
-    let mut alone = Impact::new(target, strike.striker.clone(), strike.velocity_m_s);
-    alone.settings.model = Model::Hertz;
-    let run = alone.solve().ok()?;
+    let same = Impact::new(target, strike.striker.clone(), strike.velocity_m_s);
+    let run = same.without_waves().solve().ok()?;
     let time = |i: u32| from_s + (to_s - from_s) * f64::from(i) / f64::from(HERTZ_POINTS);
     let points = (0..=HERTZ_POINTS).map(|i| (time(i), run.excitation().force_n(time(i))));
     Some(points.collect())
