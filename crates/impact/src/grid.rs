@@ -114,8 +114,8 @@ impl Wanted {
         let run = |from_s: f64, to_s: f64, base_n: f64| Run {
             start_s: from_s,
             base_n,
-            // more than any memory: rejected by its number
-            count: ((to_s - from_s) / step_s).ceil().min(1e15) as usize + 1,
+            // more than any memory, or the largest number of 32 bits in a browser: rejected by its number
+            count: (((to_s - from_s) / step_s).ceil().min(1e15) as usize).saturating_add(1),
         };
         let settling_s = self.settling_s(excitation);
         let stretches = excitation.record().map_or_else(Vec::new, |record| {
