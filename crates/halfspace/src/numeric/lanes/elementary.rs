@@ -87,7 +87,9 @@ impl<S: Simd> Real for Lanes<S> {
 
     #[inline(always)]
     fn abs(self) -> Self {
-        self.with(self.simd.abs_f64s(self.register))
+        // pulp's own inverts the bits of -0.0 in a function that the development profile does not inline
+        let all_but_sign = self.simd.splat_f64s(f64::from_bits(u64::MAX >> 1));
+        self.with(self.simd.and_f64s(all_but_sign, self.register))
     }
 
     #[inline(always)]
