@@ -1,10 +1,10 @@
 //! Source of the kernels of the fields: computed or looked up.
 
+use crate::convolution::fronts::Fronts;
 use crate::convolution::plan::Sets;
-use crate::convolution::tuning;
 use crate::cost::{busy, computed_s};
 use crate::error::ImpactError;
-use crate::excitation::{Excitation, PressureRadius};
+use crate::excitation::Excitation;
 use crate::grid::{Grid, Wanted};
 use crate::kernels::{KernelSource, table_error};
 use crate::scene::Scene;
@@ -12,7 +12,6 @@ use fault::AnyError;
 use halfspace::{Profile, Six};
 use lookup::{LookupError, Table};
 use std::collections::hash_map::{Entry, HashMap};
-use std::f64::consts::PI;
 use std::fmt;
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -269,7 +268,7 @@ fn span(places: impl Iterator<Item = [f64; 2]>) -> [[f64; 2]; 2] {
 /// Relative error of looked-up fields at a point, known before they are: that of the table for the force on each disc, and of the
 /// short waves of the first and last instants, which no table has.
 ///
-/// It is over the largest static field of a kind, displacements and stresses.
+/// It is over the largest static field of a kind, displacements and stresses; samples right at a front can have more.
 fn looked_up_error(
     table: &Table,
     excitation: &Excitation,
@@ -301,21 +300,8 @@ fn looked_up_error(
     let of_table = (0..6)
         .map(|f| errors[f] / kinds[usize::from(f >= 2)])
         .fold(0.0, f64::max);
-    Ok(of_table + short_waves(excitation, scene))
-}
-
-/// Relative error of looked-up fields by the first and last instants of a contact: of waves shorter than the discs, and than the
-/// cells.
-fn short_waves(excitation: &Excitation, scene: &Scene) -> f64 {
-    if excitation.record().is_some() {
-        return 0.0;
-    }
     let (_, step_s) = Wanted::of(scene).duration_and_step_s(excitation);
-    let crossing_s = excitation.units().time_s() / excitation.medium().rayleigh_speed();
-    let part = |time_s: f64| (PI * time_s / excitation.end_s()).powf(1.5);
-    let of_discs = match excitation.radius() {
-        PressureRadius::Following { .. } => tuning::LOOKED_UP_FRONTS * part(crossing_s),
-        PressureRadius::Fixed(_) => 0.0,
-    };
-    of_discs + tuning::LOOKED_UP_CELLS * part(step_s)
+    let fronts = Fronts::new(excitation, place_m);
+    let [mostly, _] = fronts.looked_up_errors(discs.smallest(), step_s);
+    Ok(of_table + mostly)
 }

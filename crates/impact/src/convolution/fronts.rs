@@ -7,7 +7,7 @@
 //! Theory: `docs/theory.md` (T60).
 
 use super::tuning;
-use crate::excitation::Excitation;
+use crate::excitation::{Excitation, PressureRadius};
 use std::f64::consts::PI;
 
 /// A point of a growing contact, in units of the largest radius a and of a/c_R.
@@ -57,6 +57,31 @@ impl<'a> Fronts<'a> {
         self.distance < tuning::CLOSE && self.chi > most * self.distance
     }
 
+    fn is_shallow(&self) -> bool {
+        self.place_m[1] < tuning::SHALLOW * self.place_m[0]
+    }
+
+    /// Error of looked-up fields by the waves of the first and last instants that are shorter than the smallest disc and than a
+    /// step, over the largest of their kind, displacements or stresses: that of most fields, and of the worst sample. On a fixed disc the
+    /// sums count the worst themselves.
+    pub(crate) fn looked_up_errors(&self, smallest: f64, step_s: f64) -> [f64; 2] {
+        let excitation = self.excitation;
+        let grows = matches!(excitation.radius(), PressureRadius::Following { .. });
+        if excitation.record().is_some() {
+            return [0.0; 2];
+        }
+        let reached = |part: f64| (PI * part).powf(1.5);
+        let of_cells = tuning::LOOKED_UP_CELLS * reached(step_s / excitation.end_s());
+        if !grows {
+            return [of_cells, 0.0];
+        }
+        let worst = match self.is_shallow() {
+            true => tuning::LOOKED_UP_SHALLOW,
+            false => tuning::LOOKED_UP_DEEP * smallest * smallest,
+        };
+        [tuning::LOOKED_UP_MOSTLY, worst].map(|own| own * reached(self.chi) + of_cells)
+    }
+
     /// Half-widths in a/c_R of the windows around the fronts of longitudinal, shear and Rayleigh's waves in which so many discs
     /// do not serve; `power` is that of the load in the time since the contact began.
     pub(crate) fn widths(&self, discs: usize, tolerance: f64, power: f64) -> [f64; 3] {
@@ -69,10 +94,9 @@ impl<'a> Fronts<'a> {
         } else {
             0.0
         };
-        let is_shallow = self.place_m[1] < tuning::SHALLOW * self.place_m[0];
         let sharp = tuning::AT_FRONT.map(|own| (own * short).min(tuning::WIDEST_FRONT));
         let deep = sharp[0].max(broad);
-        if !is_shallow {
+        if !self.is_shallow() {
             return [deep; 3];
         }
         let depth = self.place_m[1] / self.excitation.units().disc_radius_m;

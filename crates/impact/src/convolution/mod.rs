@@ -17,7 +17,7 @@ mod close_tests;
 pub(crate) mod discs;
 mod ends;
 mod exact;
-mod fronts;
+pub(crate) mod fronts;
 mod loads;
 pub(crate) mod plan;
 #[cfg(test)]
@@ -272,7 +272,7 @@ impl<'a> Convolution<'a> {
             (true, Derivative::First | Derivative::Second) => 1.0,
         };
         let quadrature = (zones + over_past) * tuning::QUADRATURE * forcing.tolerance;
-        let own = forcing.excitation.relative_error;
+        let own = tuning::FORCE_OVER_RESULTS * forcing.excitation.relative_error;
         let sensitivity = match forcing.derivative {
             Derivative::Field => 0.0,
             Derivative::First => tuning::RATE_OF_TOLERANCE,

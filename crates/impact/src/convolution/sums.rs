@@ -4,6 +4,7 @@
 
 use super::discs::Discs;
 use super::ends::departures;
+use super::fronts::Fronts;
 use super::loads::{Forcing, Loads};
 use super::tuning;
 use crate::excitation::PressureRadius;
@@ -193,6 +194,9 @@ impl Sums {
                 }
             }
         }
+        if !kernels.are_traces() && forcing.derivative == Derivative::Field {
+            sums.add_short_waves(forcing, kernels);
+        }
         sums.still_before_arrival(forcing, kernels.place_m);
         Ok(sums)
     }
@@ -293,6 +297,16 @@ impl Sums {
                 let error = error + read[f] + changed_n * tail[f].abs();
                 self.errors[f] = self.errors[f].hypot(unit[f] * error);
             }
+        }
+    }
+
+    /// Adds the errors of looked-up fields by the first and last instants of a contact.
+    fn add_short_waves(&mut self, forcing: &Forcing<'_>, kernels: &PointKernels<'_>) {
+        let fronts = Fronts::new(forcing.excitation, kernels.place_m);
+        let [_, part] = fronts.looked_up_errors(kernels.discs.smallest(), forcing.step_s);
+        let peaks = self.values.each_ref().map(|samples| largest(samples));
+        for (f, error) in self.errors.iter_mut().enumerate() {
+            *error += part * largest(if f < 2 { &peaks[..2] } else { &peaks[2..] });
         }
     }
 
