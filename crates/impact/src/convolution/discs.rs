@@ -29,9 +29,9 @@ pub(crate) struct Discs {
 }
 
 impl Discs {
-    /// The disc of the largest radius alone.
-    pub(crate) fn one() -> Self {
-        Self::of(vec![1.0])
+    /// One disc of a radius alone.
+    pub(crate) fn one(radius: f64) -> Self {
+        Self::of(vec![radius * radius])
     }
 
     /// So many discs, two at least, with radii from `smallest` of the largest up: Chebyshev's points of the second kind in the
@@ -123,7 +123,7 @@ mod tests {
     fn shares_reproduce_powers_of_the_squared_radius() {
         let sets = [(0.04, 2), (0.04, 3), (0.5, 2), (0.2, 4), (0.04, 9)];
         let sets = sets.map(|(smallest, count)| Discs::between(smallest, count));
-        for discs in sets.into_iter().chain([Discs::one()]) {
+        for discs in sets.into_iter().chain([Discs::one(1.0)]) {
             assert_eq!(discs.radii[0], 1.0);
             for square in [0.0, 0.1, 0.63, 1.0, 1.01] {
                 for power in 0..discs.count() as i32 {
@@ -156,7 +156,7 @@ mod tests {
     /// 3 j1(x)/x = 1 - x^2/10 + x^4/280 - ..
     #[test]
     fn ratios_of_terms_are_those_of_the_series() {
-        let ratios = [Discs::one(), Discs::between(0.1, 2)].map(|d| d.next());
+        let ratios = [Discs::one(1.0), Discs::between(0.1, 2)].map(|d| d.next());
         assert!((ratios[0] - 0.1).abs() < 1e-15 && (ratios[1] - 1.0 / 28.0).abs() < 1e-15);
     }
 }

@@ -159,7 +159,10 @@ impl<'a> Convolution<'a> {
         let place_m = [r_m, z_m];
         let plan = self.plan(place_m);
         let discs = self.sets.get(plan.set);
-        let cells = discs.radii.iter().map(|&over| self.cells(place_m, over));
+        let cells = discs
+            .radii
+            .iter()
+            .map(|&over| self.cells(place_m, over, discs.count()));
         let cells: Vec<Cells> = cells.collect::<Result<_, _>>()?;
         let kernels = PointKernels::new(&self.forcings[0], discs, place_m, cells);
         let of = |(forcing, integrated): (&Forcing<'_>, &Vec<Integrated>)| {
@@ -194,8 +197,8 @@ impl<'a> Convolution<'a> {
         }
     }
 
-    /// The kernels of a disc of a radius `over` the largest, as far as the outputs need them.
-    fn cells(&self, place_m: [f64; 2], over: f64) -> Result<Cells, ImpactError> {
+    /// The kernels of a disc of a radius `over` the largest, one of `count`, as far as the outputs need them.
+    fn cells(&self, place_m: [f64; 2], over: f64, count: usize) -> Result<Cells, ImpactError> {
         let (excitation, grid) = (self.grid.excitation, self.grid);
         let (ratio, units) = (excitation.medium().poisson_ratio(), excitation.units());
         let disc_radius_m = over * units.disc_radius_m;
@@ -203,7 +206,7 @@ impl<'a> Convolution<'a> {
         let distance = place_m[0].hypot(place_m[1]) / units.disc_radius_m;
         let part = match &self.past {
             None => 1.0,
-            Some(_) if distance > tuning::FAR => tuning::KERNELS_FAR,
+            Some(_) if distance > tuning::FAR && count > 1 => tuning::KERNELS_FAR,
             Some(_) => tuning::KERNELS,
         };
         // until the last front from the far edge has passed a cell

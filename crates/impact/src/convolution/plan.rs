@@ -14,7 +14,7 @@ pub(crate) struct Sets {
     follows: bool,
     /// Inverse distance up to which two discs serve between fronts.
     two_serve: f64,
-    /// Whether one does outside the contact, below shallow depths.
+    /// Whether one does outside the contact.
     one_serves: bool,
 }
 
@@ -58,11 +58,11 @@ impl Sets {
         let shorter = if rates { 10.0 } else { 1.0 };
         let one_serves = shorter * chi * chi < tuning::ONE_SERVES * tolerance;
         let all = match (follows, reach) {
-            (false, _) => vec![Discs::one()],
+            (false, _) => vec![Discs::one(1.0)],
             (true, Some(_)) => {
                 let count = count(tuning::LOOKED_UP_A_DIGIT);
                 let some = tuning::COVERED.map(|smallest| Discs::between(smallest, count));
-                some.into_iter().chain([Discs::one()]).collect()
+                some.into_iter().chain([Discs::one(1.0)]).collect()
             }
             (true, None) => {
                 let [outside, inside] = tuning::DISCS_A_DIGIT.map(count);
@@ -71,7 +71,7 @@ impl Sets {
                     Discs::between(tuning::SMALLEST, 2),
                     Discs::between(tuning::SMALLEST, inside),
                     Discs::between(tuning::SMALLEST_FAR, outside),
-                    Discs::one(),
+                    Discs::one(tuning::SMALLEST_FAR),
                 ]
             }
         };
@@ -106,7 +106,7 @@ impl Sets {
                 self.all.iter().position(has).unwrap_or(self.all.len() - 1)
             }
             None if distance < tuning::INSIDE => 2,
-            None if self.one_serves && z >= tuning::SHALLOW * r => 4,
+            None if self.one_serves => 4,
             None if distance > tuning::FAR => 3,
             None if self.two_serve > distance.recip() => 1,
             None => 0,

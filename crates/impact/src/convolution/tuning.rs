@@ -13,9 +13,9 @@ pub(crate) const DISCS_A_DIGIT: [f64; 2] = [0.75, 1.5];
 /// ten times chi^2 over the distance (`scripts/check-close`).
 pub(crate) const TWO_SERVE: f64 = 0.03;
 
-/// The disc of the largest radius alone serves outside the contact, in depths from [`SHALLOW`] on, where chi^2 is below this
-/// fraction of the tolerance; for rates ten times chi^2. At 0.03 errors of 1 in 100 fields are 3 times the tolerance
-/// (`scripts/check-close 20 1e-3`).
+/// One disc alone, of the radius [`SMALLEST_FAR`], serves outside the contact where chi^2 is below this fraction of the
+/// tolerance; for rates ten times chi^2. At 0.03 errors of 1 in 100 fields are 3 times the tolerance
+/// (`scripts/check-close 20 1e-3`); with the largest radius those at fronts near the surface are 4 times a tolerance of 1e-2.
 pub(crate) const ONE_SERVES: f64 = 0.01;
 
 /// Discs more for rates of the fields, which have shorter waves; `rates_of_growing_contacts_are_within_their_estimates` fails
@@ -43,7 +43,7 @@ pub(crate) const LOOKED_UP_SHALLOW: f64 = 12.0;
 pub(crate) const LOOKED_UP_CELLS: f64 = 0.05;
 
 /// Distance from which on the waves of a contact nearly cancel: kernels of small discs lose digits, so that the smallest has
-/// this radius, and kernels have this tolerance over that of the fields (`far_away_few_discs_are_enough`).
+/// this radius, and kernels of several discs have this tolerance over that of the fields (`far_away_few_discs_are_enough`).
 pub(crate) const FAR: f64 = 30.0;
 pub(crate) const SMALLEST_FAR: f64 = 0.25;
 pub(crate) const KERNELS_FAR: f64 = 0.03;
