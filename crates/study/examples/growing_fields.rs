@@ -70,7 +70,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 
 /// Two maps over distance and depth.
 fn picture(r: &[f64], z: &[f64], values: [Vec<f64>; 2]) -> Figure {
-    let mut figure = Figure::new("What a disc of the largest radius throughout costs")
+    let mut figure = Figure::new("Error of a load on a disc of the largest radius throughout")
         .subtitle("steel ball of 10 mm on steel at 5 m/s: largest difference over time, over the largest value there")
         .sharing(Sharing::Both);
     for (values, title) in values
