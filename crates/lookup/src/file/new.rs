@@ -181,9 +181,11 @@ mod tests {
     fn descriptor(path: &Path, own: &File) -> OwnedFd {
         let of = |number: i32| std::fs::read_link(format!("/proc/self/fd/{number}"));
         let path = path.canonicalize().unwrap();
-        let mut others =
-            (3..own.as_raw_fd()).filter(|&number| of(number).is_ok_and(|to| to == path));
-        let number = others.next_back().unwrap();
+        // whatever other tests have open or close at this moment
+        let mut others = (3..4096).filter(|&number| number != own.as_raw_fd());
+        let number = others
+            .find(|&number| of(number).is_ok_and(|to| to == path))
+            .unwrap();
         // SAFETY: the descriptor is open, and is forgotten instead of closed.
         #[allow(unsafe_code)]
         unsafe {
