@@ -33,7 +33,7 @@ pytestmark = pytest.mark.filterwarnings("ignore::hertzlamb.HertzlambWarning")
 
 def long_works(table):
     """What takes long, by name."""
-    t = np.linspace(0.1, 9.0, 400_000)
+    t = np.linspace(0.1, 9.0, 4_000_000)
     field = {"map": {"r_max_m": 0.02, "z_max_m": 0.02, "points": [301, 301], "frames": 20}}
     return {
         "kernels": lambda **way: hl.kernels.step(0.3, 0.5, 0.6, t, tolerance=1e-13, **way),
