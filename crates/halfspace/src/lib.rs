@@ -22,6 +22,7 @@
 //! - [`Medium`]: wave speeds and Rayleigh function of a Poisson ratio.
 //! - [`Kernel`]: static field, step-response remainder, impulse response and time integral.
 //! - [`Trace`]: the remainder at one place over time, with averages and moments over cells of any width.
+//! - [`Plate`]: the echoes that a second free face adds, to sixteen transits.
 //! - [`SurfaceResponse`]: the deflection under the load itself, with finite memory.
 //! - [`Arrivals`]: times of all wave fronts.
 //! - [`gauss`]: Gauss-Legendre rules for integrals of kernels; [`chebyshev`], [`chebyshev_each`], [`lagrange`],
@@ -75,6 +76,7 @@ mod statics;
 mod surface;
 mod integral;
 mod kernel;
+mod plate;
 mod trace;
 
 pub use arrivals::Arrivals;
@@ -85,6 +87,7 @@ pub use kernel::Kernel;
 pub use medium::Medium;
 pub use numeric::polynomial::{chebyshev, chebyshev_each, lagrange, leja_nodes, leja_series};
 pub use numeric::{bisected, gauss, random};
+pub use plate::Plate;
 pub use profile::Profile;
 pub use surface::{Deflection, LoadedDisc, SurfaceResponse, surface_measure};
 pub use trace::Trace;

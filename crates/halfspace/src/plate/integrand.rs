@@ -1,0 +1,260 @@
+//! The six integrands of waves of m legs at a place on the path.
+//!
+//! Theory: `docs/theory.md` (T68, T69).
+
+use crate::field::Point;
+use crate::numeric::lanes::{Lanes, dispatch};
+use crate::numeric::scalar::{Complex, Real, Scalar};
+use crate::plate::quadrature::{NODES, Values};
+use crate::plate::reflection::{Reflection, add_fields};
+use crate::plate::{Place, Plate};
+use crate::potentials::STEP;
+use crate::potentials::closed_form::potentials;
+use crate::potentials::compact::compact;
+use crate::potentials::far_front::ROUNDING_DIGITS;
+use pulp::{Simd, WithSimd};
+use std::f64::consts::{FRAC_PI_2, PI};
+
+/// Which waves an integrand has.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Part {
+    /// All, from q = delta to i kappa.
+    Path,
+    /// All but shear waves, from q = i kappa to i.
+    Slow,
+    /// The shear wave of m legs there.
+    Shear,
+    /// One wave beyond q = i, in one sense.
+    Fast { n: usize, wave: usize, sense: f64 },
+}
+
+/// The integrands of one part.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Integrand<'a> {
+    pub(crate) plate: &'a Plate,
+    pub(crate) at: Point,
+    /// Legs.
+    pub(crate) m: usize,
+    /// How far to the right of the imaginary axis the path begins.
+    pub(crate) delta: f64,
+    pub(crate) part: Part,
+}
+
+impl Integrand<'_> {
+    /// At the nodes of a panel.
+    pub(crate) fn values(&self, nodes: &[f64; NODES]) -> Values {
+        dispatch(Nodes {
+            integrand: self,
+            nodes,
+        })
+    }
+
+    /// Over a piece between two fronts, where the integrand has roots.
+    pub(crate) fn on(&self, [from, to]: [f64; 2], nodes: &[f64; NODES]) -> Values {
+        let mut places = [0.0; NODES];
+        let mut slopes = [0.0; NODES];
+        for (i, s) in nodes.iter().enumerate() {
+            let (sin, cos) = (FRAC_PI_2 * s).sin_cos();
+            places[i] = if *s < 0.5 {
+                from + (to - from) * sin * sin
+            } else {
+                to - (to - from) * cos * cos
+            };
+            slopes[i] = (to - from) * PI * sin * cos;
+        }
+        let mut values = self.values(&places);
+        for values in &mut values {
+            for (value, slope) in values.iter_mut().zip(&slopes) {
+                *value *= slope;
+            }
+        }
+        values
+    }
+
+    /// The six integrands at a place.
+    #[inline(always)]
+    fn at<T: Real>(&self, v: T) -> [T; 6] {
+        match self.part {
+            Part::Path => self.along_path(v),
+            Part::Slow => self.slow(v, false),
+            Part::Shear => self.slow(v, true),
+            Part::Fast { n, wave, sense } => self.fast(v, n, wave, sense),
+        }
+    }
+
+    #[inline(always)]
+    fn along_path<T: Real>(&self, v: T) -> [T; 6] {
+        let kappa = self.plate.kernel.medium().kappa();
+        let one = v.constant(1.0);
+        let part = v * (-v + 2.0);
+        let slope = (one - v) * 2.0;
+        let p2 = part * part;
+        let p5 = p2 * p2 * part;
+        let q = T::Complex::new((one - p5 * part) * self.delta, part * kappa);
+        let dq = T::Complex::new(p5 * slope * (-6.0 * self.delta), slope * kappa);
+        let k = self.plate.kernel.medium().shear_slowness_squared();
+        let square = q * q;
+        let roots = [(square + 1.0).root(), (square * k + 1.0).root()];
+        self.complex(q, dq * q.reciprocal(), roots, false, false)
+    }
+
+    #[inline(always)]
+    fn slow<T: Real>(&self, v: T, shear: bool) -> [T; 6] {
+        let k = self.plate.kernel.medium().shear_slowness_squared();
+        let span = (k - 1.0).sqrt();
+        let inverse = v.constant(1.0) / (v * v + 1.0);
+        let (sin, cos, slope) = (v * inverse * 2.0, (-(v * v) + 1.0) * inverse, inverse * 2.0);
+        let (p, y) = (sin * span, cos * span);
+        let x = (p * p + 1.0).sqrt();
+        let over = v.constant(1.0) / x;
+        let zero = v.constant(0.0);
+        let roots = [
+            T::Complex::new(p * over, zero),
+            T::Complex::new(zero, y * over),
+        ];
+        let q = T::Complex::new(zero, over);
+        let dq = T::Complex::new(p * y * over * over * slope, zero);
+        self.complex(q, dq, roots, shear, true)
+    }
+
+    /// Sum over the waves at a complex q, without the shear wave on the imaginary axis, or that alone.
+    #[inline(always)]
+    fn complex<T: Real>(
+        &self,
+        q: T::Complex,
+        dq_over_q: T::Complex,
+        roots: [T::Complex; 2],
+        shear: bool,
+        on_axis: bool,
+    ) -> [T; 6] {
+        let Self { plate, at, m, .. } = *self;
+        let k = plate.kernel.medium().shear_slowness_squared();
+        let reflection = Reflection::complex(k, q, roots);
+        let mut sum = [q.re().constant(0.0); 6];
+        let place = plate.place(at.z);
+        let qt = q * at.t;
+        let least = usize::from(on_axis && !shear && place != Place::Inside);
+        let most = if shear { 0 } else { m };
+        let legs = reflection.after(m, [least, most]);
+        for n in least..=most {
+            for wave in 0..2 {
+                let mut row = [q.constant(0.0); 6];
+                let mut zeta = 0.0;
+                match place {
+                    // both waves have run the same way
+                    Place::Upper | Place::Lower if wave == 1 => continue,
+                    Place::Upper | Place::Lower => {
+                        let upper = place == Place::Upper;
+                        for wave in 0..2 {
+                            if m > 1 {
+                                let arriving = legs.arriving[n][wave];
+                                reflection.add(wave, arriving, upper, &mut row);
+                            }
+                            reflection.add(wave, legs.leaving[n][wave], !upper, &mut row);
+                        }
+                    }
+                    Place::Inside => {
+                        let is_shear = n == 0 && wave == 1;
+                        if on_axis && is_shear != shear {
+                            continue;
+                        }
+                        zeta = plate.below(m, at.z);
+                        let turned = !m.is_multiple_of(2);
+                        reflection.add(wave, legs.leaving[n][wave], turned, &mut row);
+                    }
+                }
+                let ways = plate.ways(m, n, zeta, wave);
+                let gamma = roots[0] * ways[0] + roots[1] * ways[1];
+                let load = (at.r, ROUNDING_DIGITS);
+                let profile = plate.kernel.profile();
+                let minus = potentials::<STEP, T::Complex>(profile, gamma - qt, load, shear);
+                let plus = potentials::<STEP, T::Complex>(profile, gamma + qt, load, shear);
+                let a3 = (minus.a_upper + plus.a_upper) * dq_over_q;
+                let a2 = (minus.a_lower + plus.a_lower) * dq_over_q;
+                let g3 = (minus.g_upper + plus.g_upper) * dq_over_q;
+                let g2 = (minus.g_lower + plus.g_lower) * dq_over_q;
+                let [u, w, rr, tt, zz, rz] = row;
+                let terms = [
+                    (u * g3).im(),
+                    (w * a3).im(),
+                    (rr * a2).im(),
+                    (tt * a2).im(),
+                    (zz * a2).im(),
+                    (rz * g2).im(),
+                ];
+                add_fields(terms, at.r, &mut sum);
+            }
+        }
+        sum
+    }
+
+    #[inline(always)]
+    fn fast<T: Real>(&self, u: T, n: usize, wave: usize, sense: f64) -> [T; 6] {
+        let Self { plate, at, m, .. } = *self;
+        let k = plate.kernel.medium().shear_slowness_squared();
+        let one = u.constant(1.0);
+        let inverse = one / (u * u + 1.0);
+        let p = (one - u) * (one + u) * inverse;
+        let x = u * inverse * 2.0;
+        let y = (-(x * x) + k).sqrt();
+        let over = one / x;
+        // dx/x
+        let slope = p * inverse * 2.0 * over;
+        let reflection = Reflection::fast(k, [x, p, y]);
+        let legs = reflection.after(m, [n, n]);
+        let mut row = [u.constant(0.0); 6];
+        let mut zeta = 0.0;
+        match plate.place(at.z) {
+            Place::Inside => {
+                zeta = plate.below(m, at.z);
+                reflection.add(wave, legs.leaving[n][wave], !m.is_multiple_of(2), &mut row);
+            }
+            face => {
+                let upper = face == Place::Upper;
+                for wave in 0..2 {
+                    if m > 1 {
+                        reflection.add(wave, legs.arriving[n][wave], upper, &mut row);
+                    }
+                    reflection.add(wave, legs.leaving[n][wave], !upper, &mut row);
+                }
+            }
+        }
+        let ways = plate.ways(m, n, zeta, wave);
+        let eta = (p * ways[0] + y * ways[1] + sense * at.t) * over;
+        let psi = compact::<STEP, T>(plate.kernel.profile(), eta, (at.r, ROUNDING_DIGITS));
+        let terms = [
+            row[0] * psi.g_upper * slope,
+            row[1] * psi.a_upper * slope,
+            row[2] * psi.a_lower * slope,
+            row[3] * psi.a_lower * slope,
+            row[4] * psi.a_lower * slope,
+            row[5] * psi.g_lower * slope,
+        ];
+        let mut sum = [u.constant(0.0); 6];
+        add_fields(terms, at.r, &mut sum);
+        sum
+    }
+}
+
+struct Nodes<'a> {
+    integrand: &'a Integrand<'a>,
+    nodes: &'a [f64; NODES],
+}
+
+impl WithSimd for Nodes<'_> {
+    type Output = Values;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> Values {
+        let mut values = [[0.0; NODES]; 6];
+        for (i, node) in Lanes::registers(simd, self.nodes).enumerate() {
+            let found = self.integrand.at(node);
+            for (values, found) in values.iter_mut().zip(found) {
+                for lane in 0..S::F64_LANES {
+                    values[i * S::F64_LANES + lane] = found.get(lane);
+                }
+            }
+        }
+        values
+    }
+}

@@ -1,0 +1,342 @@
+//! A plate with two free faces: what its echoes add to the response of the half-space.
+//!
+//! Waves that have run over m legs between the faces are a sum over n of waves that were longitudinal over n legs and
+//! shear over m - n, in any order (generalized rays). In the scaling of the half-space each is the same single integral
+//!
+//! ```text
+//! f(t) = 1/pi Im int dq/q G(q) [Psi(Gamma - qt) + Psi(Gamma + qt)],     Gamma = (n a + (m - n) b) H + (a or b) zeta
+//! ```
+//!
+//! with the potentials Psi of the half-space. The path runs to the right of the poles at q = 0 and q = ic, whose order
+//! grows with the legs, and left of the fronts; from q = i kappa on it is the imaginary axis.
+//!
+//! Theory: `docs/theory.md` (T68, T69).
+
+mod cuts;
+mod integrand;
+mod quadrature;
+mod reflection;
+
+use crate::domain::{DomainError, check, check_hertz, check_place, check_time};
+use crate::field::{Estimate, Field, Point, Six};
+use crate::kernel::Kernel;
+use cuts::{pieces, roots_of_concave};
+use integrand::{Integrand, Part};
+use num_complex::Complex64;
+use quadrature::Panels;
+use reflection::MOST_LEGS;
+use std::f64::consts::PI;
+
+/// A plate of infinite width with free faces, under a Hertz load on the upper one.
+///
+/// Reduced units as those of [`Kernel`]; the thickness H is in r0.
+///
+/// Accuracy: to 12 transits H/c1 the echoes have errors below the tolerance of the kernel, from 1e-8 on, over 1/R for
+/// displacements and 1/R^2 for stresses, with R = 1 + sqrt(r^2 + H^2). Waves of equal m grow and cancel with those of other
+/// m, so that digits are lost with time: seven at 12 transits, ten at 16.
+///
+/// ```
+/// use halfspace::{Field, Kernel, Medium, Plate, Profile};
+/// let kernel = Kernel::new(&Medium::new(0.25)?, Profile::Hertz, 1e-8)?;
+/// let plate = Plate::new(&kernel, 4.0)?;
+/// let w = Field::DisplacementZ.index();
+/// // opposite the load the first P wave of a half-space is about doubled by the free face
+/// let alone = kernel.static_field(0.0, 4.0)?[w] + kernel.remainder(0.0, 4.0, 4.01)?.value[w];
+/// let echo = plate.echoes(0.0, 4.0, 4.01)?.value[w];
+/// assert!((echo / alone - 1.0).abs() < 0.02);
+/// # Ok::<(), halfspace::DomainError>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct Plate {
+    kernel: Kernel,
+    thickness: f64,
+}
+
+/// Errors of a panel over the tolerance, and the finest tolerance that is reached at late times.
+const OF_TOLERANCE: f64 = 0.1;
+const FINEST: f64 = 1e-8;
+
+/// Latest time in transits.
+const LATEST: f64 = MOST_LEGS as f64;
+
+/// Rounding error of the sum over the sum of its magnitudes.
+const ROUNDING: f64 = 1e-15;
+
+/// Part of the way to the fronts at which the path begins, and the farthest begin: nearer to the poles rounding errors grow, to
+/// 1e-2 at 12 transits with a farthest begin of 0.35; `echoes_do_not_depend_on_the_path` fails at 0.85, and the second at 2.
+const SAFE: f64 = 0.75;
+const FARTHEST: f64 = 1.0;
+
+/// Where a point stands: on a face, or inside, where waves of both directions pass separately.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Place {
+    /// Under the load.
+    Upper,
+    /// Opposite.
+    Lower,
+    /// Between them.
+    Inside,
+}
+
+impl Plate {
+    /// Of the material, load and accuracy of a kernel.
+    ///
+    /// # Errors
+    /// [`DomainError`] for a thickness outside (0, 1e20], and for a profile other than Hertz.
+    pub fn new(kernel: &Kernel, thickness: f64) -> Result<Self, DomainError> {
+        check(
+            thickness > 0.0 && thickness <= 1e20,
+            "thickness",
+            thickness,
+            "(0, 1e20]",
+        )?;
+        check_hertz(kernel.profile(), "a plate")?;
+        Ok(Self {
+            kernel: kernel.clone(),
+            thickness,
+        })
+    }
+
+    /// The echoes at (r, z) at a time, which add to the step response of the half-space: on the lower face the reflection of
+    /// the wave that arrives there is one of them.
+    ///
+    /// [`Estimate::error`] is that of the quadrature and of rounding.
+    ///
+    /// # Errors
+    /// [`DomainError`] for a place outside the plate, and for a time after 16 transits H/c1: no digit is left soon after.
+    pub fn echoes(&self, r: f64, z: f64, t: f64) -> Result<Estimate, DomainError> {
+        check_place(r, z)?;
+        check_time(t)?;
+        check(z <= self.thickness, "z", z, "[0, thickness]")?;
+        let latest = LATEST * self.thickness;
+        check(
+            t <= latest,
+            "t",
+            t,
+            "up to 16 transits of the plate by P waves",
+        )?;
+        let panels = self.sum(Point { r, z, t }, SAFE);
+        let mut found = Estimate::default();
+        for f in 0..6 {
+            found.value[f] = panels.value[f] / PI;
+            found.error[f] = (panels.error[f] + ROUNDING * panels.size[f]) / PI;
+        }
+        // on the upper face both tractions of the half-space are those of the load already
+        if self.place(z) == Place::Upper {
+            for field in [Field::StressZz, Field::StressRz] {
+                found.value[field.index()] = 0.0;
+                found.error[field.index()] = 0.0;
+            }
+        }
+        Ok(found)
+    }
+
+    /// Where a depth is.
+    pub(crate) fn place(&self, z: f64) -> Place {
+        match z {
+            0.0 => Place::Upper,
+            _ if z == self.thickness => Place::Lower,
+            _ => Place::Inside,
+        }
+    }
+
+    /// Depth below the face that a wave left after m legs.
+    pub(crate) fn below(&self, m: usize, z: f64) -> f64 {
+        if m.is_multiple_of(2) {
+            z
+        } else {
+            self.thickness - z
+        }
+    }
+
+    /// Vertical way of a wave of m legs to a depth, at least.
+    fn way(&self, m: usize, z: f64) -> f64 {
+        let inside = match self.place(z) {
+            Place::Inside => self.below(m, z),
+            Place::Upper | Place::Lower => 0.0,
+        };
+        m as f64 * self.thickness + inside
+    }
+
+    /// Whether waves of m legs are counted at a place: those that arrive at a face.
+    fn counts(&self, m: usize, z: f64) -> bool {
+        match self.place(z) {
+            Place::Upper => m.is_multiple_of(2),
+            Place::Lower => !m.is_multiple_of(2),
+            Place::Inside => true,
+        }
+    }
+
+    /// The sum over all waves that have arrived; the path keeps to a part `safe` of the way to the fronts.
+    fn sum(&self, at: Point, safe: f64) -> Panels {
+        let mut panels = Panels::default();
+        let size = 1.0 + at.r.hypot(self.thickness);
+        let own = OF_TOLERANCE * self.kernel.tolerance().max(FINEST);
+        let mut allowed: Six = [own / (size * size); 6];
+        (allowed[0], allowed[1]) = (own / size, own / size);
+        let across = (at.r - self.kernel.profile().radius()).max(0.0);
+        let arrived = |m: &usize| across.hypot(self.way(*m, at.z)) < at.t;
+        let counted = (1..=MOST_LEGS).filter(|m| self.counts(*m, at.z));
+        for m in counted.take_while(arrived) {
+            let path = Integrand {
+                plate: self,
+                at,
+                m,
+                delta: self.delta(at, m, safe),
+                part: Part::Path,
+            };
+            let slow = Integrand {
+                part: Part::Slow,
+                ..path
+            };
+            for part in [path, slow] {
+                panels.add([0.0, 1.0], &allowed, |nodes| part.values(nodes));
+            }
+            self.shear(&path, &allowed, &mut panels);
+            for n in 0..=m {
+                self.fast(&path, n, &allowed, &mut panels);
+            }
+        }
+        panels
+    }
+
+    /// How far to the right of the imaginary axis the path begins: right of the poles, left of the fronts, at which
+    /// way sqrt(1 + q^2) - q T = i e for waves of one kind; those of other groups lie between.
+    fn delta(&self, at: Point, m: usize, safe: f64) -> f64 {
+        let kappa = self.kernel.medium().kappa();
+        let radius = self.kernel.profile().radius();
+        let way = self.way(m, at.z);
+        let mut least = f64::INFINITY;
+        for (time, speed) in [(at.t, 1.0), (kappa * at.t, kappa)] {
+            for e in [(at.r - radius).abs(), at.r + radius] {
+                let late = time * time - way * way;
+                // a front that has not passed lies on the imaginary axis, above the path
+                if late <= e * e {
+                    continue;
+                }
+                let root = Complex64::from(late - e * e).sqrt() * way;
+                let q = (root + Complex64::new(0.0, e * time)) / late * speed;
+                if q.im < kappa {
+                    least = least.min(q.re);
+                }
+            }
+        }
+        FARTHEST.min(safe * least)
+    }
+
+    /// Adds the waves that were shear over all of m legs, at slownesses between one and 1/kappa.
+    fn shear(&self, path: &Integrand<'_>, allowed: &Six, panels: &mut Panels) {
+        let at = path.at;
+        let k = self.kernel.medium().shear_slowness_squared();
+        let way = self.way(path.m, at.z);
+        let span = (k - 1.0).sqrt();
+        let place = |v: f64| {
+            let inverse = 1.0 / (1.0 + v * v);
+            let (sin, cos) = (2.0 * v * inverse, (1.0 - v * v) * inverse);
+            ((1.0 + (span * sin).powi(2)).sqrt(), span * cos * way)
+        };
+        let own = Integrand {
+            part: Part::Shear,
+            ..*path
+        };
+        let cuts = [-1.0, 1.0]
+            .map(|sense| self.fronts(at, place, sense))
+            .concat();
+        for piece in pieces(cuts) {
+            panels.add([0.0, 1.0], allowed, |nodes| own.on(piece, nodes));
+        }
+    }
+
+    /// Adds the waves of m legs, n of them as P, at slownesses below one.
+    fn fast(&self, path: &Integrand<'_>, n: usize, allowed: &Six, panels: &mut Panels) {
+        let (at, m) = (path.at, path.m);
+        let k = self.kernel.medium().shear_slowness_squared();
+        let inside = self.place(at.z) == Place::Inside;
+        let waves: &[usize] = if inside { &[0, 1] } else { &[0] };
+        for &wave in waves {
+            let zeta = if inside { self.below(m, at.z) } else { 0.0 };
+            let ways = self.ways(m, n, zeta, wave);
+            let place = |u: f64| {
+                let x = 2.0 * u / (1.0 + u * u);
+                let p = (1.0 - u * u) / (1.0 + u * u);
+                (x, ways[0] * p + ways[1] * (k - x * x).sqrt())
+            };
+            for sense in [-1.0, 1.0] {
+                let own = Integrand {
+                    part: Part::Fast { n, wave, sense },
+                    ..*path
+                };
+                for piece in pieces(self.fronts(at, place, sense)) {
+                    let (x, vertical) = place(0.5 * (piece[0] + piece[1]));
+                    let radius = self.kernel.profile().radius();
+                    if ((vertical + sense * at.t) / x).abs() < at.r + radius {
+                        panels.add([0.0, 1.0], allowed, |nodes| own.on(piece, nodes));
+                    }
+                }
+            }
+        }
+    }
+
+    /// Vertical ways as P and as S.
+    pub(crate) fn ways(&self, m: usize, n: usize, zeta: f64, wave: usize) -> [f64; 2] {
+        let mut ways = [n as f64 * self.thickness, (m - n) as f64 * self.thickness];
+        ways[wave] += zeta;
+        ways
+    }
+
+    /// Places in [0, 1] at which the fronts `vertical + sense t = e x` of a wave pass; `place` gives x and `vertical`.
+    fn fronts(&self, at: Point, place: impl Fn(f64) -> (f64, f64), sense: f64) -> Vec<f64> {
+        let radius = self.kernel.profile().radius();
+        let mut found = vec![];
+        for e in [(at.r - radius).abs(), at.r + radius] {
+            for e in [-e, e] {
+                let height = |v: f64| {
+                    let (x, vertical) = place(v);
+                    vertical + sense * at.t - e * x
+                };
+                roots_of_concave(&height, &mut found);
+            }
+        }
+        found
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::medium::Medium;
+    use crate::numeric::random::Stream;
+    use crate::profile::Profile;
+
+    /// Between the poles and the fronts the integral does not depend on the path: 200 points of random plates, on both faces
+    /// and inside, to ten transits.
+    #[test]
+    fn echoes_do_not_depend_on_the_path() {
+        let mut random = Stream::new(7);
+        let mut count = 0;
+        while count < 200 {
+            let thickness = 10_f64.powf(1.5 * random.next() - 0.3);
+            let medium = Medium::new(0.05 + 0.42 * random.next()).unwrap();
+            let kernel = Kernel::new(&medium, Profile::Hertz, 1e-8).unwrap();
+            let plate = Plate::new(&kernel, thickness).unwrap();
+            let places = [0.0, thickness, thickness * random.next()];
+            let z = places[(3.0 * random.next()) as usize];
+            let r = 10_f64.powf(2.0 * random.next() - 0.7);
+            let t = r + thickness * (1.0 + 9.0 * random.next());
+            if t > 10.0 * thickness {
+                continue;
+            }
+            count += 1;
+            let [one, other] = [0.7, 0.78].map(|safe| plate.sum(Point { r, z, t }, safe).value);
+            let size = 1.0 + r.hypot(thickness);
+            for f in 0..6 {
+                let unit = if f < 2 { size } else { size * size };
+                let off = (one[f] - other[f]).abs() * unit;
+                assert!(
+                    off < 1e-5,
+                    "field {f} at {r}, {z}, {t} of {thickness}: {off:.1e}"
+                );
+            }
+        }
+    }
+}

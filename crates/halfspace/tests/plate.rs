@@ -1,0 +1,159 @@
+//! The echoes of a plate against what must hold for any plate, and against an inversion of the whole plate.
+
+#![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
+
+use halfspace::{FIELDS, Field, Kernel, Medium, Plate, Profile, gauss};
+
+const W: usize = Field::DisplacementZ.index();
+
+fn plate(poisson_ratio: f64, thickness: f64) -> (Kernel, Plate) {
+    let medium = Medium::new(poisson_ratio).unwrap();
+    let kernel = Kernel::new(&medium, Profile::Hertz, 1e-8).unwrap();
+    let plate = Plate::new(&kernel, thickness).unwrap();
+    (kernel, plate)
+}
+
+/// The step response of a field at a point of a plate.
+fn step((kernel, plate): &(Kernel, Plate), field: usize, [r, z]: [f64; 2], t: f64) -> f64 {
+    let alone =
+        kernel.static_field(r, z).unwrap()[field] + kernel.remainder(r, z, t).unwrap().value[field];
+    alone + plate.echoes(r, z, t).unwrap().value[field]
+}
+
+/// w under a force sin^4(pi t/T), Laplace-Hankel inversion of the whole plate with a 4 by 4 system for each wave number:
+/// Poisson's ratio, H, r, on which face, T, t, and w in P/(mu r0).
+const WHOLE: [(f64, f64, f64, bool, f64, f64, f64); 12] = [
+    (0.25, 4.0, 0.0, true, 8.0, 9.0, 7.5026346e-02),
+    (0.25, 4.0, 0.0, true, 8.0, 13.5, 1.1181633e-02),
+    (0.25, 4.0, 0.0, true, 8.0, 20.0, 4.2377676e-02),
+    (0.25, 4.0, 0.0, true, 8.0, 26.0, 3.8618539e-02),
+    (0.25, 4.0, 3.0, false, 8.0, 9.0, 2.5892777e-02),
+    (0.25, 4.0, 3.0, false, 8.0, 13.5, 2.4629052e-02),
+    (0.25, 4.0, 3.0, false, 8.0, 20.0, 2.5902630e-02),
+    (0.25, 4.0, 3.0, false, 8.0, 26.0, 2.6210270e-02),
+    (0.3, 3.0, 2.0, true, 6.0, 9.0, 4.2161703e-02),
+    (0.3, 3.0, 2.0, true, 6.0, 13.5, 3.3482046e-02),
+    (0.3, 3.0, 2.0, true, 6.0, 20.0, 3.7995610e-02),
+    (0.3, 3.0, 2.0, true, 6.0, 26.0, 3.9403683e-02),
+];
+
+#[test]
+fn echoes_agree_with_an_inversion_of_the_whole_plate() {
+    let rule = gauss::rule(20);
+    for (poisson_ratio, thickness, r, is_lower, duration, t, whole) in WHOLE {
+        let both = plate(poisson_ratio, thickness);
+        let place = [r, if is_lower { thickness } else { 0.0 }];
+        let rate = |s: f64| {
+            let x = std::f64::consts::PI * s / duration;
+            4.0 * x.sin().powi(3) * x.cos() * std::f64::consts::PI / duration
+        };
+        // panels so short that fronts within them matter little
+        let parts = 60;
+        let width = duration.min(t) / f64::from(parts);
+        let part = |i: i32| {
+            let from = width * f64::from(i);
+            let terms = rule.on(from, from + width);
+            terms
+                .map(|(s, weight)| weight * rate(s) * step(&both, W, place, t - s))
+                .sum::<f64>()
+        };
+        let found: f64 = (0..parts).map(part).sum();
+        // fronts are sharp on the axis, and the inversion interpolates them
+        let within = if r == 0.0 { 2e-4 } else { 2e-5 };
+        assert!(
+            (found - whole).abs() < within * 0.08,
+            "{t}: {found} against {whole}"
+        );
+    }
+}
+
+/// The sum over all ways of the waves vanishes before the first of them.
+#[test]
+fn nothing_comes_before_its_time() {
+    let (_, plate) = plate(0.3, 3.0);
+    for [r, z] in [[0.0, 0.0], [2.0, 3.0], [5.0, 1.2]] {
+        // the first echo: two legs to the upper face, one to the lower, back from the lower inside
+        let way = if z == 0.0 { 6.0 } else { 3.0 + (3.0 - z) };
+        let first = f64::max(r - 1.0, 0.0).hypot(way);
+        let early = plate.echoes(r, z, 0.999_999 * first).unwrap();
+        assert_eq!(early.value, [0.0; 6]);
+        // continuous displacements: nothing of a group is there at once
+        let late = plate.echoes(r, z, 1.000_01 * first).unwrap();
+        assert!(late.value[W].abs() < 1e-4, "{late:?}");
+    }
+}
+
+/// Later groups begin with nothing as well: displacements are continuous through the arrival of each number of legs.
+#[test]
+fn displacements_are_continuous_through_arrivals() {
+    let (_, plate) = plate(0.25, 2.0);
+    for legs in 2..=8 {
+        let z = if legs % 2 == 0 { 0.0 } else { 2.0 };
+        let arrival = 1_f64.hypot(2.0 * f64::from(legs));
+        let [before, after] = [-1e-6, 1e-6].map(|d| plate.echoes(2.0, z, arrival + d).unwrap());
+        for f in 0..2 {
+            assert!(
+                (before.value[f] - after.value[f]).abs() < 1e-5,
+                "{legs} {f}"
+            );
+        }
+    }
+}
+
+/// Both faces are free: no traction on the upper beside the load, none on the lower.
+#[test]
+fn faces_are_free() {
+    let (kernel, plate) = plate(0.2, 1.5);
+    for t in [2.0, 4.7, 9.3, 15.0] {
+        for field in [Field::StressZz, Field::StressRz] {
+            let total = step(
+                &(kernel.clone(), plate.clone()),
+                field.index(),
+                [0.7, 1.5],
+                t,
+            );
+            assert!(total.abs() < 1e-7, "{field:?} at {t}: {total}");
+            assert_eq!(plate.echoes(0.7, 0.0, t).unwrap().value[field.index()], 0.0);
+        }
+    }
+}
+
+/// Opposite the load a free face doubles the motion of the first P wave.
+#[test]
+fn the_lower_face_doubles_the_first_motion() {
+    let (kernel, plate) = plate(0.3, 20.0);
+    let t = 20.000_1_f64;
+    let rest = kernel.static_field(0.0, 20.0).unwrap()[W];
+    let alone = rest + kernel.remainder(0.0, 20.0, t).unwrap().value[W];
+    let echo = plate.echoes(0.0, 20.0, t).unwrap().value[W];
+    assert!((echo / alone - 1.0).abs() < 1e-3, "{echo} {alone}");
+}
+
+/// A point just below a face has the fields of the face, whose sum is taken in another way.
+#[test]
+fn points_inside_tend_to_the_faces() {
+    let both = plate(0.3, 2.0);
+    for (face, inside) in [(0.0, 1e-7), (2.0, 2.0 - 1e-7)] {
+        for t in [5.3, 8.9, 14.2] {
+            for field in FIELDS {
+                let [a, b] = [face, inside].map(|z| step(&both, field.index(), [1.7, z], t));
+                assert!((a - b).abs() < 1e-5, "{field:?} at {face}, {t}: {a} {b}");
+            }
+        }
+    }
+}
+
+#[test]
+fn what_a_plate_cannot_do_is_rejected() {
+    let (kernel, plate) = plate(0.3, 2.0);
+    for (found, words) in [
+        (plate.echoes(0.0, 2.1, 1.0), "z"),
+        (plate.echoes(0.0, 1.0, 32.5), "16 transits"),
+        (plate.echoes(-1.0, 1.0, 2.0), "r"),
+    ] {
+        assert!(found.unwrap_err().to_string().contains(words));
+    }
+    assert!(Plate::new(&kernel, 0.0).is_err());
+    let point = Kernel::new(kernel.medium(), Profile::Point, 1e-6).unwrap();
+    assert!(Plate::new(&point, 1.0).is_err());
+}
