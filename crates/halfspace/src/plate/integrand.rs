@@ -6,7 +6,7 @@ use crate::field::Point;
 use crate::numeric::lanes::{Lanes, dispatch};
 use crate::numeric::scalar::{Complex, Real, Scalar};
 use crate::plate::quadrature::{NODES, Values};
-use crate::plate::reflection::{Reflection, add_fields};
+use crate::plate::reflection::{Legs, Reflection, add_fields};
 use crate::plate::{Place, Plate};
 use crate::potentials::STEP;
 use crate::potentials::closed_form::potentials;
@@ -71,9 +71,9 @@ impl Integrand<'_> {
         values
     }
 
-    /// The six integrands at a place.
+    /// The integrands at a place.
     #[inline(always)]
-    fn at<T: Real>(&self, v: T) -> [T; 6] {
+    fn at<T: Real>(&self, v: T) -> [T; 8] {
         match self.part {
             Part::Path => self.along_path(v),
             Part::Slow => self.slow(v, false),
@@ -83,7 +83,7 @@ impl Integrand<'_> {
     }
 
     #[inline(always)]
-    fn along_path<T: Real>(&self, v: T) -> [T; 6] {
+    fn along_path<T: Real>(&self, v: T) -> [T; 8] {
         let kappa = self.plate.kernel.medium().kappa();
         let one = v.constant(1.0);
         let part = v * (-v + 2.0);
@@ -99,7 +99,7 @@ impl Integrand<'_> {
     }
 
     #[inline(always)]
-    fn slow<T: Real>(&self, v: T, shear: bool) -> [T; 6] {
+    fn slow<T: Real>(&self, v: T, shear: bool) -> [T; 8] {
         let k = self.plate.kernel.medium().shear_slowness_squared();
         let span = (k - 1.0).sqrt();
         let inverse = v.constant(1.0) / (v * v + 1.0);
@@ -126,11 +126,11 @@ impl Integrand<'_> {
         roots: [T::Complex; 2],
         shear: bool,
         on_axis: bool,
-    ) -> [T; 6] {
+    ) -> [T; 8] {
         let Self { plate, at, m, .. } = *self;
         let k = plate.kernel.medium().shear_slowness_squared();
         let reflection = Reflection::complex(k, q, roots);
-        let mut sum = [q.re().constant(0.0); 6];
+        let mut sum = [q.re().constant(0.0); 8];
         let place = plate.place(at.z);
         let qt = q * at.t;
         let least = usize::from(on_axis && !shear && place != Place::Inside);
@@ -138,33 +138,15 @@ impl Integrand<'_> {
         let legs = reflection.after(m, [least, most]);
         for n in least..=most {
             for wave in 0..2 {
-                let mut row = [q.constant(0.0); 6];
-                let mut zeta = 0.0;
-                match place {
-                    // both waves have run the same way
-                    Place::Upper | Place::Lower if wave == 1 => continue,
-                    Place::Upper | Place::Lower => {
-                        let upper = place == Place::Upper;
-                        for wave in 0..2 {
-                            if m > 1 {
-                                let arriving = legs.arriving[n][wave];
-                                reflection.add(wave, arriving, upper, &mut row);
-                            }
-                            reflection.add(wave, legs.leaving[n][wave], !upper, &mut row);
-                        }
-                    }
-                    Place::Inside => {
-                        let is_shear = n == 0 && wave == 1;
-                        if on_axis && is_shear != shear {
-                            continue;
-                        }
-                        zeta = plate.below(m, at.z);
-                        let turned = !m.is_multiple_of(2);
-                        reflection.add(wave, legs.leaving[n][wave], turned, &mut row);
-                    }
+                let is_inside = place == Place::Inside;
+                // on a face both waves have run the same distance; on the axis the shear wave has an integral of its own
+                if !is_inside && wave == 1 || is_inside && on_axis && (n == 0 && wave == 1) != shear
+                {
+                    continue;
                 }
-                let ways = plate.ways(m, n, zeta, wave);
-                let gamma = roots[0] * ways[0] + roots[1] * ways[1];
+                let row = self.row(&reflection, &legs, n, wave);
+                let [as_p, as_s] = plate.distances(m, n, at.z, wave);
+                let gamma = roots[0] * as_p + roots[1] * as_s;
                 let load = (at.r, ROUNDING_DIGITS);
                 let profile = plate.kernel.profile();
                 let minus = potentials::<STEP, T::Complex>(profile, gamma - qt, load, shear);
@@ -188,8 +170,33 @@ impl Integrand<'_> {
         sum
     }
 
+    /// What multiplies the potentials of the waves with n legs as P: on a face of those that arrive and leave, except for the
+    /// first to arrive, which the half-space has; inside of one wave, P or S.
     #[inline(always)]
-    fn fast<T: Real>(&self, u: T, n: usize, wave: usize, sense: f64) -> [T; 6] {
+    fn row<X: Scalar>(
+        &self,
+        reflection: &Reflection<X>,
+        legs: &Legs<X>,
+        n: usize,
+        wave: usize,
+    ) -> [X; 6] {
+        let up = !self.m.is_multiple_of(2);
+        let mut row = [legs.leaving[n][0].constant(0.0); 6];
+        if self.plate.place(self.at.z) == Place::Inside {
+            reflection.add(wave, legs.leaving[n][wave], up, &mut row);
+            return row;
+        }
+        for wave in 0..2 {
+            if self.m > 1 {
+                reflection.add(wave, legs.arriving[n][wave], !up, &mut row);
+            }
+            reflection.add(wave, legs.leaving[n][wave], up, &mut row);
+        }
+        row
+    }
+
+    #[inline(always)]
+    fn fast<T: Real>(&self, u: T, n: usize, wave: usize, sense: f64) -> [T; 8] {
         let Self { plate, at, m, .. } = *self;
         let k = plate.kernel.medium().shear_slowness_squared();
         let one = u.constant(1.0);
@@ -202,25 +209,9 @@ impl Integrand<'_> {
         let slope = p * inverse * 2.0 * over;
         let reflection = Reflection::fast(k, [x, p, y]);
         let legs = reflection.after(m, [n, n]);
-        let mut row = [u.constant(0.0); 6];
-        let mut zeta = 0.0;
-        match plate.place(at.z) {
-            Place::Inside => {
-                zeta = plate.below(m, at.z);
-                reflection.add(wave, legs.leaving[n][wave], !m.is_multiple_of(2), &mut row);
-            }
-            face => {
-                let upper = face == Place::Upper;
-                for wave in 0..2 {
-                    if m > 1 {
-                        reflection.add(wave, legs.arriving[n][wave], upper, &mut row);
-                    }
-                    reflection.add(wave, legs.leaving[n][wave], !upper, &mut row);
-                }
-            }
-        }
-        let ways = plate.ways(m, n, zeta, wave);
-        let eta = (p * ways[0] + y * ways[1] + sense * at.t) * over;
+        let row = self.row(&reflection, &legs, n, wave);
+        let [as_p, as_s] = plate.distances(m, n, at.z, wave);
+        let eta = (p * as_p + y * as_s + sense * at.t) * over;
         let psi = compact::<STEP, T>(plate.kernel.profile(), eta, (at.r, ROUNDING_DIGITS));
         let terms = [
             row[0] * psi.g_upper * slope,
@@ -230,7 +221,7 @@ impl Integrand<'_> {
             row[4] * psi.a_lower * slope,
             row[5] * psi.g_lower * slope,
         ];
-        let mut sum = [u.constant(0.0); 6];
+        let mut sum = [u.constant(0.0); 8];
         add_fields(terms, at.r, &mut sum);
         sum
     }
@@ -246,7 +237,7 @@ impl WithSimd for Nodes<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> Values {
-        let mut values = [[0.0; NODES]; 6];
+        let mut values = [[0.0; NODES]; 8];
         for (i, node) in Lanes::registers(simd, self.nodes).enumerate() {
             let found = self.integrand.at(node);
             for (values, found) in values.iter_mut().zip(found) {

@@ -1,4 +1,4 @@
-//! Adaptive quadrature of six functions at a time, several nodes in a register.
+//! Adaptive quadrature of six fields at a time, several nodes in a register.
 
 use crate::field::Six;
 use crate::numeric::gauss;
@@ -7,16 +7,14 @@ use std::sync::LazyLock;
 /// Nodes of a panel, a whole number of blocks.
 pub(crate) const NODES: usize = 16;
 
-/// Values of six functions at the nodes of a panel.
-pub(crate) type Values = [[f64; NODES]; 6];
+/// Six fields at the nodes of a panel, then the sums of the magnitudes of the terms of which displacements and stresses are made.
+pub(crate) type Values = [[f64; NODES]; 8];
 
-/// Sum of panels, with the errors of those that are not halved further.
+/// Sum of panels, with the errors of their rules and of rounding.
 #[derive(Debug, Default)]
 pub(crate) struct Panels {
     pub(crate) value: Six,
     pub(crate) error: Six,
-    /// Sum of the magnitudes of all terms.
-    pub(crate) size: Six,
 }
 
 /// Gauss's rule, and the weights of the last two Legendre coefficients.
@@ -44,8 +42,7 @@ static RULE: LazyLock<Rule> = LazyLock::new(|| {
 });
 
 impl Panels {
-    /// Adds the integral over an interval of functions whose values `of` gives at the nodes of a panel; `allowed` is the
-    /// error of a panel.
+    /// Adds the integral over an interval; `of` gives the values at the nodes of a panel, and `allowed` is its error.
     pub(crate) fn add(
         &mut self,
         interval: [f64; 2],
@@ -54,55 +51,39 @@ impl Panels {
     ) {
         /// Most panels of an interval.
         const MOST: usize = 200;
-        /// Error of a Gauss rule over the square of the last coefficients, over the largest value.
+        /// Error of a Gauss rule over the power 3/2 of the last two Legendre coefficients, over the root of the largest value.
         const CAUTION: f64 = 4.0;
-        /// Ratio of errors above which halving has not reduced one.
-        const STAYS: f64 = 0.45;
-        /// Error over the size of a panel below which it may be rounding.
-        const ROUNDING: f64 = 1e-8;
+        /// Rounding error over the magnitudes of the terms.
+        const ROUNDING: f64 = 1e-15;
         let rule = &*RULE;
-        // with the excess of the error over the allowed one, and how often halving has not reduced it
-        let mut stack = vec![(interval, f64::INFINITY, 0)];
+        let mut stack = vec![interval];
         let mut count = 0;
-        while let Some(([from, to], before, stays)) = stack.pop() {
+        while let Some([from, to]) = stack.pop() {
             let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
-            let nodes = rule.nodes.map(|x| middle + half * x);
-            let values = of(&nodes);
-            let (mut sums, mut errors, mut sizes) = ([0.0; 6], [0.0; 6], [0.0; 6]);
-            for (f, values) in values.iter().enumerate() {
-                let mut last = [0.0; 2];
-                let mut largest = f64::MIN_POSITIVE;
-                for (i, value) in values.iter().enumerate() {
-                    sums[f] += half * rule.weights[i] * value;
-                    sizes[f] += half * rule.weights[i] * value.abs();
-                    largest = largest.max(value.abs());
-                    for (last, weights) in last.iter_mut().zip(&rule.last) {
-                        *last += weights[i] * value;
-                    }
-                }
-                let rest = last[0].abs() + last[1].abs();
-                errors[f] = CAUTION * half * rest * (rest / largest).min(1.0);
+            let values = of(&rule.nodes.map(|x| middle + half * x));
+            let dot = |weights: &[f64; NODES], values: &[f64; NODES]| {
+                weights.iter().zip(values).map(|(w, v)| w * v).sum::<f64>()
+            };
+            let rounding = [6, 7].map(|kind| ROUNDING * half * dot(&rule.weights, &values[kind]));
+            let mut errors = Six::default();
+            for (error, values) in errors.iter_mut().zip(&values) {
+                let rest: f64 = rule.last.iter().map(|last| dot(last, values).abs()).sum();
+                let largest = values
+                    .iter()
+                    .fold(f64::MIN_POSITIVE, |most, v| most.max(v.abs()));
+                *error = CAUTION * half * rest * (rest / largest).min(1.0).sqrt();
             }
             count += 1;
-            let excess = (0..6)
-                .map(|f| errors[f] / allowed[f].max(f64::EPSILON * sizes[f]))
-                .fold(0.0, f64::max);
-            // a small error that halving does not reduce is rounding
-            let is_small = (0..6).all(|f| errors[f] <= allowed[f].max(ROUNDING * sizes[f]));
-            let stays = if is_small && excess > STAYS * before {
-                stays + 1
-            } else {
-                0
-            };
-            if excess <= 1.0 || stays > 1 || count + stack.len() >= MOST {
-                for f in 0..6 {
-                    self.value[f] += sums[f];
-                    self.error[f] += errors[f];
-                    self.size[f] += sizes[f];
-                }
-            } else {
-                stack.push(([middle, to], excess, stays));
-                stack.push(([from, middle], excess, stays));
+            let is_fine =
+                (0..6).all(|f| errors[f] <= allowed[f].max(rounding[usize::from(f >= 2)]));
+            if !is_fine && count + stack.len() < MOST {
+                stack.push([middle, to]);
+                stack.push([from, middle]);
+                continue;
+            }
+            for (f, values) in values[..6].iter().enumerate() {
+                self.value[f] += half * dot(&rule.weights, values);
+                self.error[f] += errors[f] + rounding[usize::from(f >= 2)];
             }
         }
     }

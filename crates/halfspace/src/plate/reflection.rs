@@ -27,8 +27,8 @@ pub(crate) struct Reflection<X> {
     rows: [[X; 6]; 2],
 }
 
-/// A wave after some legs: amplitudes of P and S by the number of legs as P.
-pub(crate) type Wave<X> = [[X; 2]; MOST_LEGS + 1];
+/// Waves after some legs: amplitudes of P and S by the number of legs as P.
+pub(crate) type ByLegs<X> = [[X; 2]; MOST_LEGS + 1];
 
 impl<C: Complex> Reflection<C> {
     /// At a complex q; `k` is 1/kappa^2.
@@ -109,8 +109,8 @@ impl<T: Real> Reflection<T> {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Legs<X> {
     /// The wave that arrives at a face, and the one that leaves it.
-    pub(crate) arriving: Wave<X>,
-    pub(crate) leaving: Wave<X>,
+    pub(crate) arriving: ByLegs<X>,
+    pub(crate) leaving: ByLegs<X>,
 }
 
 impl<X: Scalar> Reflection<X> {
@@ -156,9 +156,9 @@ impl<X: Scalar> Reflection<X> {
     }
 }
 
-/// Adds six fields from six products of numbers and potentials: of u and of the hoop terms twice.
+/// Adds six fields from six products of numbers and potentials, and the magnitudes of those of displacements and stresses.
 #[inline(always)]
-pub(crate) fn add_fields<T: Real>([u, w, rr, tt, zz, rz]: [T; 6], r: f64, sum: &mut [T; 6]) {
+pub(crate) fn add_fields<T: Real>([u, w, rr, tt, zz, rz]: [T; 6], r: f64, sum: &mut [T; 8]) {
     let hoop = u * 2.0;
     sum[0] = sum[0] + u * r;
     sum[1] = sum[1] + w;
@@ -166,4 +166,6 @@ pub(crate) fn add_fields<T: Real>([u, w, rr, tt, zz, rz]: [T; 6], r: f64, sum: &
     sum[3] = sum[3] + tt + hoop;
     sum[4] = sum[4] + zz;
     sum[5] = sum[5] + rz * r;
+    sum[6] = sum[6] + (u * r).abs() + w.abs();
+    sum[7] = sum[7] + rr.abs() + tt.abs() + zz.abs() + (rz * r).abs() + hoop.abs();
 }
