@@ -31,9 +31,11 @@ use std::f64::consts::PI;
 ///
 /// Reduced units as those of [`Kernel`]; the thickness H is in r0.
 ///
-/// Accuracy: to 12 transits H/c1 the echoes have errors below the tolerance of the kernel, from 1e-8 on, over 1/R for
-/// displacements and 1/R^2 for stresses, with R = 1 + sqrt(r^2 + H^2). Waves of equal m grow and cancel with those of other
-/// m, so that digits are lost with time: seven at 12 transits, ten at 16.
+/// Accuracy, over 1/R for displacements and 1/R^2 for stresses with R = 1 + sqrt(r^2 + H^2): to six transits H/c1 errors are below
+/// a fifth of a tolerance of 1e-4 and below one of 1e-6, at 400 random points. The waves of each m grow and cancel, so that
+/// digits are lost with time; far out along a plate, beyond ten thicknesses, none is left at 12 transits.
+/// [`Estimate::error`] counts that. One to four fields in a hundred are above it, by up to twenty times, most of them where the
+/// error is far below the tolerance (`cargo test -p hertzlamb-halfspace estimates_are -- --nocapture`).
 ///
 /// ```
 /// use halfspace::{Field, Kernel, Medium, Plate, Profile};
@@ -97,10 +99,8 @@ impl Plate {
     /// The echoes at (r, z) at a time, which add to the step response of the half-space: on the lower face the reflection of
     /// the wave that arrives there is one of them.
     ///
-    /// [`Estimate::error`] is that of the quadrature and of rounding.
-    ///
     /// # Errors
-    /// [`DomainError`] for a place outside the plate, and for a time after 16 transits H/c1: no digit is left soon after.
+    /// [`DomainError`] for a place outside the plate, and for a time after 16 transits H/c1.
     pub fn echoes(&self, r: f64, z: f64, t: f64) -> Result<Estimate, DomainError> {
         check_place(r, z)?;
         check_time(t)?;
@@ -184,7 +184,10 @@ impl Plate {
                 ..path
             };
             for part in [path, slow] {
-                panels.add([0.0, 1.0], &allowed, |nodes| part.values(nodes));
+                // one panel may miss a narrow peak beside a pole or a front
+                for begin in [0.0, 0.25, 0.5, 0.75] {
+                    panels.add([begin, begin + 0.25], &allowed, |nodes| part.values(nodes));
+                }
             }
             self.shear(&path, &allowed, &mut panels);
             for n in 0..=m {
