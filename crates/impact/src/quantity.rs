@@ -15,6 +15,16 @@ pub(crate) enum Derivative {
     Second,
 }
 
+impl Derivative {
+    /// Power of the load in the time since a contact began; accelerations are differences of velocities.
+    pub(crate) fn power(self) -> f64 {
+        match self {
+            Self::Field => 1.5,
+            Self::First | Self::Second => 0.5,
+        }
+    }
+}
+
 contact::choice! {
     /// A quantity in addition to the six fields that every result has.
     #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -7,6 +7,7 @@ use crate::error::ImpactError;
 use crate::excitation::Excitation;
 use crate::grid::{Grid, Wanted};
 use crate::kernels::{KernelSource, table_error};
+use crate::quantity::Derivative;
 use crate::scene::Scene;
 use fault::AnyError;
 use halfspace::{Profile, Six};
@@ -302,6 +303,6 @@ fn looked_up_error(
         .fold(0.0, f64::max);
     let (_, step_s) = Wanted::of(scene).duration_and_step_s(excitation);
     let fronts = Fronts::new(excitation, place_m);
-    let [mostly, _] = fronts.looked_up_errors(discs.smallest(), step_s);
+    let [mostly, _] = fronts.looked_up_errors(discs.smallest(), step_s, Derivative::Field.power());
     Ok(of_table + mostly)
 }

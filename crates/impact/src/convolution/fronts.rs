@@ -63,14 +63,14 @@ impl<'a> Fronts<'a> {
 
     /// Error of looked-up fields by the waves of the first and last instants that are shorter than the smallest disc and than a
     /// step, over the largest of their kind, displacements or stresses: that of most fields, and of the worst sample. On a fixed disc the
-    /// sums count the worst themselves.
-    pub(crate) fn looked_up_errors(&self, smallest: f64, step_s: f64) -> [f64; 2] {
+    /// sums count the worst themselves. `power` is that of the load in the time since the contact began.
+    pub(crate) fn looked_up_errors(&self, smallest: f64, step_s: f64, power: f64) -> [f64; 2] {
         let excitation = self.excitation;
         let grows = matches!(excitation.radius(), PressureRadius::Following { .. });
         if excitation.record().is_some() {
             return [0.0; 2];
         }
-        let reached = |part: f64| (PI * part).powf(1.5);
+        let reached = |part: f64| (PI * part).powf(power);
         let of_cells = tuning::LOOKED_UP_CELLS * reached(step_s / excitation.end_s());
         if !grows {
             return [of_cells, 0.0];

@@ -147,12 +147,8 @@ fn windows(
     tolerance: f64,
     discs: usize,
 ) -> Vec<Integrated> {
-    let power = match derivative {
-        Derivative::Field => 1.5,
-        Derivative::First | Derivative::Second => 0.5,
-    };
     let is_fast = fronts.is_fast(tolerance);
-    let widths = fronts.widths(discs, tolerance, power);
+    let widths = fronts.widths(discs, tolerance, derivative.power());
     let of = |(sample, &time_s): (usize, &f64)| {
         let whole = is_fast || fronts.are_of_small_contact(time_s, tolerance);
         let passes = || fronts.pass(time_s, widths);

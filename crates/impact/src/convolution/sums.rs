@@ -194,7 +194,7 @@ impl Sums {
                 }
             }
         }
-        if !kernels.are_traces() && forcing.derivative == Derivative::Field {
+        if !kernels.are_traces() {
             sums.add_short_waves(forcing, kernels);
         }
         sums.still_before_arrival(forcing, kernels.place_m);
@@ -303,7 +303,11 @@ impl Sums {
     /// Adds the errors of looked-up fields by the first and last instants of a contact.
     fn add_short_waves(&mut self, forcing: &Forcing<'_>, kernels: &PointKernels<'_>) {
         let fronts = Fronts::new(forcing.excitation, kernels.place_m);
-        let [_, part] = fronts.looked_up_errors(kernels.discs.smallest(), forcing.step_s);
+        let [_, part] = fronts.looked_up_errors(
+            kernels.discs.smallest(),
+            forcing.step_s,
+            forcing.derivative.power(),
+        );
         let peaks = self.values.each_ref().map(|samples| largest(samples));
         for (f, error) in self.errors.iter_mut().enumerate() {
             *error += part * largest(if f < 2 { &peaks[..2] } else { &peaks[2..] });
