@@ -76,8 +76,8 @@ mod statics;
 mod surface;
 mod integral;
 mod kernel;
-mod plate;
 mod trace;
+mod plate;
 
 pub use arrivals::Arrivals;
 pub use domain::{DomainError, check};
@@ -87,7 +87,7 @@ pub use kernel::Kernel;
 pub use medium::Medium;
 pub use numeric::polynomial::{chebyshev, chebyshev_each, lagrange, leja_nodes, leja_series};
 pub use numeric::{bisected, gauss, random};
-pub use plate::Plate;
+pub use plate::{Echo, Plate};
 pub use profile::Profile;
 pub use surface::{Deflection, LoadedDisc, SurfaceResponse, surface_measure};
 pub use trace::Trace;

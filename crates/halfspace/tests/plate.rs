@@ -157,3 +157,58 @@ fn what_a_plate_cannot_do_is_rejected() {
     let point = Kernel::new(kernel.medium(), Profile::Point, 1e-6).unwrap();
     assert!(Plate::new(&point, 1.0).is_err());
 }
+
+/// A trace has the echoes at any time, with all fronts of twelve transits.
+#[test]
+fn a_trace_follows_the_echoes() {
+    for (thickness, r, depth) in [(4.0, 0.0, 1.0), (4.0, 3.0, 0.0), (20.0, 15.0, 0.3)] {
+        let medium = Medium::new(0.25).unwrap();
+        let kernel = Kernel::new(&medium, Profile::Hertz, 1e-5).unwrap();
+        let plate = Plate::new(&kernel, thickness).unwrap();
+        let (z, end) = (depth * thickness, 12.0 * thickness);
+        let rise = |length: f64| [(length / thickness).min(1.0); 6];
+        let trace = plate.trace_under(r, z, end, ([1e-4; 6], &rise)).unwrap();
+        let size = 1.0 + thickness;
+        for i in 0..100 {
+            let t = end * (f64::from(i) + 0.5) / 100.0;
+            let (found, exact) = (trace.at(t), plate.echoes(r, z, t).unwrap().value);
+            for f in 0..6 {
+                let unit = if f < 2 { size } else { size * size };
+                let off = (found[f] - exact[f]).abs() * unit;
+                assert!(off < 1e-3, "{:?} at {t}: {off:.1e}", FIELDS[f]);
+            }
+        }
+    }
+}
+
+/// Waves by name: straight paths of one kind, a mixed one by its Snell ray, the head wave beyond its angle.
+#[test]
+fn echoes_arrive_by_name() {
+    let (_, plate) = plate(0.25, 2.0);
+    let plate = plate.up_to(4);
+    let of = |r: f64, z: f64, name: &str| {
+        let all = plate.arrivals(r, z).unwrap();
+        let found = all.iter().find(|echo| echo.name() == name);
+        found.unwrap_or_else(|| panic!("no {name} in {all:?}")).time
+    };
+    let slow = 3_f64.sqrt();
+    assert!((of(0.5, 0.0, "PP") - 4.0).abs() < 1e-12);
+    assert!((of(4.0, 0.0, "PP") - 5.0).abs() < 1e-12);
+    assert!((of(4.0, 0.0, "SSSS") - slow * 3_f64.hypot(8.0)).abs() < 1e-12);
+    assert!((of(0.0, 0.0, "PS") - 2.0 * (1.0 + slow)).abs() < 1e-12);
+    // down as S, up as P, at half of the depth
+    assert!((of(0.0, 1.0, "SP") - (2.0 * slow + 1.0)).abs() < 1e-12);
+    // between those of one kind, and earlier than the path by the middle of the lower face
+    let mixed = of(4.0, 0.0, "PS");
+    let by_middle = 1.5_f64.hypot(2.0) * (1.0 + slow);
+    assert!(of(4.0, 0.0, "PP") < mixed && mixed < by_middle);
+    assert!(
+        plate
+            .arrivals(4.0, 2.0)
+            .unwrap()
+            .iter()
+            .all(|echo| echo.legs != [1, 0])
+    );
+    assert!((plate.exact_until(1.0, 0.0) - 12.0).abs() < 1e-12);
+    assert!((plate.exact_until(1.0, 2.0) - 10.0).abs() < 1e-12);
+}

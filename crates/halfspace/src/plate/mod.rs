@@ -13,6 +13,7 @@
 //! Theory: `docs/theory.md` (T68, T69).
 
 mod cuts;
+mod echo;
 mod integrand;
 mod quadrature;
 mod reflection;
@@ -20,7 +21,10 @@ mod reflection;
 use crate::domain::{DomainError, check, check_hertz, check_place, check_time};
 use crate::field::{Estimate, Field, Point, Six};
 use crate::kernel::Kernel;
+use crate::trace::{Signal, Trace};
 use cuts::{pieces, roots_of_concave};
+pub use echo::Echo;
+use echo::{arrival, head};
 use integrand::{Integrand, Part};
 use num_complex::Complex64;
 use quadrature::Panels;
@@ -52,6 +56,7 @@ use std::f64::consts::PI;
 pub struct Plate {
     kernel: Kernel,
     thickness: f64,
+    legs: usize,
 }
 
 /// Errors of a panel over the tolerance, and the finest tolerance that is reached at late times.
@@ -93,7 +98,112 @@ impl Plate {
         Ok(Self {
             kernel: kernel.clone(),
             thickness,
+            legs: MOST_LEGS,
         })
+    }
+
+    /// With waves of so many legs between the faces at most; 16 otherwise, which is the largest number.
+    ///
+    /// The sum is exact until a wave with one leg more arrives.
+    #[must_use]
+    pub fn up_to(self, legs: usize) -> Self {
+        let legs = legs.min(MOST_LEGS);
+        Self { legs, ..self }
+    }
+
+    /// The latest time of an echo in r0/c1.
+    pub fn latest(&self) -> f64 {
+        LATEST * self.thickness
+    }
+
+    /// All waves that are summed at (r, z), in the order of their first arrival; on the lower face without those of one leg, which
+    /// are the waves of the half-space.
+    ///
+    /// # Errors
+    /// [`DomainError`] for a place outside the plate.
+    pub fn arrivals(&self, r: f64, z: f64) -> Result<Vec<Echo>, DomainError> {
+        self.check_inside(r, z)?;
+        let across = (r - self.kernel.profile().radius()).max(0.0);
+        let k = self.kernel.medium().shear_slowness_squared();
+        let is_below = self.place(z) == Place::Lower;
+        let mut found = vec![];
+        for (m, n, wave) in self.groups(z).filter(|(m, ..)| !(is_below && *m == 1)) {
+            let distances = self.distances(m, n, z, wave);
+            found.push(Echo {
+                legs: [n, m - n],
+                last_is_p: (self.place(z) == Place::Inside).then_some(wave == 0),
+                time: arrival(across, distances, k),
+            });
+        }
+        found.sort_by(|one, other| one.time.total_cmp(&other.time));
+        Ok(found)
+    }
+
+    /// When the first wave arrives at (r, z) that is not summed, in r0/c1.
+    pub fn exact_until(&self, r: f64, z: f64) -> f64 {
+        let across = (r - self.kernel.profile().radius()).max(0.0);
+        let next = (self.legs + 1..self.legs + 3).find(|m| self.counts(*m, z));
+        across.hypot(self.distance(next.unwrap_or(self.legs + 1), z))
+    }
+
+    /// The groups of waves at a depth: their legs, how many of them are P, and the wave of the last part.
+    fn groups(&self, z: f64) -> impl Iterator<Item = (usize, usize, usize)> {
+        let lasts = if self.place(z) == Place::Inside { 2 } else { 1 };
+        let counted = (1..=self.legs).filter(move |m| self.counts(*m, z));
+        counted
+            .flat_map(move |m| (0..=m).flat_map(move |n| (0..lasts).map(move |wave| (m, n, wave))))
+    }
+
+    /// The echoes at (r, z) until `end`, with the accuracy needed for a force that changes by at most `rise` of its peak within a
+    /// time: as [`Kernel::trace_under`], relative to the fields of the half-space where these are larger.
+    ///
+    /// After [`Self::latest`] they keep the last value.
+    ///
+    /// # Errors
+    /// [`DomainError`] for a place outside the plate.
+    pub fn trace_under(
+        &self,
+        r: f64,
+        z: f64,
+        end: f64,
+        (tolerance, rise): (Six, &dyn Fn(f64) -> Six),
+    ) -> Result<Trace, DomainError> {
+        /// Segments of a trace with all fronts of 16 legs: several hundred.
+        const MOST_SEGMENTS: usize = 2000;
+        self.check_inside(r, z)?;
+        check_time(end)?;
+        let radius = self.kernel.profile().radius();
+        let k = self.kernel.medium().shear_slowness_squared();
+        let below = if r < radius { Some(0.0) } else { None };
+        let mut fronts = vec![];
+        for (m, n, wave) in self.groups(z) {
+            let distances = self.distances(m, n, z, wave);
+            let edges = [(r - radius).abs(), r + radius];
+            for e in edges.into_iter().chain(below) {
+                fronts.push(arrival(e, distances, k));
+                if distances[0] == 0.0 {
+                    fronts.extend(head(e, distances[1], k));
+                }
+            }
+        }
+        fronts.sort_by(f64::total_cmp);
+        let first = fronts.first().copied().unwrap_or(f64::INFINITY);
+        fronts.retain(|t| *t < end.min(self.latest()));
+        let signal = Signal {
+            fronts,
+            passing: None,
+            first,
+            before: Six::default(),
+            size: self.kernel.static_field(r, z)?,
+            most_segments: MOST_SEGMENTS,
+        };
+        let value = |t: f64| self.echoes(r, z, t.min(self.latest()));
+        Trace::of(&signal, end, (tolerance, rise), value)
+    }
+
+    fn check_inside(&self, r: f64, z: f64) -> Result<(), DomainError> {
+        check_place(r, z)?;
+        check(z <= self.thickness, "z", z, "[0, thickness]")
     }
 
     /// The echoes at (r, z) at a time, which add to the step response of the half-space: on the lower face the reflection of
@@ -102,12 +212,10 @@ impl Plate {
     /// # Errors
     /// [`DomainError`] for a place outside the plate, and for a time after 16 transits H/c1.
     pub fn echoes(&self, r: f64, z: f64, t: f64) -> Result<Estimate, DomainError> {
-        check_place(r, z)?;
+        self.check_inside(r, z)?;
         check_time(t)?;
-        check(z <= self.thickness, "z", z, "[0, thickness]")?;
-        let latest = LATEST * self.thickness;
         check(
-            t <= latest,
+            t <= self.latest(),
             "t",
             t,
             "up to 16 transits of the plate by P waves",
@@ -170,7 +278,7 @@ impl Plate {
         (allowed[0], allowed[1]) = (own / size, own / size);
         let across = (at.r - self.kernel.profile().radius()).max(0.0);
         let arrived = |m: &usize| across.hypot(self.distance(*m, at.z)) < at.t;
-        let counted = (1..=MOST_LEGS).filter(|m| self.counts(*m, at.z));
+        let counted = (1..=self.legs).filter(|m| self.counts(*m, at.z));
         for m in counted.take_while(arrived) {
             let path = Integrand {
                 plate: self,

@@ -6,32 +6,30 @@
 
 use crate::domain::DomainError;
 use crate::field::{Estimate, Six};
+use crate::trace::Signal;
 use crate::trace::segment::{Course, MappedInterval, Segment};
 
-/// Largest number of segments; no place needs as many. The estimate includes the error of segments that are not halved
-/// further.
-const MOST_SEGMENTS: usize = 200;
-
-/// Segments of `remainder` from the `first` arrival to `end`, such that the responses to a force that changes by at
-/// most `rise` of its peak within a time have errors below `tolerance` of their peaks.
-///
-/// `static_field` is minus the remainder before the first arrival.
+/// Segments of a signal from its first arrival to `end`, such that the responses to a force that changes by at most `rise` of
+/// its peak within a time have errors below `tolerance` of their peaks.
 pub(crate) fn segments(
-    (arrivals, passing): (&[f64], Option<[f64; 2]>),
-    (first, end): (f64, f64),
-    static_field: &Six,
+    signal: &Signal,
+    end: f64,
     (tolerance, rise): (Six, &dyn Fn(f64) -> Six),
-    remainder: impl Fn(f64) -> Result<Estimate, DomainError>,
+    value: impl Fn(f64) -> Result<Estimate, DomainError>,
 ) -> Result<Vec<Segment>, DomainError> {
     let counts = |segment: &Segment| rise(segment.times[1] - segment.times[0]);
-    let mut peak = static_field.map(f64::abs);
+    let mut peak = signal.size.map(f64::abs);
     let mut stack = vec![];
-    for piece in pieces(arrivals, passing, [first, end]).into_iter().rev() {
-        let segment = Segment::fit(piece, &remainder)?;
+    for piece in pieces(&signal.fronts, signal.passing, [signal.first, end])
+        .into_iter()
+        .rev()
+    {
+        let segment = Segment::fit(piece, &value)?;
         let part = counts(&segment);
         for (f, peak) in peak.iter_mut().enumerate() {
             // for a force that begins like this, less than the segment's part of it
-            *peak = peak.max(part[f].powf(1.5) * (segment.middle()[f] + static_field[f]).abs());
+            let since = segment.middle()[f] - signal.before[f];
+            *peak = peak.max(part[f].powf(1.5) * since.abs());
         }
         stack.push(segment);
     }
@@ -47,15 +45,15 @@ pub(crate) fn segments(
     while let Some(mut segment) = stack.pop() {
         let part = counts(&segment);
         let allowed = std::array::from_fn(|f| tolerance[f] * peak[f] / part[f]);
-        let full = done.len() + stack.len() >= MOST_SEGMENTS;
+        let full = done.len() + stack.len() >= signal.most_segments;
         loop {
             if full || is_converged(&segment, &allowed) {
                 done.push(segment);
                 break;
             }
-            if !segment.refine(&remainder)? {
+            if !segment.refine(&value)? {
                 for half in segment.piece.parts(2).rev() {
-                    stack.push(Segment::fit(half, &remainder)?);
+                    stack.push(Segment::fit(half, &value)?);
                 }
                 break;
             }

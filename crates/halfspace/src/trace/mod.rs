@@ -14,7 +14,7 @@ use crate::arrivals::Arrivals;
 use crate::domain::{
     DomainError, FARTHEST, NEAREST, check, check_hertz, check_place_under, check_time,
 };
-use crate::field::Six;
+use crate::field::{Estimate, Six};
 use crate::kernel::Kernel;
 use crate::trace::interpolation::segments;
 use crate::trace::segment::Segment;
@@ -22,6 +22,10 @@ use crate::trace::segment::Segment;
 /// Factor for the truncation error of a polynomial: the error has both signs, and so has its product with the rate of
 /// the force.
 const OSCILLATES: f64 = 0.45;
+
+/// Largest number of segments; no place of a half-space needs as many. The estimate includes the error of segments that are not
+/// halved further.
+const MOST_SEGMENTS: usize = 200;
 
 /// Duration of a Rayleigh wave in r0/c1 above which the waves from the edges of the disc cannot be distinguished.
 const DEEP: f64 = 1.0;
@@ -47,7 +51,7 @@ const DEEP: f64 = 1.0;
 pub struct Trace {
     first_arrival: f64,
     end: f64,
-    static_field: Six,
+    before: Six,
     segments: Vec<Segment>,
     breaks: Vec<f64>,
     /// Estimated error of the response to the force for which the trace was made, over the peak of the force.
@@ -98,18 +102,46 @@ impl Kernel {
             arrivals.rayleigh = arrivals.s;
             [r / medium.rayleigh_speed(), duration]
         });
-        let fronts = arrivals.sorted();
         let static_field = self.static_field(r, z)?;
-        let first_arrival = self.first_arrival(r, z);
-        let segments = segments(
-            (&fronts, passing),
-            (first_arrival, end),
-            &static_field,
-            (tolerance, rise),
-            |t| self.remainder(r, z, t),
-        )?;
+        let signal = Signal {
+            fronts: arrivals.sorted(),
+            passing,
+            first: self.first_arrival(r, z),
+            before: static_field.map(|s| -s),
+            size: static_field,
+            most_segments: MOST_SEGMENTS,
+        };
+        Trace::of(&signal, end, (tolerance, rise), |t| self.remainder(r, z, t))
+    }
+}
+
+/// A function of time that a trace follows.
+pub(crate) struct Signal {
+    /// When fronts arrive, ascending.
+    pub(crate) fronts: Vec<f64>,
+    /// When a wave without a front passes, and for how long.
+    pub(crate) passing: Option<[f64; 2]>,
+    /// The first arrival.
+    pub(crate) first: f64,
+    /// The value before it.
+    pub(crate) before: Six,
+    /// The least that tolerances are relative to.
+    pub(crate) size: Six,
+    /// Largest number of segments.
+    pub(crate) most_segments: usize,
+}
+
+impl Trace {
+    /// Of the values of a signal until an end, for a force that changes by at most `rise` within a time.
+    pub(crate) fn of(
+        signal: &Signal,
+        end: f64,
+        (tolerance, rise): (Six, &dyn Fn(f64) -> Six),
+        value: impl Fn(f64) -> Result<Estimate, DomainError>,
+    ) -> Result<Self, DomainError> {
+        let segments = segments(signal, end, (tolerance, rise), value)?;
         // each segment is weighted with the change of the force during it
-        let mut error = static_field.map(|s| f64::EPSILON * s.abs());
+        let mut error = signal.before.map(|s| f64::EPSILON * s.abs());
         let mut truncation = Six::default();
         for segment in &segments {
             let part = rise(segment.times[1] - segment.times[0]);
@@ -121,18 +153,16 @@ impl Kernel {
         for (error, truncation) in error.iter_mut().zip(truncation) {
             *error += truncation;
         }
-        Ok(Trace {
-            first_arrival,
+        Ok(Self {
+            first_arrival: signal.first,
             end,
-            static_field,
+            before: signal.before,
             breaks: segments.iter().flat_map(Segment::breaks).collect(),
             segments,
             error,
         })
     }
-}
 
-impl Trace {
     /// Ascending times, including fronts, between which R is a polynomial of few terms in the root of the time from a
     /// front.
     pub fn breaks(&self) -> impl Iterator<Item = f64> {
@@ -151,7 +181,7 @@ impl Trace {
         let after = self.segments.partition_point(|s| s.times[1] < t);
         match self.segments.get(after).or(self.segments.last()) {
             Some(segment) if t > self.first_arrival => segment.at(times),
-            Some(_) | None => self.static_field.map(|v| [-v; N]),
+            Some(_) | None => self.before.map(|v| [v; N]),
         }
     }
 
@@ -176,7 +206,7 @@ impl Trace {
     /// Estimated error of the average over a cell; the error of the first moment is half as large.
     pub fn cell_error(&self, from: f64, to: f64) -> Six {
         let before = self.first_arrival.clamp(from, to) - from;
-        let mut error = self.static_field.map(|s| f64::EPSILON * s.abs() * before);
+        let mut error = self.before.map(|s| f64::EPSILON * s.abs() * before);
         let first = self.segments.partition_point(|s| s.times[1] <= from);
         for segment in self.segments[first..]
             .iter()
@@ -202,8 +232,8 @@ impl Trace {
         if from < self.first_arrival {
             let until = to.min(self.first_arrival);
             let (length, arm) = (until - from, 0.5 * (until + from) - centre);
-            for (f, s) in self.static_field.into_iter().enumerate() {
-                let area = -length * s;
+            for (f, value) in self.before.into_iter().enumerate() {
+                let area = length * value;
                 sums[0][f] += area;
                 sums[1][f] += arm * area;
                 sums[2][f] += (arm * arm + length * length / 12.0) * area;
