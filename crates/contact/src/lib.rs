@@ -85,7 +85,7 @@ pub use bodies::material::{BodyError, Material, from_wave_speeds};
 pub use bodies::shape::Shape;
 pub use bodies::strength::{Loading, Strength, largest_mises};
 pub use bodies::wave_speeds::WaveSpeeds;
-pub use bodies::{GRAVITY_M_S2, HalfSpace, Striker, fall_velocity_m_s};
+pub use bodies::{Echoes, Echoing, GRAVITY_M_S2, HalfSpace, Striker, fall_velocity_m_s};
 pub use collision::{CONSTRAINT, Collision};
 pub use disc::explicit::march_explicit;
 pub use disc::implicit::march_implicit;

@@ -116,6 +116,18 @@ impl SceneError {
         error
     }
 
+    /// A time to which the echoes of a plate cannot be computed.
+    pub(crate) fn late_echoes(value: f64, latest_s: f64) -> Self {
+        let key = "target.until_s";
+        let sentence = format!(
+            "{key} = {} is outside (0, {latest_s:.4e}]: after 16 transits of the plate no digit of its echoes is left; for later times use the modes of the plate (Rayleigh-Lamb)",
+            number(value)
+        );
+        let mut error = Self::of_number(key, value, sentence);
+        (error.0.of_numbers, error.0.culprit.limits) = (false, Some([0.0, latest_s]));
+        error
+    }
+
     /// A word that is not one of the choices, which are separated by commas.
     pub(crate) fn unknown_choice(key: String, value: &str, allowed: &str) -> Self {
         let suggestion = nearest(value, allowed.split(", "));

@@ -98,6 +98,18 @@ pub enum ImpactError {
         /// Last time of the output in s.
         end_s: f64,
     },
+    /// An output in which the echoes of a plate cannot be computed to the end.
+    #[error(
+        "output.duration_s = {} is outside (0, {}]: after 16 transits of the plate no digit of its echoes is left; use a smaller duration_s, and the modes of the plate (Rayleigh-Lamb) for later times",
+        fault::number(*duration_s),
+        fault::number(*latest_s)
+    )]
+    LateEchoes {
+        /// Requested duration in s.
+        duration_s: f64,
+        /// The longest in s.
+        latest_s: f64,
+    },
     /// The caller has cancelled the scene after its forecast.
     #[error("the scene was cancelled before it began: it would take about {seconds:.1e} s")]
     GivenUp {
@@ -162,6 +174,13 @@ impl Fault for ImpactError {
             Self::LateFrame { wanted_s, end_s } => Culprit {
                 limits: Some([0.0, *end_s]),
                 ..culprit.key("map.times_s").number(*wanted_s)
+            },
+            Self::LateEchoes {
+                duration_s,
+                latest_s,
+            } => Culprit {
+                limits: Some([0.0, *latest_s]),
+                ..culprit.key("output.duration_s").number(*duration_s)
             },
             Self::TooWide {
                 radius_m,

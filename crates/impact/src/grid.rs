@@ -24,6 +24,9 @@ pub(crate) struct Wanted {
     pub(crate) frames: Option<usize>,
     /// Distance in m of the farthest point from the load's centre, if there are points.
     pub(crate) farthest_m: Option<f64>,
+    /// When the echoes of a plate stop being exact at a point, and when they cannot be computed any longer, in s after the load
+    /// begins; where fields of a plate are asked for.
+    pub(crate) plate_s: Option<[f64; 2]>,
 }
 
 impl Wanted {
@@ -35,6 +38,7 @@ impl Wanted {
             duration_s: scene.duration_s,
             frames: scene.section.as_ref().map(|section| section.frames),
             farthest_m: (scene.points() > 0).then(|| scene.farthest_m()),
+            plate_s: (scene.points() > 0).then(|| scene.plate_s()).flatten(),
         }
     }
 
@@ -67,7 +71,10 @@ impl Wanted {
 
     /// Duration and largest step in s.
     pub(crate) fn duration_and_step_s(&self, excitation: &Excitation) -> (f64, f64) {
-        let passed_s = || 1.1 * excitation.end_s() + self.passing_s(excitation);
+        let passed_s = || match self.plate_s {
+            None => 1.1 * excitation.end_s() + self.passing_s(excitation),
+            Some([exact_s, _]) => excitation.start_s() + exact_s,
+        };
         let duration_s = self.duration_s.unwrap_or_else(passed_s);
         let fitting_s = || self.fitting_step_s(excitation);
         let mut step_s = self.step_s.unwrap_or_else(fitting_s);
@@ -177,6 +184,13 @@ impl<'a> Grid<'a> {
         source: Option<&KernelSource>,
     ) -> Result<Self, ImpactError> {
         let (duration_s, wanted_s) = wanted.duration_and_step_s(excitation);
+        let latest_s = wanted.plate_s.map(|[_, latest_s]| excitation.start_s() + latest_s);
+        if let Some(latest_s) = latest_s.filter(|&latest_s| duration_s > (1.0 + 1e-9) * latest_s) {
+            return Err(ImpactError::LateEchoes {
+                duration_s,
+                latest_s,
+            });
+        }
         let unit_s = excitation.units().time_s();
         let ratio = excitation.medium().poisson_ratio();
         let step_s = source.map_or(wanted_s, |source| {

@@ -33,6 +33,26 @@ pub struct Cells {
 }
 
 impl Cells {
+    /// Of a trace that is added to a static part.
+    pub(crate) fn of_trace(
+        trace: Trace,
+        static_part: Six,
+        wanted: &CellPlan,
+    ) -> Result<Self, DomainError> {
+        let mut moments = Moments::with_capacity(wanted.count);
+        let keep = |_, cell| moments.push(cell);
+        trace.for_each_cell(wanted.step, wanted.count, keep)?;
+        Ok(Self {
+            static_part,
+            smooth: moments.absorbed(),
+            moments,
+            // the force rises and falls once
+            error: trace.error.map(|e| 2.0 * e),
+            fine: Vec::new(),
+            trace: Some(trace),
+        })
+    }
+
     /// The response at a time after a jump of the force from zero to one, in cells of `step` in the same unit of time.
     ///
     /// At an arrival it is the later value. Cells alone are read as in [`Self::error_at_instants`].
@@ -117,8 +137,18 @@ impl KernelSource {
     /// # Errors
     /// [`DomainError`] for a tolerance outside its range.
     pub fn direct(medium: &Medium, tolerance: f64) -> Result<Self, DomainError> {
-        let kernel = Kernel::new(medium, Profile::Hertz, tolerance)?;
-        Ok(Self::Direct(Arc::new(kernel)))
+        Ok(Self::Direct(Arc::new(Self::kernel(medium, tolerance)?)))
+    }
+
+    /// The exact kernels of a half-space under Hertz's pressure.
+    fn kernel(medium: &Medium, tolerance: f64) -> Result<Kernel, DomainError> {
+        Kernel::new(medium, Profile::Hertz, tolerance)
+    }
+
+    /// The kernels for fields of a tolerance: far away the waves of a slow contact nearly cancel.
+    pub(crate) fn for_fields(medium: &Medium, tolerance: f64) -> Result<Arc<Kernel>, DomainError> {
+        let tolerance = (1e-1 * tolerance).clamp(1e-12, 1e-3);
+        Ok(Arc::new(Self::kernel(medium, tolerance)?))
     }
 
     /// Step in r0/c1 of at most `wanted`, unless the table has no step so short.
@@ -168,31 +198,13 @@ impl KernelSource {
     ) -> Result<Cells, ImpactError> {
         let (step, count, pulse) = (wanted.step, wanted.count, wanted.pulse);
         let [r_m, z_m] = [r, z].map(|x| x * disc_radius_m);
-        let mut fine = Vec::new();
-        let (static_part, moments, error, trace) = match self {
+        match self {
             Self::Direct(kernel) => {
                 let domain = |source| ImpactError::OutsideBlock { r_m, z_m, source };
-                let has_rate = |f: usize| wanted.rates && f < 2;
-                let rise = |length: f64| std::array::from_fn(|f| pulse.rise(length, has_rate(f)));
-                let at_instants = if pulse.jump() > wanted.tolerance {
-                    AT_INSTANTS
-                } else {
-                    1.0
-                };
-                let tolerance = std::array::from_fn(|f| {
-                    wanted.tolerance * if has_rate(f) { RATES } else { at_instants }
-                });
-                // the last cell ends a rounding error before the trace
-                let end = step * count as f64;
-                let trace = kernel.trace_under(r, z, end, (tolerance, &rise));
+                let trace = wanted.trace(|end, wanted| kernel.trace_under(r, z, end, wanted));
                 let trace = trace.map_err(domain)?;
-                let mut moments = Moments::with_capacity(count);
-                let keep = |_, cell| moments.push(cell);
-                trace.for_each_cell(step, count, keep).map_err(domain)?;
                 let static_part = kernel.static_field(r, z).map_err(domain)?;
-                // the force rises and falls once
-                let error = trace.error.map(|e| 2.0 * e);
-                (static_part, moments, error, Some(trace))
+                Cells::of_trace(trace, static_part, &wanted).map_err(domain)
             }
             Self::Table(table) => {
                 let outside = |source| ImpactError::OutsideTable {
@@ -205,22 +217,21 @@ impl KernelSource {
                 let (static_part, series) = found.map_err(outside)?;
                 let moments = series.moments(step, count);
                 let [parts, until] = wanted.parts;
-                fine = series.averages(
+                let fine = series.averages(
                     step / parts as f64,
                     if parts > 1 { parts * until } else { 0 },
                 );
                 let error = table_error(table, poisson_ratio, [r, z], pulse).map_err(outside)?;
-                (static_part, moments, error, None)
+                Ok(Cells {
+                    static_part,
+                    smooth: moments.absorbed(),
+                    moments,
+                    error,
+                    fine,
+                    trace: None,
+                })
             }
-        };
-        Ok(Cells {
-            static_part,
-            smooth: moments.absorbed(),
-            moments,
-            error,
-            fine,
-            trace,
-        })
+        }
     }
 }
 
@@ -239,6 +250,26 @@ pub struct CellPlan {
     pub rates: bool,
     /// Relative tolerance on the fields.
     pub tolerance: f64,
+}
+
+impl CellPlan {
+    /// A trace until the last cell ends, made `of` that end, and of tolerances and rises for each field.
+    pub(crate) fn trace(
+        &self,
+        of: impl FnOnce(f64, (Six, &dyn Fn(f64) -> Six)) -> Result<Trace, DomainError>,
+    ) -> Result<Trace, DomainError> {
+        let has_rate = |f: usize| self.rates && f < 2;
+        let rise = |length: f64| std::array::from_fn(|f| self.pulse.rise(length, has_rate(f)));
+        let at_instants = if self.pulse.jump() > self.tolerance {
+            AT_INSTANTS
+        } else {
+            1.0
+        };
+        let part = |f: usize| if has_rate(f) { RATES } else { at_instants };
+        let tolerance = std::array::from_fn(|f| self.tolerance * part(f));
+        // the last cell ends a rounding error before the trace
+        of(self.step * self.count as f64, (tolerance, &rise))
+    }
 }
 
 /// Properties of a force that determine a table's error; lengths in r0/c1.

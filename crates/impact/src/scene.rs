@@ -2,7 +2,7 @@
 
 use crate::quantity::{Derivative, Quantity};
 use crate::record::ForceRecord;
-use contact::{HalfSpace, Settings, Striker};
+use contact::{Echoes, HalfSpace, Settings, Striker, WaveSpeeds};
 
 /// Load on the half-space.
 #[derive(Debug, Clone, PartialEq)]
@@ -89,6 +89,25 @@ impl Scene {
         let probes = self.probes.iter().map(|probe| probe.r_m.hypot(probe.z_m));
         let corner = self.section.iter().map(|s| s.r_max_m.hypot(s.z_max_m));
         probes.chain(corner).fold(0.0, f64::max)
+    }
+
+    /// When the echoes of a plate stop being exact at the nearest of the points, and when they cannot be computed any longer, in s
+    /// after the load begins.
+    pub(crate) fn plate_s(&self) -> Option<[f64; 2]> {
+        let (plate, echoes) = (self.target.echoing()?, self.target.echoes?);
+        let exact_s = match echoes {
+            Echoes::Until(time_s) => time_s,
+            Echoes::Legs(_) => {
+                let mut block = self.target.clone();
+                block.radius_m = None;
+                let speeds = WaveSpeeds::of(&block).ok()?;
+                let probes = self.probes.iter().map(|probe| probe.z_m);
+                let section = self.section.iter().flat_map(|s| [0.0, s.z_max_m]);
+                let of = |z_m: f64| speeds.first_echo_s(&block, [0.0, z_m], 0.0);
+                probes.chain(section).filter_map(of).reduce(f64::min)?
+            }
+        };
+        Some([exact_s.min(plate.latest_s), plate.latest_s])
     }
 
     /// A warning if requested points lie within a distance of the contact of a yielding block.

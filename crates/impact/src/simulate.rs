@@ -72,7 +72,8 @@ pub fn simulate_rows(scene: &Scene, rows: Range<usize>) -> Result<SectionFields,
     let time_s: Vec<f64> = grid.times_s().collect();
     let wanted = frames(section, &time_s)?;
     let shown: Vec<usize> = (0..wanted.len()).collect();
-    let fields = Convolution::new(&source, &grid, &wanted, &scene.quantities, &|| {})?;
+    let asked = (&scene.quantities[..], Some(&scene.target));
+    let fields = Convolution::new(&source, &grid, &wanted, asked, &|| {})?;
     on_rows(&fields, (section, &shown), rows, false)
 }
 
@@ -243,8 +244,8 @@ fn add_fields(
     (source, reason): (KernelSource, String),
     outcome: &mut Outcome,
 ) -> Result<(), ImpactError> {
-    let (quantities, watch) = (&scene.quantities, allowance.watch);
-    let of = |wanted| Convolution::new(&source, grid, wanted, quantities, watch);
+    let (asked, watch) = ((&scene.quantities[..], Some(&scene.target)), allowance.watch);
+    let of = |wanted| Convolution::new(&source, grid, wanted, asked, watch);
     let mut method = Method::Direct;
     let all: Vec<usize> = (0..outcome.series.time_s.len()).collect();
     let end_s = outcome.series.time_s.last().copied().unwrap_or(0.0);

@@ -178,9 +178,8 @@ pub(crate) fn choose_source(
     }
     let (medium, tolerance) = (excitation.medium(), scene.settings.tolerance);
     let direct = |reason: String| -> Result<_, ImpactError> {
-        // far away the waves of a slow contact nearly cancel
-        let tolerance = (1e-1 * tolerance).clamp(1e-12, 1e-3);
-        Ok(Some((KernelSource::direct(medium, tolerance)?, reason)))
+        let kernel = KernelSource::for_fields(medium, tolerance)?;
+        Ok(Some((KernelSource::Direct(kernel), reason)))
     };
     let radius_m = excitation.units().disc_radius_m;
     let [nearest, farthest] = span(points.iter().map(|place_m| place_m.map(|x| x / radius_m)));

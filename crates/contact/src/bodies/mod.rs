@@ -11,7 +11,16 @@ pub(crate) mod wave_speeds;
 
 use crate::bodies::material::{BodyError, Material, positive};
 use crate::bodies::shape::Shape;
-use halfspace::check;
+use halfspace::{Plate, check};
+
+/// How far the waves of a block are followed between its upper and lower face.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Echoes {
+    /// Waves that have run the thickness up to so many times.
+    Legs(usize),
+    /// All waves that arrive until a time in s after the load begins.
+    Until(f64),
+}
 
 /// An elastic half-space: a material with a density, and the block's thickness where it is known.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,6 +31,19 @@ pub struct HalfSpace {
     pub thickness_m: Option<f64>,
     /// Distance in m from the axis to the nearest side of the block, where it ends there.
     pub radius_m: Option<f64>,
+    /// Waves between the faces of a plate of the thickness, if they are asked for.
+    pub echoes: Option<Echoes>,
+}
+
+/// A plate whose echoes are asked for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Echoing {
+    /// Thickness in m.
+    pub thickness_m: f64,
+    /// How often its waves run the thickness at most.
+    pub legs: usize,
+    /// When the last of them can be computed, in s after the load begins.
+    pub latest_s: f64,
 }
 
 impl HalfSpace {
@@ -36,6 +58,22 @@ impl HalfSpace {
             material,
             thickness_m: None,
             radius_m: None,
+            echoes: None,
+        })
+    }
+
+    /// The plate whose echoes are asked for; none for a block that counts as a half-space.
+    pub fn echoing(&self) -> Option<Echoing> {
+        let (thickness_m, echoes) = (self.thickness_m?, self.echoes?);
+        let transit_s = thickness_m / self.longitudinal_speed_m_s();
+        let legs = match echoes {
+            Echoes::Legs(legs) => legs,
+            Echoes::Until(time_s) => (time_s / transit_s) as usize,
+        };
+        Some(Echoing {
+            thickness_m,
+            legs: legs.min(Plate::MOST_LEGS),
+            latest_s: Plate::MOST_LEGS as f64 * transit_s,
         })
     }
 

@@ -56,16 +56,19 @@ impl WaveSpeeds {
         [path_m / self.p, path_m / self.s, rayleigh]
     }
 
-    /// Time in s from the force's start to the first echo from the faces of a block; none where no face is known.
+    /// Time in s from the force's start until which fields are those of the block: to the first echo from its faces that they do
+    /// not contain; none where no face is known.
     ///
-    /// The longitudinal wave goes down and up again, or to the nearest side and back: straight paths to the mirror
-    /// images of the place behind the lower face at the depth h and the side at the distance b from the axis,
+    /// The longitudinal wave runs down and up once more than the fields have it, n legs in a plate and none in a half-space,
+    /// or to the nearest side and back: straight paths to the mirror images of the place behind the faces at the depths 0 and
+    /// h, and the side at the distance b from the axis,
     ///
     /// ```text
-    /// sqrt(max(r - a, 0)^2 + (2 h - z)^2)/c1,   sqrt((2 b - r - a)^2 + z^2)/c1
+    /// sqrt(max(r - a, 0)^2 + d^2)/c1,   d = (n + 2) h - z for even n, (n + 1) h + z for odd
+    /// sqrt((2 b - r - a)^2 + z^2)/c1
     /// ```
     ///
-    /// For a place inside the block.
+    /// and in a plate at most as long as its echoes can be computed. For a place inside the block.
     pub fn first_echo_s(
         &self,
         block: &HalfSpace,
@@ -73,10 +76,17 @@ impl WaveSpeeds {
         disc_radius_m: f64,
     ) -> Option<f64> {
         let aside_m = (r_m - disc_radius_m).max(0.0);
-        let below = block.thickness_m.map(|h| aside_m.hypot(2.0 * h - z_m));
+        let plate = block.echoing();
+        let legs = plate.map_or(0, |plate| plate.legs);
+        let below = block.thickness_m.map(|h| {
+            let last_m = if legs.is_multiple_of(2) { h - z_m } else { z_m };
+            aside_m.hypot((legs + 1) as f64 * h + last_m)
+        });
         let side = |b: f64| (2.0 * b - r_m - disc_radius_m).max(0.0).hypot(z_m);
         let paths_m = below.into_iter().chain(block.radius_m.map(side));
-        paths_m.reduce(f64::min).map(|path_m| path_m / self.p)
+        let echoes_s = paths_m.map(|path_m| path_m / self.p);
+        let latest_s = plate.map(|plate| plate.latest_s);
+        echoes_s.chain(latest_s).reduce(f64::min)
     }
 }
 

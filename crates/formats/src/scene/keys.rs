@@ -3,7 +3,7 @@
 
 use crate::error::SceneError;
 use contact::{
-    Choice, Library, Material, Plasticity, Settings, Shape, Striker, choice, fall_velocity_m_s,
+    Choice, Echoes, Library, Material, Plasticity, Settings, Shape, Striker, choice, fall_velocity_m_s,
     nearest,
 };
 use impact::{ForceRecord, Load, Scene, Strike};
@@ -88,6 +88,14 @@ const KEYS: &[Key] = keys! {
     target.material = |_, m| known(m)?.name.as_str();
     target.thickness_m: POSITIVE = |s, _| s.target.thickness_m?;
     target.radius_m: POSITIVE = |s, _| s.target.radius_m?;
+    target.echoes = |s, _| match s.target.echoes? {
+        Echoes::Legs(legs) => legs as i64,
+        Echoes::Until(_) => return None,
+    };
+    target.until_s: POSITIVE = |s, _| match s.target.echoes? {
+        Echoes::Legs(_) => return None,
+        Echoes::Until(time_s) => time_s,
+    };
     striker.material = |_, m| known(m)?.name.as_str();
     striker.shape = |s, _| match striker(s)?.shape? {
         Shape::Ball { .. } => Form::Ball,

@@ -63,9 +63,6 @@ pub struct Plate {
 const OF_TOLERANCE: f64 = 0.1;
 const FINEST: f64 = 1e-8;
 
-/// Latest time in transits.
-const LATEST: f64 = MOST_LEGS as f64;
-
 /// Part of the way to the fronts at which the path begins, and the farthest begin: nearer to the poles rounding errors grow, to
 /// 1e-2 at 12 transits with a farthest begin of 0.35; `echoes_do_not_depend_on_the_path` fails at 0.85, and the second at 2.
 const SAFE: f64 = 0.75;
@@ -83,6 +80,9 @@ pub(crate) enum Place {
 }
 
 impl Plate {
+    /// Most legs of a wave, and the latest time in transits H/c1.
+    pub const MOST_LEGS: usize = MOST_LEGS;
+
     /// Of the material, load and accuracy of a kernel.
     ///
     /// # Errors
@@ -113,7 +113,7 @@ impl Plate {
 
     /// The latest time of an echo in r0/c1.
     pub fn latest(&self) -> f64 {
-        LATEST * self.thickness
+        MOST_LEGS as f64 * self.thickness
     }
 
     /// All waves that are summed at (r, z), in the order of their first arrival; on the lower face without those of one leg, which
@@ -137,13 +137,6 @@ impl Plate {
         }
         found.sort_by(|one, other| one.time.total_cmp(&other.time));
         Ok(found)
-    }
-
-    /// When the first wave arrives at (r, z) that is not summed, in r0/c1.
-    pub fn exact_until(&self, r: f64, z: f64) -> f64 {
-        let across = (r - self.kernel.profile().radius()).max(0.0);
-        let next = (self.legs + 1..self.legs + 3).find(|m| self.counts(*m, z));
-        across.hypot(self.distance(next.unwrap_or(self.legs + 1), z))
     }
 
     /// The groups of waves at a depth: their legs, how many of them are P, and the wave of the last part.

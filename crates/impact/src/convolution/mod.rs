@@ -15,6 +15,7 @@
 #[cfg(test)]
 mod close_tests;
 pub(crate) mod discs;
+pub(crate) mod echoes;
 mod ends;
 mod exact;
 pub(crate) mod fronts;
@@ -36,6 +37,8 @@ use crate::kernels::{CellPlan, Cells, KernelSource};
 use crate::quantity::{Derivative, Quantity};
 use crate::sampled::convolve::Method;
 use crate::sampled::projection::largest;
+use contact::HalfSpace;
+use echoes::Echoes;
 use halfspace::Six;
 use loads::{Forcing, Loads, Reading};
 use lookup::BEYOND;
@@ -75,6 +78,8 @@ pub(crate) struct Convolution<'a> {
     sets: Sets,
     /// Of a contact whose radius follows the load, with kernels that are computed.
     past: Option<Past<'a>>,
+    /// Of a plate.
+    pub(crate) echoes: Option<Echoes>,
 }
 
 /// Ratio of the tolerance of an integral over a part of the past, which brings a part of the field, to that of the field.
@@ -86,7 +91,7 @@ impl<'a> Convolution<'a> {
         source: &'a KernelSource,
         grid: &'a Grid<'a>,
         wanted: &'a [usize],
-        quantities: &'a [Quantity],
+        (quantities, block): (&'a [Quantity], Option<&HalfSpace>),
         watch: &'a (dyn Fn() + Sync),
     ) -> Result<Self, ImpactError> {
         let (excitation, tolerance) = (grid.excitation, grid.tolerance);
@@ -113,6 +118,10 @@ impl<'a> Convolution<'a> {
             forcings: derivatives.into_iter().map(forcing).collect(),
             sets,
             past,
+            echoes: match block {
+                Some(block) => Echoes::of(block, excitation.medium(), tolerance)?,
+                None => None,
+            },
             source,
             grid,
             wanted,
@@ -159,12 +168,13 @@ impl<'a> Convolution<'a> {
         let place_m = [r_m, z_m];
         let plan = self.plan(place_m);
         let discs = self.sets.get(plan.set);
-        let cells = discs
-            .radii
-            .iter()
-            .map(|&over| self.cells(place_m, over, discs.count()));
+        let cells = discs.radii.iter().map(|&over| {
+            let (place, disc_radius_m, wanted) = self.wanted_of(place_m, over, discs.count());
+            let ratio = self.grid.excitation.medium().poisson_ratio();
+            self.source.cells(ratio, place, disc_radius_m, wanted)
+        });
         let cells: Vec<Cells> = cells.collect::<Result<_, _>>()?;
-        let kernels = PointKernels::new(&self.forcings[0], discs, place_m, cells);
+        let kernels = PointKernels::new(&self.forcings[0], discs, (place_m, None), cells);
         let of = |(forcing, integrated): (&Forcing<'_>, &Vec<Integrated>)| {
             self.sum(
                 forcing,
@@ -174,7 +184,10 @@ impl<'a> Convolution<'a> {
             )
         };
         let sums = self.forcings.iter().zip(&plan.integrated).map(of);
-        let sums: Vec<Vec<Trace>> = sums.collect::<Result<_, _>>()?;
+        let mut sums: Vec<Vec<Trace>> = sums.collect::<Result<_, _>>()?;
+        if let Some(echoes) = &self.echoes {
+            self.add_echoes(echoes, place_m, &mut sums)?;
+        }
         let mut found = sums[0].clone();
         found.extend(self.quantities.iter().map(|&quantity| {
             let Some((derivative, component)) = quantity.rate() else {
@@ -197,10 +210,47 @@ impl<'a> Convolution<'a> {
         }
     }
 
-    /// The kernels of a disc of a radius `over` the largest, one of `count`, as far as the outputs need them.
-    fn cells(&self, place_m: [f64; 2], over: f64, count: usize) -> Result<Cells, ImpactError> {
+    /// Adds the echoes of a plate to the outputs of each forcing.
+    fn add_echoes(
+        &self,
+        echoes: &Echoes,
+        place_m: [f64; 2],
+        sums: &mut [Vec<Trace>],
+    ) -> Result<(), ImpactError> {
+        let image_m = echoes.image_m(place_m);
+        let radius_m = self.grid.excitation.units().disc_radius_m;
+        let set = self.sets.choose_computed(image_m.map(|x| x / radius_m));
+        let discs = self.sets.get(set);
+        let cells = discs.radii.iter().map(|&over| {
+            let (_, disc_radius_m, wanted) = self.wanted_of(image_m, over, discs.count());
+            echoes.cells(place_m, disc_radius_m, &wanted)
+        });
+        let cells: Vec<Cells> = cells.collect::<Result<_, _>>()?;
+        let kernels = PointKernels::new(&self.forcings[0], discs, (place_m, Some(image_m)), cells);
+        for (forcing, all) in self.forcings.iter().zip(sums) {
+            let loads = forcing.loads(set, discs);
+            let mut own = Sums::new(forcing, loads, &kernels)?;
+            own.integrate_zones(forcing, loads, &kernels, |_| false);
+            for (all, own) in all.iter_mut().zip(self.traces(forcing, &kernels, &own, false)) {
+                all.error += own.error;
+                for (all, own) in all.samples.iter_mut().zip(own.samples) {
+                    *all += own;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The place in radii of a disc of a radius `over` the largest, one of `count`, this radius in m, and the cells as far as the
+    /// outputs need them.
+    fn wanted_of(
+        &self,
+        place_m: [f64; 2],
+        over: f64,
+        count: usize,
+    ) -> ([f64; 2], f64, CellPlan) {
         let (excitation, grid) = (self.grid.excitation, self.grid);
-        let (ratio, units) = (excitation.medium().poisson_ratio(), excitation.units());
+        let units = excitation.units();
         let disc_radius_m = over * units.disc_radius_m;
         let differences = self.forcings.iter().map(|forcing| forcing.differences);
         let distance = place_m[0].hypot(place_m[1]) / units.disc_radius_m;
@@ -226,8 +276,7 @@ impl<'a> Convolution<'a> {
             rates: self.forcings.len() > 1,
             tolerance: (part * grid.tolerance).min(tuning::COARSEST),
         };
-        let place = place_m.map(|x| x / disc_radius_m);
-        (self.source).cells(ratio, place, disc_radius_m, plan)
+        (place_m.map(|x| x / disc_radius_m), disc_radius_m, plan)
     }
 
     /// Values and errors of one forcing.

@@ -9,6 +9,8 @@ use crate::quantity::Derivative;
 /// Sets of discs from which points choose.
 pub(crate) struct Sets {
     all: Vec<Discs>,
+    /// Number of the first of those for kernels that are computed.
+    computed: usize,
     /// Largest r and z in radii of a disc at which a table has kernels; none where they are computed.
     reach: Option<[f64; 2]>,
     follows: bool,
@@ -57,26 +59,29 @@ impl Sets {
         };
         let shorter = if rates { 10.0 } else { 1.0 };
         let one_serves = shorter * chi * chi < tuning::ONE_SERVES * tolerance;
-        let all = match (follows, reach) {
+        let mut all = match (follows, reach) {
             (false, _) => vec![Discs::one(1.0)],
             (true, Some(_)) => {
                 let count = count(tuning::LOOKED_UP_A_DIGIT);
                 let some = tuning::COVERED.map(|smallest| Discs::between(smallest, count));
                 some.into_iter().chain([Discs::one(1.0)]).collect()
             }
-            (true, None) => {
-                let [outside, inside] = tuning::DISCS_A_DIGIT.map(count);
-                vec![
-                    Discs::between(tuning::SMALLEST, outside),
-                    Discs::between(tuning::SMALLEST, 2),
-                    Discs::between(tuning::SMALLEST, inside),
-                    Discs::between(tuning::SMALLEST_FAR, outside),
-                    Discs::one(tuning::SMALLEST_FAR),
-                ]
-            }
+            (true, None) => Vec::new(),
         };
+        let computed = if follows { all.len() } else { 0 };
+        if follows {
+            let [outside, inside] = tuning::DISCS_A_DIGIT.map(count);
+            all.extend([
+                Discs::between(tuning::SMALLEST, outside),
+                Discs::between(tuning::SMALLEST, 2),
+                Discs::between(tuning::SMALLEST, inside),
+                Discs::between(tuning::SMALLEST_FAR, outside),
+                Discs::one(tuning::SMALLEST_FAR),
+            ]);
+        }
         Self {
             all,
+            computed,
             reach,
             follows,
             two_serve,
@@ -96,21 +101,28 @@ impl Sets {
 
     /// The set for a point at a place in largest radii; where a table has none, the disc alone, whose error names the place.
     pub(crate) fn choose(&self, [r, z]: [f64; 2]) -> usize {
+        let Some(reach) = self.reach.filter(|_| self.follows) else {
+            return self.choose_computed([r, z]);
+        };
+        let has =
+            |discs: &Discs| r <= discs.smallest() * reach[0] && z <= discs.smallest() * reach[1];
+        let looked_up = &self.all[..self.computed];
+        let found = looked_up.iter().position(has);
+        found.unwrap_or(looked_up.len() - 1)
+    }
+
+    /// The set for a point whose kernels are computed.
+    pub(crate) fn choose_computed(&self, [r, z]: [f64; 2]) -> usize {
         let distance = r.hypot(z);
-        match self.reach {
-            _ if !self.follows => 0,
-            Some(reach) => {
-                let has = |discs: &Discs| {
-                    r <= discs.smallest() * reach[0] && z <= discs.smallest() * reach[1]
-                };
-                self.all.iter().position(has).unwrap_or(self.all.len() - 1)
-            }
-            None if distance < tuning::INSIDE => 2,
-            None if self.one_serves => 4,
-            None if distance > tuning::FAR => 3,
-            None if self.two_serve > distance.recip() => 1,
-            None => 0,
-        }
+        let chosen = match () {
+            () if !self.follows => 0,
+            () if distance < tuning::INSIDE => 2,
+            () if self.one_serves => 4,
+            () if distance > tuning::FAR => 3,
+            () if self.two_serve > distance.recip() => 1,
+            () => 0,
+        };
+        self.computed + chosen
     }
 }
 

@@ -88,7 +88,7 @@ fn worst(order: Derivative, duration: f64, place: [f64; 2], tolerance: f64) -> [
         Derivative::Field | Derivative::First => [Quantity::VelocityR, Quantity::VelocityZ],
         Derivative::Second => [Quantity::AccelerationR, Quantity::AccelerationZ],
     };
-    let convolution = Convolution::new(&source, &grid, &all, &quantities, &|| {});
+    let convolution = Convolution::new(&source, &grid, &all, (&quantities, None), &|| {});
     let found = convolution.unwrap().at(place[0], place[1]).unwrap();
     let rates = &found[6..];
     let reference = Reference {

@@ -19,6 +19,9 @@ use std::ops::Range;
 /// The kernels of a point.
 pub(crate) struct PointKernels<'a> {
     pub(crate) place_m: [f64; 2],
+    /// Where the waves come from: the place itself, or its image where they are the echoes of a plate, which have no static
+    /// part.
+    pub(crate) image_m: Option<[f64; 2]>,
     pub(crate) discs: &'a Discs,
     /// Of each disc, in kernel units.
     pub(crate) cells: Vec<Cells>,
@@ -39,7 +42,7 @@ impl<'a> PointKernels<'a> {
     pub(crate) fn new(
         forcing: &Forcing<'_>,
         discs: &'a Discs,
-        place_m: [f64; 2],
+        (place_m, image_m): ([f64; 2], Option<[f64; 2]>),
         cells: Vec<Cells>,
     ) -> Self {
         let units = discs
@@ -49,6 +52,7 @@ impl<'a> PointKernels<'a> {
         let units: Vec<Six> = units.collect();
         let mut made = Self {
             place_m,
+            image_m,
             discs,
             differences: Vec::new(),
             units,
@@ -181,13 +185,14 @@ impl Sums {
         sums.add_errors(forcing, loads, kernels);
         if let PressureRadius::Following { largest_m, .. } = forcing.excitation.radius() {
             if kernels.discs.count() == 1 {
-                let [r_m, z_m] = kernels.place_m;
+                let [r_m, z_m] = kernels.image_m.unwrap_or(kernels.place_m);
                 let part = tuning::ONE_DISC * (largest_m / r_m.hypot(z_m)).powi(2);
                 for (error, samples) in sums.errors.iter_mut().zip(&sums.values) {
                     *error += part * largest(samples);
                 }
             }
-            for (i, &time_s) in forcing.times_s.iter().enumerate() {
+            let with_static = kernels.image_m.is_none();
+            for (i, &time_s) in forcing.times_s.iter().enumerate().filter(|_| with_static) {
                 let still = forcing.still(kernels.place_m, time_s)?;
                 for (samples, value) in sums.values.iter_mut().zip(still) {
                     samples[i] += value;

@@ -102,7 +102,7 @@ fn grid<'e>(
 
 /// The six fields at a place, at some samples of a grid.
 fn at(source: &KernelSource, grid: &Grid<'_>, wanted: &[usize], place: [f64; 2]) -> Vec<Trace> {
-    let convolution = Convolution::new(source, grid, wanted, &[], &|| {});
+    let convolution = Convolution::new(source, grid, wanted, (&[], None), &|| {});
     convolution.unwrap().at(place[0], place[1]).unwrap()
 }
 

@@ -6,31 +6,58 @@ use crate::scene::{Scene, Section};
 use contact::HalfSpace;
 
 /// The other face of the block that a place is on, by the keys that say so.
-fn face(block: &HalfSpace, [r, z]: [(&str, f64); 2]) -> Option<String> {
+fn face(block: &HalfSpace, [r, z]: [(&str, f64); 2]) -> Option<Face> {
     let limits = [
         (z, "thickness_m", block.thickness_m),
         (r, "radius_m", block.radius_m),
     ];
-    let on = limits
-        .into_iter()
-        .find(|((_, place_m), _, limit)| limit.is_some_and(|limit_m| *place_m >= limit_m));
-    on.map(|((key, place_m), limit, _)| format!("{key} = {limit} = {place_m} m"))
+    let is_plate = block.echoing().is_some();
+    let on = limits.into_iter().find(|((_, place_m), key, limit)| {
+        let counts = !(is_plate && *key == "thickness_m");
+        counts && limit.is_some_and(|limit_m| *place_m >= limit_m)
+    });
+    on.map(|((key, place_m), limit, _)| Face {
+        words: format!("{key} = {limit} = {place_m} m"),
+        is_lower: limit == "thickness_m",
+    })
+}
+
+/// A face of a block.
+struct Face {
+    words: String,
+    is_lower: bool,
 }
 
 /// A warning that no field is valid on a face.
-fn doubled(who: &str, face: &str) -> String {
+fn doubled(who: &str, face: &Face) -> String {
+    let way_out = match face.is_lower {
+        true => "; with echoes = 1 or more in [target] they are those of a plate",
+        false => "",
+    };
     format!(
-        "{who} on a free face of the block ({face}): the echo begins there with the first arrival, and a free face about doubles the motion (exactly doubles that of a P wave at normal incidence), so the fields of the half-space are not valid there at any time"
+        "{who} on a free face of the block ({}): the echo begins there with the first arrival, and a free face about doubles the motion (exactly doubles that of a P wave at normal incidence), so the fields of the half-space are not valid there at any time{way_out}",
+        face.words
     )
+}
+
+/// What the fields after the last echo that they contain are of.
+fn instead(block: &HalfSpace) -> String {
+    match block.echoing() {
+        None => "later fields there are those of a half-space, not of the block".to_owned(),
+        Some(plate) => format!(
+            "later fields there have the waves that run the thickness up to {} times, not those of the block",
+            plate.legs
+        ),
+    }
 }
 
 /// Of probes in an output that ends at a time in s.
 pub(crate) fn of_probes(scene: &Scene, fields: &ProbeFields, end_s: f64) -> Vec<String> {
     let (mut found, count) = (Vec::new(), scene.probes.len());
-    let faces: Vec<Option<String>> = (scene.probes.iter())
+    let faces: Vec<Option<Face>> = (scene.probes.iter())
         .map(|probe| face(&scene.target, [("r_m", probe.r_m), ("z_m", probe.z_m)]))
         .collect();
-    let on: Vec<(usize, &String)> = (1..)
+    let on: Vec<(usize, &Face)> = (1..)
         .zip(&faces)
         .filter_map(|(i, face)| Some((i, face.as_ref()?)))
         .collect();
@@ -46,8 +73,9 @@ pub(crate) fn of_probes(scene: &Scene, fields: &ProbeFields, end_s: f64) -> Vec<
     let echoing: Vec<(usize, f64)> = inside.map(|(i, (&valid_s, _))| (i, valid_s)).collect();
     if let Some((first, first_s)) = echoing.iter().min_by(|a, b| a.1.total_cmp(&b.1)) {
         found.push(format!(
-            "echoes from the faces of the block reach {} of {count} probes before the output ends at {end_s:.4e} s, first probe {first} at {first_s:.4e} s: later fields there are those of a half-space, not of the block",
+            "echoes from the faces of the block reach {} of {count} probes before the output ends at {end_s:.4e} s, first probe {first} at {first_s:.4e} s: {}",
             echoing.len(),
+            instead(&scene.target),
         ));
     }
     found
@@ -71,7 +99,8 @@ pub(crate) fn of_section(
     let first_s = first_s.map(|first_s| excitation.start_s() + first_s);
     let echoing = first_s.filter(|&first_s| first_s < end_s).map(|first_s| {
         format!(
-            "echoes from the faces of the block reach the section from {first_s:.4e} s on, before the output ends at {end_s:.4e} s: later fields there are those of a half-space, not of the block"
+            "echoes from the faces of the block reach the section from {first_s:.4e} s on, before the output ends at {end_s:.4e} s: {}",
+            instead(block)
         )
     });
     on.into_iter().chain(echoing).collect()

@@ -91,11 +91,12 @@ impl Fields<'_> {
             duration_s: self.duration_s,
             frames: None,
             farthest_m: Some(r_m.hypot(z_m)),
+            plate_s: None,
         };
         let grid = Grid::new(&wanted, self.excitation, Some(&self.source))?;
         let time_s: Vec<f64> = grid.times_s().collect();
         let all: Vec<usize> = (0..time_s.len()).collect();
-        let convolution = Convolution::new(&self.source, &grid, &all, &[], &|| {})?;
+        let convolution = Convolution::new(&self.source, &grid, &all, (&[], None), &|| {})?;
         Ok(FieldHistory {
             traces: convolution.at(r_m, z_m)?,
             time_s,

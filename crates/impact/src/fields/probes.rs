@@ -25,12 +25,48 @@ pub struct ProbeFields {
     pub arrival_s: Vec<[f64; 3]>,
     /// When the first echo from the faces of the block arrives, in s, one a probe; infinite where no face is known.
     pub valid_until_s: Vec<f64>,
+    /// When the waves of a plate arrive that have run between its faces, until the output ends.
+    pub echoes: EchoArrivals,
     /// The requested quantities in addition to the fields.
     pub quantities: Vec<Quantity>,
     /// Samples of each field (order of [`halfspace::FIELDS`]) and then of each quantity, one row a probe.
     pub values: Vec<Vec<Vec<f64>>>,
     /// Estimated error of each, one value a probe.
     pub errors: Vec<Vec<f64>>,
+}
+
+/// Arrivals of the waves of a plate that have run between its faces; none on a half-space.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct EchoArrivals {
+    /// A P or an S for each leg of a wave, P first where the order does not matter, and for the last part of one that ends between
+    /// the faces: "PPS".
+    pub names: Vec<String>,
+    /// The first arrival of each in s, one row a probe; infinite where it does not arrive.
+    pub time_s: Vec<Vec<f64>>,
+}
+
+impl EchoArrivals {
+    /// Of probes, each with names and times in s after the load begins, until an end.
+    fn new(rows: &[Vec<(String, f64)>], [start_s, end_s]: [f64; 2]) -> Self {
+        let within = |time_s: f64| start_s + time_s <= end_s;
+        let mut all: Vec<&(String, f64)> = rows.iter().flatten().collect();
+        all.sort_by(|one, other| one.1.total_cmp(&other.1));
+        let mut names: Vec<String> = Vec::new();
+        for (name, time_s) in all {
+            if within(*time_s) && !names.contains(name) {
+                names.push(name.clone());
+            }
+        }
+        let of = |row: &Vec<(String, f64)>, name: &String| {
+            let found = row.iter().find(|(own, time_s)| own == name && within(*time_s));
+            found.map_or(f64::INFINITY, |(_, time_s)| start_s + time_s)
+        };
+        let row = |row: &Vec<(String, f64)>| names.iter().map(|name| of(row, name)).collect();
+        Self {
+            time_s: rows.iter().map(row).collect(),
+            names,
+        }
+    }
 }
 
 /// Fields on a meridional section in SI units.
@@ -101,6 +137,7 @@ pub(crate) fn at_probes(
         z_m: probes.iter().map(|p| p.z_m).collect(),
         arrival_s: Vec::new(),
         valid_until_s: Vec::new(),
+        echoes: EchoArrivals::default(),
         quantities,
         values: vec![Vec::new(); count],
         errors: vec![Vec::new(); count],
@@ -117,6 +154,12 @@ pub(crate) fn at_probes(
             fields.values[quantity].push(trace.samples);
             fields.errors[quantity].push(trace.error);
         }
+    }
+    if let Some(echoes) = &convolution.echoes {
+        let of = |probe: &Probe| echoes.arrivals_s([probe.r_m, probe.z_m], excitation.units());
+        let rows: Vec<_> = probes.iter().map(of).collect::<Result<_, _>>()?;
+        let end_s = convolution.times_s().last().copied().unwrap_or(0.0);
+        fields.echoes = EchoArrivals::new(&rows, [excitation.start_s(), end_s]);
     }
     Ok(fields)
 }
@@ -247,7 +290,8 @@ fn peaks_from(
     Forecast::new(scene, &grid, Some(source), 1.0).check(scene, MOST_BYTES)?;
     let time_s: Vec<f64> = grid.times_s().collect();
     let wanted: Vec<usize> = (0..time_s.len()).collect();
-    let convolution = Convolution::new(source, &grid, &wanted, &scene.quantities, &|| {})?;
+    let asked = (&scene.quantities[..], Some(&scene.target));
+    let convolution = Convolution::new(source, &grid, &wanted, asked, &|| {})?;
     for probe in &scene.probes {
         for Trace { samples, error } in convolution.at(probe.r_m, probe.z_m)? {
             let [value, time_s] = peak(&time_s, &samples);

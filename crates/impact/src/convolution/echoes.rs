@@ -1,0 +1,74 @@
+//! The echoes of a plate as kernels of their own, in addition to those of the half-space.
+//!
+//! They are traces like those of the half-space, with no static part, on discs of their own: their waves have come far.
+//!
+//! Theory: `docs/theory.md` (T68, T69).
+
+use crate::error::ImpactError;
+use crate::kernels::{CellPlan, Cells, KernelSource};
+use contact::{Echoing, HalfSpace, KernelUnits};
+use halfspace::{DomainError, Echo, Kernel, Medium, Plate};
+use std::sync::Arc;
+
+/// A plate whose echoes are summed.
+#[derive(Debug, Clone)]
+pub(crate) struct Echoes {
+    kernel: Arc<Kernel>,
+    plate: Echoing,
+}
+
+impl Echoes {
+    /// Of a block, for fields of a relative tolerance; none without a plate.
+    pub(crate) fn of(
+        block: &HalfSpace,
+        medium: &Medium,
+        tolerance: f64,
+    ) -> Result<Option<Self>, DomainError> {
+        let Some(plate) = block.echoing() else {
+            return Ok(None);
+        };
+        let kernel = KernelSource::for_fields(medium, tolerance)?;
+        Ok(Some(Self { kernel, plate }))
+    }
+
+    /// The plate in radii of a disc.
+    fn over(&self, disc_radius_m: f64) -> Result<Plate, DomainError> {
+        let plate = Plate::new(&self.kernel, self.plate.thickness_m / disc_radius_m)?;
+        Ok(plate.up_to(self.plate.legs))
+    }
+
+    /// A place in the half-space as far from the load as the first echo that arrives at a place.
+    pub(crate) fn image_m(&self, [r_m, z_m]: [f64; 2]) -> [f64; 2] {
+        let thickness_m = self.plate.thickness_m;
+        [r_m, (2.0 * thickness_m - z_m).max(thickness_m)]
+    }
+
+    /// Names of the waves that arrive at a place, and when in s after the load begins, the earliest first.
+    pub(crate) fn arrivals_s(
+        &self,
+        [r_m, z_m]: [f64; 2],
+        units: &KernelUnits,
+    ) -> Result<Vec<(String, f64)>, ImpactError> {
+        let domain = |source| ImpactError::OutsideBlock { r_m, z_m, source };
+        let radius_m = units.disc_radius_m;
+        let plate = self.over(radius_m).map_err(domain)?;
+        let found = plate.arrivals(r_m / radius_m, z_m / radius_m);
+        let named = |echo: &Echo| (echo.name(), echo.time * units.time_s());
+        Ok(found.map_err(domain)?.iter().map(named).collect())
+    }
+
+    /// The kernels of a disc at a place.
+    pub(crate) fn cells(
+        &self,
+        [r_m, z_m]: [f64; 2],
+        disc_radius_m: f64,
+        wanted: &CellPlan,
+    ) -> Result<Cells, ImpactError> {
+        let domain = |source| ImpactError::OutsideBlock { r_m, z_m, source };
+        let plate = self.over(disc_radius_m).map_err(domain)?;
+        let [r, z] = [r_m, z_m].map(|x| x / disc_radius_m);
+        let trace = wanted.trace(|end, wanted| plate.trace_under(r, z, end, wanted));
+        let trace = trace.map_err(domain)?;
+        Cells::of_trace(trace, Default::default(), wanted).map_err(domain)
+    }
+}
