@@ -87,7 +87,7 @@ pub use kernel::Kernel;
 pub use medium::Medium;
 pub use numeric::polynomial::{chebyshev, chebyshev_each, lagrange, leja_nodes, leja_series};
 pub use numeric::{bisected, gauss, random};
-pub use plate::{Echo, Plate};
+pub use plate::{Echo, Plate, Rays};
 pub use profile::Profile;
 pub use surface::{Deflection, LoadedDisc, SurfaceResponse, surface_measure};
 pub use trace::Trace;

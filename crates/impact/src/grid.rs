@@ -184,7 +184,9 @@ impl<'a> Grid<'a> {
         source: Option<&KernelSource>,
     ) -> Result<Self, ImpactError> {
         let (duration_s, wanted_s) = wanted.duration_and_step_s(excitation);
-        let latest_s = wanted.plate_s.map(|[_, latest_s]| excitation.start_s() + latest_s);
+        let latest_s = wanted
+            .plate_s
+            .map(|[_, latest_s]| excitation.start_s() + latest_s);
         if let Some(latest_s) = latest_s.filter(|&latest_s| duration_s > (1.0 + 1e-9) * latest_s) {
             return Err(ImpactError::LateEchoes {
                 duration_s,

@@ -244,7 +244,10 @@ fn add_fields(
     (source, reason): (KernelSource, String),
     outcome: &mut Outcome,
 ) -> Result<(), ImpactError> {
-    let (asked, watch) = ((&scene.quantities[..], Some(&scene.target)), allowance.watch);
+    let (asked, watch) = (
+        (&scene.quantities[..], Some(&scene.target)),
+        allowance.watch,
+    );
     let of = |wanted| Convolution::new(&source, grid, wanted, asked, watch);
     let mut method = Method::Direct;
     let all: Vec<usize> = (0..outcome.series.time_s.len()).collect();

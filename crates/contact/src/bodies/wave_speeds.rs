@@ -1,7 +1,7 @@
 //! When waves from the loaded disc arrive at a place of a block, and when the first echo does.
 
 use crate::bodies::HalfSpace;
-use halfspace::{DomainError, Medium};
+use halfspace::{DomainError, Echo, Medium, Rays};
 
 /// Speeds of the waves of a half-space in m/s.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -87,6 +87,28 @@ impl WaveSpeeds {
         let echoes_s = paths_m.map(|path_m| path_m / self.p);
         let latest_s = plate.map(|plate| plate.latest_s);
         echoes_s.chain(latest_s).reduce(f64::min)
+    }
+
+    /// Names of the waves between the faces of a plate that its fields have at a place, and when the first of each arrives in s
+    /// after the force's start, in this order; none for a half-space.
+    pub fn echoes_s(
+        &self,
+        block: &HalfSpace,
+        [r_m, z_m]: [f64; 2],
+        disc_radius_m: f64,
+    ) -> Vec<(String, f64)> {
+        let Some(plate) = block.echoing() else {
+            return Vec::new();
+        };
+        let rays = Rays {
+            thickness: plate.thickness_m,
+            legs: plate.legs,
+            shear: (self.p / self.s).powi(2),
+        };
+        let aside_m = (r_m - disc_radius_m).max(0.0);
+        let found = rays.arrivals(aside_m, z_m);
+        let named = |echo: &Echo| (echo.name(), echo.time / self.p);
+        found.iter().map(named).collect()
     }
 }
 

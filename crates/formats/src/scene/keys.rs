@@ -3,8 +3,8 @@
 
 use crate::error::SceneError;
 use contact::{
-    Choice, Echoes, Library, Material, Plasticity, Settings, Shape, Striker, choice, fall_velocity_m_s,
-    nearest,
+    Choice, Echoes, Library, Material, Plasticity, Settings, Shape, Striker, choice,
+    fall_velocity_m_s, nearest,
 };
 use impact::{ForceRecord, Load, Scene, Strike};
 use toml::{Table, Value};

@@ -145,10 +145,7 @@ fn read_target(root: &TomlSection<'_>, library: &Library) -> Result<HalfSpace, S
 }
 
 /// How far the waves of a plate are followed, if a scene asks for that.
-fn read_echoes(
-    target: &TomlSection<'_>,
-    block: &HalfSpace,
-) -> Result<Option<Echoes>, SceneError> {
+fn read_echoes(target: &TomlSection<'_>, block: &HalfSpace) -> Result<Option<Echoes>, SceneError> {
     let legs = target.count("echoes", 1..=Plate::MOST_LEGS, "[1, 16]")?;
     let until_s = target.number("until_s")?;
     let asked = match (legs, until_s) {

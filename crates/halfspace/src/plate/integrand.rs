@@ -131,7 +131,7 @@ impl Integrand<'_> {
         let k = plate.kernel.medium().shear_slowness_squared();
         let reflection = Reflection::complex(k, q, roots);
         let mut sum = [q.re().constant(0.0); 8];
-        let place = plate.place(at.z);
+        let place = plate.rays.place(at.z);
         let qt = q * at.t;
         let least = usize::from(on_axis && !shear && place != Place::Inside);
         let most = if shear { 0 } else { m };
@@ -145,7 +145,7 @@ impl Integrand<'_> {
                     continue;
                 }
                 let row = self.row(&reflection, &legs, n, wave);
-                let [as_p, as_s] = plate.distances(m, n, at.z, wave);
+                let [as_p, as_s] = plate.rays.distances(m, n, at.z, wave);
                 let gamma = roots[0] * as_p + roots[1] * as_s;
                 let load = (at.r, ROUNDING_DIGITS);
                 let profile = plate.kernel.profile();
@@ -182,7 +182,7 @@ impl Integrand<'_> {
     ) -> [X; 6] {
         let up = !self.m.is_multiple_of(2);
         let mut row = [legs.leaving[n][0].constant(0.0); 6];
-        if self.plate.place(self.at.z) == Place::Inside {
+        if self.plate.rays.place(self.at.z) == Place::Inside {
             reflection.add(wave, legs.leaving[n][wave], up, &mut row);
             return row;
         }
@@ -210,7 +210,7 @@ impl Integrand<'_> {
         let reflection = Reflection::fast(k, [x, p, y]);
         let legs = reflection.after(m, [n, n]);
         let row = self.row(&reflection, &legs, n, wave);
-        let [as_p, as_s] = plate.distances(m, n, at.z, wave);
+        let [as_p, as_s] = plate.rays.distances(m, n, at.z, wave);
         let eta = (p * as_p + y * as_s + sense * at.t) * over;
         let psi = compact::<STEP, T>(plate.kernel.profile(), eta, (at.r, ROUNDING_DIGITS));
         let terms = [

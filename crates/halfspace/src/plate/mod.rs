@@ -13,9 +13,9 @@
 //! Theory: `docs/theory.md` (T68, T69).
 
 mod cuts;
-mod echo;
 mod integrand;
 mod quadrature;
+mod rays;
 mod reflection;
 
 use crate::domain::{DomainError, check, check_hertz, check_place, check_time};
@@ -23,11 +23,12 @@ use crate::field::{Estimate, Field, Point, Six};
 use crate::kernel::Kernel;
 use crate::trace::{Signal, Trace};
 use cuts::{pieces, roots_of_concave};
-pub use echo::Echo;
-use echo::{arrival, head};
+
 use integrand::{Integrand, Part};
 use num_complex::Complex64;
 use quadrature::Panels;
+pub use rays::{Echo, Rays};
+use rays::{Place, arrival, head};
 use reflection::MOST_LEGS;
 use std::f64::consts::PI;
 
@@ -55,8 +56,7 @@ use std::f64::consts::PI;
 #[derive(Debug, Clone)]
 pub struct Plate {
     kernel: Kernel,
-    thickness: f64,
-    legs: usize,
+    rays: Rays,
 }
 
 /// Errors of a panel over the tolerance, and the finest tolerance that is reached at late times.
@@ -67,17 +67,6 @@ const FINEST: f64 = 1e-8;
 /// 1e-2 at 12 transits with a farthest begin of 0.35; `echoes_do_not_depend_on_the_path` fails at 0.85, and the second at 2.
 const SAFE: f64 = 0.75;
 const FARTHEST: f64 = 1.0;
-
-/// Where a point stands: on a face, or inside, where waves of both directions pass separately.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Place {
-    /// Under the load.
-    Upper,
-    /// Opposite.
-    Lower,
-    /// Between them.
-    Inside,
-}
 
 impl Plate {
     /// Most legs of a wave, and the latest time in transits H/c1.
@@ -97,8 +86,11 @@ impl Plate {
         check_hertz(kernel.profile(), "a plate")?;
         Ok(Self {
             kernel: kernel.clone(),
-            thickness,
-            legs: MOST_LEGS,
+            rays: Rays {
+                thickness,
+                legs: MOST_LEGS,
+                shear: kernel.medium().shear_slowness_squared(),
+            },
         })
     }
 
@@ -106,45 +98,14 @@ impl Plate {
     ///
     /// The sum is exact until a wave with one leg more arrives.
     #[must_use]
-    pub fn up_to(self, legs: usize) -> Self {
-        let legs = legs.min(MOST_LEGS);
-        Self { legs, ..self }
+    pub fn up_to(mut self, legs: usize) -> Self {
+        self.rays.legs = legs.min(MOST_LEGS);
+        self
     }
 
     /// The latest time of an echo in r0/c1.
     pub fn latest(&self) -> f64 {
-        MOST_LEGS as f64 * self.thickness
-    }
-
-    /// All waves that are summed at (r, z), in the order of their first arrival; on the lower face without those of one leg, which
-    /// are the waves of the half-space.
-    ///
-    /// # Errors
-    /// [`DomainError`] for a place outside the plate.
-    pub fn arrivals(&self, r: f64, z: f64) -> Result<Vec<Echo>, DomainError> {
-        self.check_inside(r, z)?;
-        let across = (r - self.kernel.profile().radius()).max(0.0);
-        let k = self.kernel.medium().shear_slowness_squared();
-        let is_below = self.place(z) == Place::Lower;
-        let mut found = vec![];
-        for (m, n, wave) in self.groups(z).filter(|(m, ..)| !(is_below && *m == 1)) {
-            let distances = self.distances(m, n, z, wave);
-            found.push(Echo {
-                legs: [n, m - n],
-                last_is_p: (self.place(z) == Place::Inside).then_some(wave == 0),
-                time: arrival(across, distances, k),
-            });
-        }
-        found.sort_by(|one, other| one.time.total_cmp(&other.time));
-        Ok(found)
-    }
-
-    /// The groups of waves at a depth: their legs, how many of them are P, and the wave of the last part.
-    fn groups(&self, z: f64) -> impl Iterator<Item = (usize, usize, usize)> {
-        let lasts = if self.place(z) == Place::Inside { 2 } else { 1 };
-        let counted = (1..=self.legs).filter(move |m| self.counts(*m, z));
-        counted
-            .flat_map(move |m| (0..=m).flat_map(move |n| (0..lasts).map(move |wave| (m, n, wave))))
+        MOST_LEGS as f64 * self.rays.thickness
     }
 
     /// The echoes at (r, z) until `end`, with the accuracy needed for a force that changes by at most `rise` of its peak within a
@@ -166,16 +127,16 @@ impl Plate {
         self.check_inside(r, z)?;
         check_time(end)?;
         let radius = self.kernel.profile().radius();
-        let k = self.kernel.medium().shear_slowness_squared();
+        let shear = self.rays.shear;
         let below = if r < radius { Some(0.0) } else { None };
         let mut fronts = vec![];
-        for (m, n, wave) in self.groups(z) {
-            let distances = self.distances(m, n, z, wave);
+        for (m, n, wave) in self.rays.groups(z) {
+            let distances = self.rays.distances(m, n, z, wave);
             let edges = [(r - radius).abs(), r + radius];
             for e in edges.into_iter().chain(below) {
-                fronts.push(arrival(e, distances, k));
+                fronts.push(arrival(e, distances, shear));
                 if distances[0] == 0.0 {
-                    fronts.extend(head(e, distances[1], k));
+                    fronts.extend(head(e, distances[1], shear));
                 }
             }
         }
@@ -196,7 +157,7 @@ impl Plate {
 
     fn check_inside(&self, r: f64, z: f64) -> Result<(), DomainError> {
         check_place(r, z)?;
-        check(z <= self.thickness, "z", z, "[0, thickness]")
+        check(z <= self.rays.thickness, "z", z, "[0, thickness]")
     }
 
     /// The echoes at (r, z) at a time, which add to the step response of the half-space: on the lower face the reflection of
@@ -220,7 +181,7 @@ impl Plate {
             found.error[f] = panels.error[f] / PI;
         }
         // on the upper face both tractions of the half-space are those of the load already
-        if self.place(z) == Place::Upper {
+        if self.rays.place(z) == Place::Upper {
             for field in [Field::StressZz, Field::StressRz] {
                 found.value[field.index()] = 0.0;
                 found.error[field.index()] = 0.0;
@@ -229,49 +190,16 @@ impl Plate {
         Ok(found)
     }
 
-    /// Where a depth is.
-    pub(crate) fn place(&self, z: f64) -> Place {
-        match z {
-            0.0 => Place::Upper,
-            _ if z == self.thickness => Place::Lower,
-            _ => Place::Inside,
-        }
-    }
-
-    /// Vertical distance that waves of m legs run from the face that they left last to a depth; zero on the faces, where they
-    /// are counted as they arrive.
-    fn last_part(&self, m: usize, z: f64) -> f64 {
-        match self.place(z) {
-            Place::Inside if m.is_multiple_of(2) => z,
-            Place::Inside => self.thickness - z,
-            Place::Upper | Place::Lower => 0.0,
-        }
-    }
-
-    /// Vertical distance that waves of m legs run to a depth.
-    fn distance(&self, m: usize, z: f64) -> f64 {
-        m as f64 * self.thickness + self.last_part(m, z)
-    }
-
-    /// Whether waves of m legs are counted at a place: those that arrive at a face.
-    fn counts(&self, m: usize, z: f64) -> bool {
-        match self.place(z) {
-            Place::Upper => m.is_multiple_of(2),
-            Place::Lower => !m.is_multiple_of(2),
-            Place::Inside => true,
-        }
-    }
-
     /// The sum over all waves that have arrived; the path keeps to a part `safe` of the way to the fronts.
     fn sum(&self, at: Point, safe: f64) -> Panels {
         let mut panels = Panels::default();
-        let size = 1.0 + at.r.hypot(self.thickness);
+        let size = 1.0 + at.r.hypot(self.rays.thickness);
         let own = OF_TOLERANCE * self.kernel.tolerance().max(FINEST);
         let mut allowed: Six = [own / (size * size); 6];
         (allowed[0], allowed[1]) = (own / size, own / size);
         let across = (at.r - self.kernel.profile().radius()).max(0.0);
-        let arrived = |m: &usize| across.hypot(self.distance(*m, at.z)) < at.t;
-        let counted = (1..=self.legs).filter(|m| self.counts(*m, at.z));
+        let arrived = |m: &usize| across.hypot(self.rays.distance(*m, at.z)) < at.t;
+        let counted = (1..=self.rays.legs).filter(|m| self.rays.counts(*m, at.z));
         for m in counted.take_while(arrived) {
             let path = Integrand {
                 plate: self,
@@ -303,7 +231,7 @@ impl Plate {
     fn delta(&self, at: Point, m: usize, safe: f64) -> f64 {
         let kappa = self.kernel.medium().kappa();
         let radius = self.kernel.profile().radius();
-        let distance = self.distance(m, at.z);
+        let distance = self.rays.distance(m, at.z);
         let mut least = f64::INFINITY;
         for (time, speed) in [(at.t, 1.0), (kappa * at.t, kappa)] {
             for e in [(at.r - radius).abs(), at.r + radius] {
@@ -326,7 +254,7 @@ impl Plate {
     fn shear(&self, path: &Integrand<'_>, allowed: &Six, panels: &mut Panels) {
         let at = path.at;
         let k = self.kernel.medium().shear_slowness_squared();
-        let distance = self.distance(path.m, at.z);
+        let distance = self.rays.distance(path.m, at.z);
         let span = (k - 1.0).sqrt();
         let place = |v: f64| {
             let inverse = 1.0 / (1.0 + v * v);
@@ -349,10 +277,10 @@ impl Plate {
     fn fast(&self, path: &Integrand<'_>, n: usize, allowed: &Six, panels: &mut Panels) {
         let (at, m) = (path.at, path.m);
         let k = self.kernel.medium().shear_slowness_squared();
-        let inside = self.place(at.z) == Place::Inside;
+        let inside = self.rays.place(at.z) == Place::Inside;
         let waves: &[usize] = if inside { &[0, 1] } else { &[0] };
         for &wave in waves {
-            let [as_p, as_s] = self.distances(m, n, at.z, wave);
+            let [as_p, as_s] = self.rays.distances(m, n, at.z, wave);
             let place = |u: f64| {
                 let x = 2.0 * u / (1.0 + u * u);
                 let p = (1.0 - u * u) / (1.0 + u * u);
@@ -372,13 +300,6 @@ impl Plate {
                 }
             }
         }
-    }
-
-    /// Vertical distances as P and as S to a depth, of waves of m legs, n of them as P, whose last part is P (0) or S (1).
-    pub(crate) fn distances(&self, m: usize, n: usize, z: f64, wave: usize) -> [f64; 2] {
-        let mut distances = [n, m - n].map(|legs| legs as f64 * self.thickness);
-        distances[wave] += self.last_part(m, z);
-        distances
     }
 
     /// Places in [0, 1] at which the fronts `vertical + sense t = e x` of a wave pass; `place` gives x and `vertical`.
@@ -470,7 +391,7 @@ mod tests {
                 let found = plate.echoes(r, z, t).unwrap();
                 let exact = of(1e-9).sum(Point { r, z, t }, 0.68);
                 let size = 1.0 + r.hypot(thickness);
-                let fields = if plate.place(z) == Place::Upper {
+                let fields = if plate.rays.place(z) == Place::Upper {
                     0..4
                 } else {
                     0..6

@@ -6,8 +6,8 @@
 
 use crate::error::ImpactError;
 use crate::kernels::{CellPlan, Cells, KernelSource};
-use contact::{Echoing, HalfSpace, KernelUnits};
-use halfspace::{DomainError, Echo, Kernel, Medium, Plate};
+use contact::{Echoing, HalfSpace};
+use halfspace::{DomainError, Kernel, Medium, Plate};
 use std::sync::Arc;
 
 /// A plate whose echoes are summed.
@@ -41,20 +41,6 @@ impl Echoes {
     pub(crate) fn image_m(&self, [r_m, z_m]: [f64; 2]) -> [f64; 2] {
         let thickness_m = self.plate.thickness_m;
         [r_m, (2.0 * thickness_m - z_m).max(thickness_m)]
-    }
-
-    /// Names of the waves that arrive at a place, and when in s after the load begins, the earliest first.
-    pub(crate) fn arrivals_s(
-        &self,
-        [r_m, z_m]: [f64; 2],
-        units: &KernelUnits,
-    ) -> Result<Vec<(String, f64)>, ImpactError> {
-        let domain = |source| ImpactError::OutsideBlock { r_m, z_m, source };
-        let radius_m = units.disc_radius_m;
-        let plate = self.over(radius_m).map_err(domain)?;
-        let found = plate.arrivals(r_m / radius_m, z_m / radius_m);
-        let named = |echo: &Echo| (echo.name(), echo.time * units.time_s());
-        Ok(found.map_err(domain)?.iter().map(named).collect())
     }
 
     /// The kernels of a disc at a place.

@@ -79,7 +79,7 @@ pub(crate) struct Convolution<'a> {
     /// Of a contact whose radius follows the load, with kernels that are computed.
     past: Option<Past<'a>>,
     /// Of a plate.
-    pub(crate) echoes: Option<Echoes>,
+    echoes: Option<Echoes>,
 }
 
 /// Ratio of the tolerance of an integral over a part of the past, which brings a part of the field, to that of the field.
@@ -231,7 +231,10 @@ impl<'a> Convolution<'a> {
             let loads = forcing.loads(set, discs);
             let mut own = Sums::new(forcing, loads, &kernels)?;
             own.integrate_zones(forcing, loads, &kernels, |_| false);
-            for (all, own) in all.iter_mut().zip(self.traces(forcing, &kernels, &own, false)) {
+            for (all, own) in all
+                .iter_mut()
+                .zip(self.traces(forcing, &kernels, &own, false))
+            {
                 all.error += own.error;
                 for (all, own) in all.samples.iter_mut().zip(own.samples) {
                     *all += own;
@@ -243,12 +246,7 @@ impl<'a> Convolution<'a> {
 
     /// The place in radii of a disc of a radius `over` the largest, one of `count`, this radius in m, and the cells as far as the
     /// outputs need them.
-    fn wanted_of(
-        &self,
-        place_m: [f64; 2],
-        over: f64,
-        count: usize,
-    ) -> ([f64; 2], f64, CellPlan) {
+    fn wanted_of(&self, place_m: [f64; 2], over: f64, count: usize) -> ([f64; 2], f64, CellPlan) {
         let (excitation, grid) = (self.grid.excitation, self.grid);
         let units = excitation.units();
         let disc_radius_m = over * units.disc_radius_m;

@@ -58,7 +58,9 @@ impl EchoArrivals {
             }
         }
         let of = |row: &Vec<(String, f64)>, name: &String| {
-            let found = row.iter().find(|(own, time_s)| own == name && within(*time_s));
+            let found = row
+                .iter()
+                .find(|(own, time_s)| own == name && within(*time_s));
             found.map_or(f64::INFINITY, |(_, time_s)| start_s + time_s)
         };
         let row = |row: &Vec<(String, f64)>| names.iter().map(|name| of(row, name)).collect();
@@ -155,12 +157,10 @@ pub(crate) fn at_probes(
             fields.errors[quantity].push(trace.error);
         }
     }
-    if let Some(echoes) = &convolution.echoes {
-        let of = |probe: &Probe| echoes.arrivals_s([probe.r_m, probe.z_m], excitation.units());
-        let rows: Vec<_> = probes.iter().map(of).collect::<Result<_, _>>()?;
-        let end_s = convolution.times_s().last().copied().unwrap_or(0.0);
-        fields.echoes = EchoArrivals::new(&rows, [excitation.start_s(), end_s]);
-    }
+    let of = |probe: &Probe| speeds.echoes_s(block, [probe.r_m, probe.z_m], radius_m);
+    let rows: Vec<_> = probes.iter().map(of).collect();
+    let end_s = convolution.times_s().last().copied().unwrap_or(0.0);
+    fields.echoes = EchoArrivals::new(&rows, [excitation.start_s(), end_s]);
     Ok(fields)
 }
 
