@@ -177,7 +177,13 @@ class Probes(_Group, OfProbes):
     arrival : ndarray (probe, 3)
         Arrival times in s of the first P, S and Rayleigh wave; infinite if there is no Rayleigh wave.
     valid_until : ndarray (probe,)
-        Arrival time in s of the first echo from another face of the block; infinite if the scene names no such face.
+        Arrival time in s of the first echo from another face of the block that the fields do not have; infinite if the scene names no
+        such face.
+    echo : ndarray (wave,)
+        Names of the waves between the faces of a plate: P or S for each leg, and for the last part of one that ends inside;
+        only with ``echoes`` or ``until_s`` in the scene's ``target``.
+    echo_arrival : ndarray (probe, wave)
+        Their first arrival times in s; infinite where a wave does not arrive before the output ends.
     displacement_r, displacement_z : ndarray (probe, time)
         Displacements in m, positive away from the axis and into the half-space.
     stress_rr, stress_tt, stress_zz, stress_rz : ndarray (probe, time)

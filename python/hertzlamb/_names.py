@@ -157,6 +157,8 @@ class OfProbes(OfPlaces):
     z: Floats
     arrival: Floats
     valid_until: Floats
+    echo: NDArray[np.str_]
+    echo_arrival: Floats
 
 
 class OfSection(OfPlaces):

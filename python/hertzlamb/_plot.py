@@ -152,6 +152,13 @@ def force(run: Impact, axes: Axes | None) -> Axes:
     return axes
 
 
+def _first_echoes(names: Any, times: Any) -> dict[str, float]:
+    """The arrivals of the echoes with the fewest legs."""
+    there = [(str(name), time) for name, time in zip(names, times, strict=True) if np.isfinite(time)]
+    fewest = min((len(name) for name, _ in there), default=0)
+    return {name: time for name, time in there if len(name) == fewest}
+
+
 @_styled
 def probes(run: Impact, quantity: str) -> Figure:
     """Draws a quantity over time with the arrivals, one panel for each probe."""
@@ -171,6 +178,8 @@ def probes(run: Impact, quantity: str) -> Figure:
             band = (scale * (values[i] - error), scale * (values[i] + error))
             panel.fill_between(time_scale * found.time, *band, color=line.get_color(), alpha=_BAND, linewidth=0)
         waves = dict(zip("PSR", found.arrival[i], strict=True))
+        if "echo" in found:
+            waves.update(_first_echoes(found.echo, found.echo_arrival[i]))
         _marked(panel, time_scale, {**waves, "valid until the echo": found.valid_until[i]}, found.time[-1])
         panel.set_ylabel(f"{_words(quantity)} [{unit}]")
         panel.set_title(_place(found.r[i], found.z[i]), loc="center", pad=16)

@@ -63,6 +63,10 @@ def of_impact(run: Impact) -> xr.Dataset:
             coordinates[name] = ("probe", probes[name], _attributes("places", name))
         variables["arrival"] = (("probe", "wave"), probes.arrival, _attributes("arrival", "arrival"))
         variables["valid_until"] = ("probe", probes.valid_until, _attributes("arrival", "valid_until"))
+        if "echo" in probes:
+            coordinates["echo"] = ("echo", probes.echo)
+            described = _attributes("arrival", "echo_arrival")
+            variables["echo_arrival"] = (("probe", "echo"), probes.echo_arrival, described)
         variables.update(_fields(probes, ("probe", "time"), ("probe",)))
     scalars = {name: value for name, value in run.report.items() if isinstance(value, (int, float, str))}
     return xr.Dataset(variables, coordinates, {**scalars, "warnings": "\n".join(run.warnings)})

@@ -149,6 +149,17 @@ impl Outcome {
         found.set_item(schema::ARRIVALS.0, frozen(py, arrivals, &shape)?)?;
         let valid = vector(py, fields.valid_until_s.clone())?;
         found.set_item(schema::VALID_UNTIL.0, valid)?;
+        let echoes = &fields.echoes;
+        if !echoes.names.is_empty() {
+            let names = py
+                .import("numpy")?
+                .call_method1("array", (&echoes.names,))?;
+            names.call_method1("setflags", (false,))?;
+            found.set_item(schema::ECHO.0, names)?;
+            let shape = [fields.r_m.len(), echoes.names.len()];
+            let arrivals = frozen(py, echoes.time_s.concat(), &shape)?;
+            found.set_item(schema::ECHO_ARRIVALS.0, arrivals)?;
+        }
         for (row, values, errors) in schema::histories(fields) {
             let shape = [values.len(), values.first().map_or(0, Vec::len)];
             found.set_item(row.0, frozen(py, values.concat(), &shape)?)?;

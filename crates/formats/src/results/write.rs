@@ -2,13 +2,16 @@
 
 use super::identity::scene_sha256;
 use super::section::{beside, waves, write_section};
-use crate::hdf::{attach_scales, new_file, numbers, reason, scalar, scale, text, vector};
+use crate::hdf::{
+    attach_scales, new_file, numbers, reason, scalar, scale, set_scale, text, texts as words,
+    vector,
+};
 use crate::quantities::QUANTITIES;
 use crate::report::{choices, kernel_name, treatment};
 use crate::scene::resolved;
 use crate::schema::results as schema;
 use hdf5::{Dataset, File};
-use impact::{EnergySeries, Outcome, Peaks, ProbeFields, Scene};
+use impact::{EchoArrivals, EnergySeries, Outcome, Peaks, ProbeFields, Scene};
 use output::{Existing, Output, OutputError, OutputFault, Staged};
 use std::io::{BufWriter, Write};
 use std::path::Path;
@@ -97,6 +100,17 @@ fn write_probes(
     placed(&dataset, &[&probe, &wave])?;
     let valid = vector(&group, &schema::VALID_UNTIL, &fields.valid_until_s)?;
     placed(&valid, &[&probe])?;
+    let EchoArrivals {
+        names,
+        time_s: arrivals_s,
+    } = &fields.echoes;
+    if !names.is_empty() {
+        let echo = words(&group, &schema::ECHO, names)?;
+        set_scale(&echo, schema::ECHO.0)?;
+        let shape = [rows, names.len()];
+        let dataset = numbers(&group, &schema::ECHO_ARRIVALS, &shape, &arrivals_s.concat())?;
+        placed(&dataset, &[&probe, &echo])?;
+    }
     for (row, values, errors) in schema::histories(fields) {
         let columns = values.first().map_or(0, Vec::len);
         let samples: Vec<f64> = values.iter().flatten().copied().collect();

@@ -6,7 +6,7 @@ use impact::{EnergySeries, ProbeFields, Series};
 /// Value of the attribute `file_type`.
 pub const FILE_TYPE: &str = "hertzlamb results";
 /// Version of the format. The first number changes when older readers would fail.
-pub const FORMAT_VERSION: &str = "1.9";
+pub const FORMAT_VERSION: &str = "1.10";
 /// Minor version since which files have a checksum trailer.
 pub(crate) const SEALED_FROM: u32 = 8;
 /// Datasets in the root, with unit and description.
@@ -67,6 +67,18 @@ pub const VALID_UNTIL: (&str, &str, &str) = (
     "valid_until",
     "s",
     "arrival time of the first echo from the faces of the block; infinite if the block has no faces",
+);
+/// Names of the waves of a plate, the scale of their arrivals; in the file of a plate only.
+pub const ECHO: (&str, &str, &str) = (
+    "echo",
+    "1",
+    "P or S for each leg of a wave between the faces of the plate, and for its last part",
+);
+/// Arrivals of these waves.
+pub const ECHO_ARRIVALS: (&str, &str, &str) = (
+    "echo_arrival",
+    "s",
+    "first arrival time of each wave that has run between the faces of the plate; infinite if it does not arrive",
 );
 /// Text attribute of the root: warnings about the results, one per line.
 pub const WARNINGS: &str = "warnings";

@@ -96,6 +96,7 @@ fn grid<'e>(
         duration_s: None,
         frames: None,
         farthest_m: Some(farthest),
+        plate_s: None,
     };
     Grid::new(&wanted, excitation, Some(source)).unwrap()
 }
@@ -152,6 +153,7 @@ fn discs_agree_with_frequency_and_wavenumber_integrals() {
                 duration_s: Some(row.time),
                 frames: None,
                 farthest_m: Some(1.0),
+                plate_s: None,
             };
             // the step that would be chosen, less what brings the row's time onto a sample
             let chosen = Grid::new(&wanted, &excitation, Some(&source)).unwrap();
@@ -222,6 +224,7 @@ fn far_away_few_discs_are_enough() {
                     duration_s: Some(2.0 * distance + duration),
                     frames: None,
                     farthest_m: Some(distance),
+                    plate_s: None,
                 };
                 let source = KernelSource::direct(excitation.medium(), 1e-1 * tolerance).unwrap();
                 let grid = Grid::new(&wanted, &excitation, Some(&source)).unwrap();
@@ -387,6 +390,7 @@ fn worst_of_samples(
         duration_s: None,
         frames: None,
         farthest_m: Some(place_m[0].hypot(place_m[1])),
+        plate_s: None,
     };
     let grid = Grid::new(&wanted, excitation, Some(&source)).unwrap();
     let times: Vec<f64> = grid.times_s().collect();
@@ -451,6 +455,7 @@ fn what_arrives_from_the_turning_point_of_a_contact_that_yields_is_within_its_es
                 duration_s: None,
                 frames: None,
                 farthest_m: Some(0.02),
+                plate_s: None,
             };
             let grid = Grid::new(&wanted, excitation, Some(&source)).unwrap();
             let times: Vec<f64> = grid.times_s().collect();

@@ -260,6 +260,12 @@ fn probe_panel(
             panel = panel.mark(start_s + arrival_s, name);
         }
     }
+    let echoes = speeds.echoes_s(&impact.target, [r_m, z_m], radius_m);
+    // those with the fewest legs: more would hide each other
+    let fewest = echoes.iter().map(|(name, _)| name.len()).min();
+    for (name, echo_s) in echoes.iter().filter(|(name, _)| Some(name.len()) == fewest) {
+        panel = panel.mark(start_s + echo_s, name);
+    }
     if let Some(echo_s) = speeds.first_echo_s(&impact.target, [r_m, z_m], radius_m) {
         panel = panel.mark(start_s + echo_s, "valid until the echo");
     }
