@@ -62,6 +62,18 @@ pub enum ContactError {
         /// Memory in collision times.
         memory: f64,
     },
+    /// The echo of a plate comes back to a contact that does not know it.
+    #[error(
+        "the echo from thickness_m returns after {echo_s:.3e} s, before the contact ends at {contact_s:.3e} s, and the contact {reason}; or remove echoes (until_s) for a half-space"
+    )]
+    EchoReturns {
+        /// When the echo returns in s.
+        echo_s: f64,
+        /// When the contact ends in s.
+        contact_s: f64,
+        /// What stands against it.
+        reason: String,
+    },
     /// Nothing says when a body yields.
     #[error(
         "plasticity = \"{law}\" requires a yield_strength_pa of the striker or the target{}", if *law == "jackson_green" { "" } else { ", or yield_pressure_pa" }

@@ -95,6 +95,7 @@ pub use disc::{CENTRE_COUPLING, FixedDisc};
 pub use error::{ContactError, MarchError};
 pub use growing::solve_growing;
 pub use growing::solved::SolvedContact;
+pub use growing::surface::SurfaceMotion;
 pub use growing::work::work_on_half_space;
 pub use history::History;
 pub use history::resample::Resampler;

@@ -156,7 +156,11 @@ pub fn warnings(
             ));
         }
     }
-    let deep = half_space.thickness_m.map(|size| ("thickness_m", size));
+    // the contact on a plate knows its echo
+    let deep = match half_space.echoing() {
+        None => half_space.thickness_m.map(|size| ("thickness_m", size)),
+        Some(_) => None,
+    };
     let wide = half_space.radius_m.map(|size| ("radius_m", size));
     let faces = deep.into_iter().chain(wide);
     let nearest = faces.reduce(|one, other| if other.1 < one.1 { other } else { one });

@@ -71,13 +71,20 @@ impl Wanted {
 
     /// Duration and largest step in s.
     pub(crate) fn duration_and_step_s(&self, excitation: &Excitation) -> (f64, f64) {
-        let passed_s = || match self.plate_s {
-            None => 1.1 * excitation.end_s() + self.passing_s(excitation),
-            Some([exact_s, _]) => excitation.start_s() + exact_s,
-        };
-        let duration_s = self.duration_s.unwrap_or_else(passed_s);
         let fitting_s = || self.fitting_step_s(excitation);
         let mut step_s = self.step_s.unwrap_or_else(fitting_s);
+        let passed_s = || {
+            let pressed_s = 1.1 * excitation.end_s();
+            match self
+                .plate_s
+                .map(|limits_s| limits_s.map(|t| excitation.start_s() + t))
+            {
+                None => pressed_s + self.passing_s(excitation),
+                // the last sample is up to a step later
+                Some([exact_s, latest_s]) => (exact_s - step_s).max(pressed_s).min(latest_s),
+            }
+        };
+        let duration_s = self.duration_s.unwrap_or_else(passed_s);
         if let Some(frames) = self.frames {
             step_s = step_s.min(duration_s / (frames as f64 - 1.0).max(1.0));
         }

@@ -1,12 +1,12 @@
 //! A striker and a half-space: from two bodies and a velocity to an excitation.
 
-use crate::excitation::{Excitation, PressureRadius};
+use crate::plate::with_echo;
+use crate::run::{Run, solve_once};
 use crate::scene::{Scene, Strike};
 use contact::{
     Choice, Collision, ContactError, Exact, HalfSpace, Model, Plasticity, Responses, Results,
-    Settings, Solved, Solver, StaticShare, Striker, fixed_disc_m, warnings,
+    Settings, Solver, StaticShare, Striker, warnings,
 };
-use std::ops::Deref;
 
 /// Relative change of the peak force above which the effect of the full static share causes a warning.
 const NOTABLE: f64 = 0.01;
@@ -36,33 +36,6 @@ pub struct Impact {
     pub settings: Settings,
 }
 
-/// A solved impact: its [`Results`], and the excitation of the half-space.
-#[derive(Debug, Clone)]
-pub struct Run {
-    /// Model, scheme and results in collision units.
-    pub solved: Solved,
-    /// Results in SI units.
-    pub results: Results,
-    /// Warnings for the user.
-    pub warnings: Vec<String>,
-    excitation: Excitation,
-}
-
-impl Deref for Run {
-    type Target = Results;
-
-    fn deref(&self) -> &Results {
-        &self.results
-    }
-}
-
-impl Run {
-    /// The force on the half-space.
-    pub fn excitation(&self) -> &Excitation {
-        &self.excitation
-    }
-}
-
 /// Solves a contact with a solver's responses, without warnings.
 pub(crate) fn solve<S: Responses>(
     solver: &mut Solver<'_, S>,
@@ -71,23 +44,14 @@ pub(crate) fn solve<S: Responses>(
     settings: &Settings,
 ) -> Result<Run, ContactError> {
     collision.check_step(settings)?;
-    let (solved, history) = solver.solve_with_history(collision, settings)?;
-    let results = Results::new(collision, settings, &solved).checked()?;
-    let radius = match fixed_disc_m(solved.chosen.model, settings, collision) {
-        Some(radius_m) => PressureRadius::Fixed(radius_m),
-        None => PressureRadius::Following {
-            largest_m: results.disc_radius_m,
-            largest_n: results.peak_force_n,
-        },
-    };
-    let (units, duration_s) = (collision.units(), results.contact_time_s);
-    let excitation = Excitation::of_contact(half_space, radius, history, units, duration_s)?;
-    Ok(Run {
-        solved,
-        results,
-        warnings: Vec::new(),
-        excitation,
-    })
+    let run = solve_once(solver, half_space, collision, settings)?;
+    let task = (half_space, collision, settings);
+    let solved = with_echo(task, run, |motion| {
+        solver.on_surface(Some(motion));
+        solve_once(solver, half_space, collision, settings)
+    });
+    solver.on_surface(None);
+    solved
 }
 
 impl Impact {

@@ -3,17 +3,18 @@
 //! Along a piece time T and radius a are functions of a place s in [0, 1]; one of them is known.
 //!
 //! ```text
-//! (v - phi S) T' = (u_a - phi s_a) a',    S = sum_k (m_k/X_k) (g - g_k),    T_k + X_k a_k = t
+//! (v - w' - phi S) T' = (u_a - phi s_a) a',    S = sum_k (m_k/X_k) (g - g_k),    T_k + X_k a_k = t
 //! v = v_0 - (5/4) int (p T' + c p_u^2 u_a a') ds
 //! ```
 //!
-//! c is zero but for a half-space that answers at once, without waves, phi = 0.
+//! w' is the velocity of a surface that moves of itself, known before. c is zero but for a half-space that answers at once, without waves, phi = 0.
 //!
 //! Indentation u, punches s, g = int ds/a and force p over the radius are those of a [`Law`]; Hertz's has u = s = a^2,
 //! g = 2 a and p = a^3.
 
 use crate::growing::arrivals::{ContactPiece, Departure, State, departures};
 use crate::growing::nodes::{LARGEST_DEGREE, Polynomial, RadauNodes, SIZE};
+use crate::growing::surface::SurfaceMotion;
 use crate::law::branch::{AtRadius, Law};
 use crate::numeric::linear::{Factors, dot};
 use crate::units::INVERSE_MASS;
@@ -30,6 +31,8 @@ pub(crate) struct March<'a> {
     /// Where they end.
     pub(crate) state: State,
     pub(crate) law: Law,
+    /// The surface, where it moves of itself.
+    pub(crate) surface: Option<&'a SurfaceMotion>,
     /// Of the rule over the waves.
     pub(crate) level: usize,
     /// Largest radius.
@@ -200,7 +203,10 @@ impl Equations<'_> {
             let sum: f64 = parts
                 .map(|((_, rate), left)| rate * (delayed - self.law_of(left).delayed(left.radius)))
                 .sum();
-            let drive = motion.velocity[i] - phi * sum / wave_time;
+            let moving = march
+                .surface
+                .map_or(0.0, |surface| surface.at(motion.time[i]));
+            let drive = motion.velocity[i] - moving - phi * sum / wave_time;
             let here = &motion.local[i - 1];
             let at_once = (1.0 - phi) * here.punch_slope;
             let slope = at_once + (here.depth_slope - here.punch_slope);

@@ -54,6 +54,7 @@ impl<'a> March<'a> {
             pieces: Vec::with_capacity(32),
             state: State::TOUCH,
             law: Law::HERTZ,
+            surface: None,
             level: 2,
             widest: 0.0,
             dissipated: 0.0,

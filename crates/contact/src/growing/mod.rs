@@ -30,7 +30,7 @@
 //! The integral over the waves is Gauss's rule of their measure, of 3 to 220 nodes as each piece needs.
 //!
 //! In reading order: `waves`, `equations` of a piece, solved at the `nodes` of its polynomials, and the `arrivals` of its
-//! waves, `march` from piece to piece, `checks` of the assumptions, `solved`, `work`; `dashpot` for the models in
+//! waves, `march` from piece to piece, on a `surface` that moves where echoes return, `checks` of the assumptions, `solved`, `work`; `dashpot` for the models in
 //! closed form.
 //! A contact that the surface strikes again, or whose waves overtake each other, is refused.
 //! Measured against superposition in time of punches by another kernel formula (`tests/reference/growing.csv`).
@@ -43,6 +43,7 @@ pub(crate) mod march;
 pub(crate) mod nodes;
 pub(crate) mod quick;
 pub(crate) mod solved;
+pub(crate) mod surface;
 pub(crate) mod work;
 pub(crate) mod yielding;
 
@@ -50,6 +51,7 @@ use crate::accuracy::Accuracy;
 use crate::error::MarchError;
 use crate::growing::equations::March;
 use crate::growing::solved::SolvedContact;
+use crate::growing::surface::SurfaceMotion;
 use crate::waves::punch::GrowingContact;
 use halfspace::check;
 
@@ -105,6 +107,15 @@ pub fn solve_growing(
     contact: &GrowingContact<'_>,
     accuracy: &Accuracy,
 ) -> Result<SolvedContact, MarchError> {
+    solve_growing_on(contact, None, accuracy)
+}
+
+/// The same on a surface that moves of itself.
+pub(crate) fn solve_growing_on(
+    contact: &GrowingContact<'_>,
+    surface: Option<&SurfaceMotion>,
+    accuracy: &Accuracy,
+) -> Result<SolvedContact, MarchError> {
     let (phi, tau) = (contact.target_share, contact.wave_time);
     check(phi > 0.0 && phi <= 1.0, "target_share", phi, "(0, 1]")?;
     check(tau > 0.0 && tau < 1e3, "wave_time", tau, "(0, 1000)")?;
@@ -116,6 +127,7 @@ pub fn solve_growing(
     let (mut best, mut before) = (None, f64::INFINITY);
     for attempt in 0..ATTEMPTS {
         let mut march = March::new(*contact, piece);
+        march.surface = surface;
         let followed = march.load(f64::INFINITY).and_then(|()| march.close());
         let tried = followed.and_then(|()| checks::passed(SolvedContact::new(march), contact));
         match (tried, &best) {

@@ -138,6 +138,8 @@ pub struct Chosen {
     pub regime: Regime,
     /// Memory that `auto` chose, with its estimated error; none of a model that the scene names.
     pub(crate) by_auto: Option<(Memory, f64)>,
+    /// Whether the surface moves of itself, which only the full memory knows.
+    pub(crate) surface_moves: bool,
 }
 
 /// The model of the scene, or the choice of `auto`.
@@ -147,7 +149,7 @@ pub(crate) fn choose(
     settings: &Settings,
     collision: &Collision,
     response: &impl DiscResponse,
-    yields: bool,
+    (yields, surface_moves): (bool, bool),
 ) -> Chosen {
     let fixed = match settings.model {
         Model::Auto => settings.disc_radius_m.is_some() || settings.scheme == Scheme::Explicit,
@@ -175,7 +177,10 @@ pub(crate) fn choose(
     };
     let auto = settings.model == Model::Auto && settings.scheme == Scheme::Implicit;
     let by_auto = auto.then(|| {
-        let (memory, error) = regime.choose(&accuracy(settings));
+        let (memory, error) = match surface_moves {
+            true => (Memory::Full, 0.0),
+            false => regime.choose(&accuracy(settings)),
+        };
         match memory {
             Memory::Full if yields && !settings.plasticity.has_memory() => {
                 let (memory, [left_out, _]) = regime.without_memory();
@@ -193,6 +198,7 @@ pub(crate) fn choose(
         model,
         regime,
         by_auto,
+        surface_moves,
     }
 }
 
@@ -282,6 +288,9 @@ impl Chosen {
         match self.by_auto {
             Some((_, error)) if yielding && error > settings.tolerance => {
                 format!("{physics}; the fit allows only a dashpot, whose error is {error:.1e}")
+            }
+            Some(_) if self.surface_moves => {
+                format!("{physics}; an echo returns before it ends: full memory")
             }
             Some((memory, _)) => format!("{physics}; {}", self.choice(memory, &accuracy(settings))),
             None if settings.model == Model::Auto => {

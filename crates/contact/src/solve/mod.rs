@@ -16,10 +16,11 @@ use crate::error::{ContactError, MarchError};
 use crate::growing::dashpot::solve_springs;
 use crate::growing::equations::March;
 use crate::growing::quick::quick;
-use crate::growing::solve_growing;
 use crate::growing::solved::SolvedContact;
+use crate::growing::surface::SurfaceMotion;
 use crate::growing::work::work_on_half_space;
 use crate::growing::yielding::ERROR_WITH_DASHPOT;
+use crate::growing::{solve_growing, solve_growing_on};
 use crate::history::History;
 use crate::law::area_dashpot::AreaDashpot;
 use crate::law::yielding::{Flow, Yielding};
@@ -93,6 +94,8 @@ impl Chosen {
 pub struct Solver<'a, S: Responses> {
     responses: &'a S,
     outcomes: Option<&'a Outcomes>,
+    /// Motion of the surface under growing contacts.
+    surface: Option<SurfaceMotion>,
     prepared: Option<Prepared<S::Disc>>,
     /// Room for the samples of a march; those of the latest.
     room: History,
@@ -105,6 +108,7 @@ struct Task<'t, S: Responses> {
     asked: Accuracy,
     responses: &'t S,
     outcomes: Option<&'t Outcomes>,
+    surface: Option<&'t SurfaceMotion>,
     prepared: &'t Prepared<S::Disc>,
 }
 
@@ -125,6 +129,7 @@ impl<'a, S: Responses> Solver<'a, S> {
         Self {
             responses,
             outcomes: None,
+            surface: None,
             prepared: None,
             room: History::default(),
         }
@@ -136,6 +141,12 @@ impl<'a, S: Responses> Solver<'a, S> {
             outcomes: Some(outcomes),
             ..Self::new(responses)
         }
+    }
+
+    /// On a surface that moves of itself, as by echoes; growing contacts with the full memory follow it, and `auto` chooses
+    /// them.
+    pub fn on_surface(&mut self, motion: Option<SurfaceMotion>) {
+        self.surface = motion;
     }
 
     /// The series that pay for so many contacts, of which some are given.
@@ -194,6 +205,7 @@ impl<'a, S: Responses> Solver<'a, S> {
             asked,
             responses: self.responses,
             outcomes: self.outcomes,
+            surface: self.surface.as_ref(),
             prepared,
         };
         Ok((task, &mut self.room))
@@ -215,7 +227,13 @@ impl<S: Responses> Task<'_, S> {
     }
 
     fn choose(&self, yields: bool) -> Chosen {
-        choose(self.settings, self.collision, &*self.prepared.disc, yields)
+        let moves = self.surface.is_some();
+        choose(
+            self.settings,
+            self.collision,
+            &*self.prepared.disc,
+            (yields, moves),
+        )
     }
 
     /// The impact on the disc of the settings.
@@ -267,15 +285,19 @@ impl<S: Responses> Task<'_, S> {
             }
             (Memory::Full, Physics::Growing | Physics::Yielding) => {
                 let contact = self.growing()?;
-                let pieces = match solve_growing(&contact, &self.asked) {
+                let pieces = match solve_growing_on(&contact, self.surface, &self.asked) {
                     // the deflection of a very slow contact is lost in the rounding of its indentation
                     Err(MarchError::NotReached { .. }) if self.asked.deflection.is_some() => {
-                        solve_growing(&contact, &accuracy(settings))?
+                        solve_growing_on(&contact, self.surface, &accuracy(settings))?
                     }
                     found => found?,
                 };
                 let found = Found::new(pieces.summary, pieces.estimates.contact(), None);
-                let radiated = work_on_half_space(&contact, &pieces, self.asked.tolerance);
+                let radiated = match self.surface {
+                    None => work_on_half_space(&contact, &pieces, self.asked.tolerance),
+                    // what the echoes bring back is part of it
+                    Some(_) => pieces.summary.loss,
+                };
                 let solved = chosen.solved(Some(Scheme::Implicit), found, radiated);
                 Ok((solved, Some(pieces)))
             }

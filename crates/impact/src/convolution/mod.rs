@@ -184,11 +184,11 @@ impl<'a> Convolution<'a> {
             )
         };
         let sums = self.forcings.iter().zip(&plan.integrated).map(of);
-        let mut sums: Vec<Vec<Trace>> = sums.collect::<Result<_, _>>()?;
+        let mut sums: Vec<[Trace; 6]> = sums.collect::<Result<_, _>>()?;
         if let Some(echoes) = &self.echoes {
             self.add_echoes(echoes, place_m, &mut sums)?;
         }
-        let mut found = sums[0].clone();
+        let mut found = sums[0].to_vec();
         found.extend(self.quantities.iter().map(|&quantity| {
             let Some((derivative, component)) = quantity.rate() else {
                 return self.of_stresses(quantity, &sums[0]);
@@ -215,8 +215,38 @@ impl<'a> Convolution<'a> {
         &self,
         echoes: &Echoes,
         place_m: [f64; 2],
-        sums: &mut [Vec<Trace>],
+        sums: &mut [[Trace; 6]],
     ) -> Result<(), ImpactError> {
+        for (all, own) in sums.iter_mut().zip(self.of_echoes(echoes, place_m)?) {
+            for (all, own) in all.iter_mut().zip(own) {
+                all.error += own.error;
+                for (all, own) in all.samples.iter_mut().zip(own.samples) {
+                    *all += own;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Axial velocity by the echoes of a plate alone, in m/s; the quantities have it.
+    pub(crate) fn echo_velocity(&self, place_m: [f64; 2]) -> Result<Vec<f64>, ImpactError> {
+        let Some(echoes) = &self.echoes else {
+            return Ok(Vec::new());
+        };
+        let sums = self.of_echoes(echoes, place_m)?;
+        let all = self.forcings.iter().zip(sums);
+        let mut rates = all.filter(|(forcing, _)| forcing.derivative == Derivative::First);
+        Ok(rates
+            .next()
+            .map_or_else(Vec::new, |(_, [_, axial, ..])| axial.samples))
+    }
+
+    /// The outputs of each forcing by the echoes of a plate alone.
+    fn of_echoes(
+        &self,
+        echoes: &Echoes,
+        place_m: [f64; 2],
+    ) -> Result<Vec<[Trace; 6]>, ImpactError> {
         let image_m = echoes.image_m(place_m);
         let radius_m = self.grid.excitation.units().disc_radius_m;
         let set = self.sets.choose_computed(image_m.map(|x| x / radius_m));
@@ -227,21 +257,13 @@ impl<'a> Convolution<'a> {
         });
         let cells: Vec<Cells> = cells.collect::<Result<_, _>>()?;
         let kernels = PointKernels::new(&self.forcings[0], discs, (place_m, Some(image_m)), cells);
-        for (forcing, all) in self.forcings.iter().zip(sums) {
+        let of = |forcing: &Forcing<'_>| {
             let loads = forcing.loads(set, discs);
             let mut own = Sums::new(forcing, loads, &kernels)?;
             own.integrate_zones(forcing, loads, &kernels, |_| false);
-            for (all, own) in all
-                .iter_mut()
-                .zip(self.traces(forcing, &kernels, &own, false))
-            {
-                all.error += own.error;
-                for (all, own) in all.samples.iter_mut().zip(own.samples) {
-                    *all += own;
-                }
-            }
-        }
-        Ok(())
+            Ok(self.traces(forcing, &kernels, &own, false))
+        };
+        self.forcings.iter().map(of).collect()
     }
 
     /// The place in radii of a disc of a radius `over` the largest, one of `count`, this radius in m, and the cells as far as the
@@ -284,7 +306,7 @@ impl<'a> Convolution<'a> {
         loads: &Loads,
         kernels: &PointKernels<'_>,
         integrated: &[Integrated],
-    ) -> Result<Vec<Trace>, ImpactError> {
+    ) -> Result<[Trace; 6], ImpactError> {
         let mut sums = Sums::new(forcing, loads, kernels)?;
         let is_whole = |i: usize| {
             let found = integrated.binary_search_by_key(&i, |one| one.sample);
@@ -314,7 +336,7 @@ impl<'a> Convolution<'a> {
         kernels: &PointKernels<'_>,
         sums: &Sums,
         is_integrated: bool,
-    ) -> Vec<Trace> {
+    ) -> [Trace; 6] {
         let zones = f64::from(u8::from(kernels.are_traces()));
         // the last terms of the integrals of fields are counted one by one
         let over_past = match (is_integrated && self.past.is_some(), forcing.derivative) {
@@ -341,7 +363,7 @@ impl<'a> Convolution<'a> {
                 + relative * largest(&samples);
             Trace { samples, error }
         };
-        (0..6).map(of).collect()
+        std::array::from_fn(of)
     }
 }
 

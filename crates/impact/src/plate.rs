@@ -1,0 +1,139 @@
+//! The contact on a plate whose echo returns before it ends.
+//!
+//! The upper face moves under the contact by the echoes of its own earlier force. As this motion comes late, and is a small part of
+//! the indentation, it follows from the force of the solution before: solved again on the moving surface until nothing changes.
+//!
+//! Theory: `docs/theory.md` (T70).
+
+use crate::convolution::Convolution;
+use crate::error::ImpactError;
+use crate::excitation::Excitation;
+use crate::grid::{Grid, Wanted};
+use crate::kernels::KernelSource;
+use crate::quantity::Quantity;
+use crate::run::Run;
+use contact::{
+    Choice, Collision, ContactError, Echoes, Echoing, HalfSpace, Memory, Model, Settings,
+    SurfaceMotion,
+};
+
+/// Solutions at most; each is exact for one echo more.
+const MOST: usize = 12;
+
+/// Change of the results over the tolerance below which a solution is the last.
+const SETTLED: f64 = 0.1;
+
+/// Distance from the axis, over the radius, at which the motion stands for its mean under Hertz's pressure: exact for one that is
+/// a square of the distance.
+const MEAN: f64 = 0.632_455_532_033_675_9;
+
+/// A contact on a plate, given its solution on the half-space and how it is solved on a moving surface.
+pub(crate) fn with_echo(
+    (half_space, collision, settings): (&HalfSpace, &Collision, &Settings),
+    mut run: Run,
+    mut solve: impl FnMut(SurfaceMotion) -> Result<Run, ContactError>,
+) -> Result<Run, ContactError> {
+    let Some(plate) = half_space.echoing() else {
+        return Ok(run);
+    };
+    let contact_s = run.results.contact_time_s;
+    let echo_s = 2.0 * plate.thickness_m / half_space.longitudinal_speed_m_s();
+    if contact_s <= echo_s {
+        return Ok(run);
+    }
+    let fails = |reason: String| ContactError::EchoReturns {
+        echo_s,
+        contact_s,
+        reason,
+    };
+    if let Some(reason) = unknown(&run, settings, &plate) {
+        return Err(fails(reason));
+    }
+    for _ in 0..MOST {
+        let block = {
+            let mut block = half_space.clone();
+            block.echoes = Some(Echoes::Until(run.results.contact_time_s));
+            block
+        };
+        let motion = motion(&block, run.excitation(), (collision, settings.tolerance));
+        let next = solve(motion.map_err(|error| fails(error.to_string()))?)?;
+        let of = |run: &Run| {
+            let results = &run.results;
+            [
+                results.peak_force_n,
+                results.contact_time_s,
+                results.restitution,
+            ]
+        };
+        let pairs = of(&run).into_iter().zip(of(&next));
+        let change = pairs.map(|(before, now)| (now / before - 1.0).abs());
+        let change = change.fold(0.0, f64::max);
+        run = next;
+        if change < SETTLED * settings.tolerance {
+            return Ok(run);
+        }
+    }
+    Err(fails("its effect on the force does not settle".to_owned()))
+}
+
+/// Why the echo of a contact is not known.
+fn unknown(run: &Run, settings: &Settings, plate: &Echoing) -> Option<String> {
+    let model = run.solved.chosen.model;
+    if run.results.contact_time_s > plate.latest_s {
+        return Some(format!(
+            "lasts longer than the echoes can be computed, {:.3e} s: such a plate answers with its bending, not with waves that run across it",
+            plate.latest_s
+        ));
+    }
+    if run.solved.flow.is_some() {
+        return Some(
+            "yields, for which the effect of the echo is not known: set plasticity = \"none\""
+                .to_owned(),
+        );
+    }
+    let follows = !model.on_disc() && settings.disc_radius_m.is_none();
+    let knows = match settings.model {
+        Model::Auto => follows,
+        named => follows && named.memory() == Memory::Full,
+    };
+    (!knows).then(|| {
+        format!(
+            "model \"{}\"{} does not know the echo: use model = \"growing\" without disc_radius_m",
+            model.name(),
+            if follows {
+                ""
+            } else {
+                " on a disc of fixed radius"
+            },
+        )
+    })
+}
+
+/// Motion of the upper face of a plate under a contact, by its echoes.
+fn motion(
+    block: &HalfSpace,
+    excitation: &Excitation,
+    (collision, tolerance): (&Collision, f64),
+) -> Result<SurfaceMotion, ImpactError> {
+    let wanted = Wanted {
+        tolerance,
+        step_s: None,
+        duration_s: Some(excitation.end_s()),
+        frames: None,
+        farthest_m: None,
+        plate_s: None,
+    };
+    let source = KernelSource::direct(excitation.medium(), tolerance)?;
+    let grid = Grid::new(&wanted, excitation, Some(&source))?;
+    let all: Vec<usize> = (0..grid.count()).collect();
+    let asked = (&[Quantity::VelocityZ][..], Some(block));
+    let convolution = Convolution::new(&source, &grid, &all, asked, &|| {})?;
+    let place_m = [MEAN * excitation.units().disc_radius_m, 0.0];
+    let units = collision.units();
+    let unit_m_s = units.length_m / units.time_s;
+    let velocity_m_s = convolution.echo_velocity(place_m)?;
+    Ok(SurfaceMotion {
+        step: grid.step_s / units.time_s,
+        velocity: velocity_m_s.iter().map(|v| v / unit_m_s).collect(),
+    })
+}
