@@ -166,6 +166,13 @@ fn contact_only(scene: &Scene, observed: bool) -> Result<(), SceneError> {
         ("[[probe]]", !scene.probes.is_empty() && !observed),
         ("[map]", scene.section.is_some()),
     ];
+    if scene.target.echoing().is_some() && scene.probes.is_empty() {
+        return Err(SceneError::conflict(
+            "a sweep without probes",
+            "the echoes of a plate".to_owned(),
+            "its contacts are those of a half-space: remove echoes (until_s), or add a [[probe]]",
+        ));
+    }
     let found = sections.into_iter().find(|(_, is_there)| *is_there);
     found.map_or(Ok(()), |(name, _)| Err(contacts_only(name)))
 }
