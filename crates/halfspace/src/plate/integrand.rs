@@ -8,10 +8,11 @@ use crate::numeric::scalar::{Complex, Real, Scalar};
 use crate::plate::quadrature::{NODES, Values};
 use crate::plate::reflection::{Legs, Reflection, add_fields};
 use crate::plate::{Place, Plate};
-use crate::potentials::STEP;
 use crate::potentials::closed_form::potentials;
 use crate::potentials::compact::compact;
 use crate::potentials::far_front::ROUNDING_DIGITS;
+use crate::potentials::{Potentials, STEP};
+use crate::profile::Profile;
 use pulp::{Simd, WithSimd};
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -149,7 +150,7 @@ impl Integrand<'_> {
                 let gamma = roots[0] * as_p + roots[1] * as_s;
                 let load = (at.r, ROUNDING_DIGITS);
                 let profile = plate.kernel.profile();
-                let minus = potentials::<STEP, T::Complex>(profile, gamma - qt, load, shear);
+                let minus = continued::<T>(profile, gamma - qt, load, shear);
                 let plus = potentials::<STEP, T::Complex>(profile, gamma + qt, load, shear);
                 let a3 = (minus.a_upper + plus.a_upper) * dq_over_q;
                 let a2 = (minus.a_lower + plus.a_lower) * dq_over_q;
@@ -227,6 +228,53 @@ impl Integrand<'_> {
     }
 }
 
+/// The potentials of the step response, also at an argument that has crossed the imaginary axis between the fronts, where
+/// Re xi < 0. With x = -xi on the right
+///
+/// ```text
+///            beside the disc             under it
+/// A_3(xi)    A_3(x)                      3/4 (1 + x^2 - r^2/2) - A_3(x)
+/// A_2(xi)    -A_2(x)                     3/2 x + A_2(x)
+/// B_3(xi)/r  1/(pi r^2) - B_3(x)/r       3/4 x + B_3(x)/r
+/// B_2(xi)/r  B_2(x)/r                    3/4 - B_2(x)/r
+/// ```
+///
+/// Own derivation: A_3 is harmonic in (r, xi), known on the axis, and the others are its derivatives and integral.
+#[inline(always)]
+fn continued<T: Real>(
+    profile: Profile,
+    xi: T::Complex,
+    load: (f64, f64),
+    on_axis: bool,
+) -> Potentials<T::Complex> {
+    if on_axis {
+        return potentials::<STEP, T::Complex>(profile, xi, load, on_axis);
+    }
+    let (side, zero, r) = (xi.re(), xi.re().constant(0.0), load.0);
+    let x = T::Complex::where_below(side, zero, xi * -1.0, xi);
+    let right = potentials::<STEP, T::Complex>(profile, x, load, false);
+    let left = if r > profile.radius() {
+        Potentials {
+            a_lower: right.a_lower * -1.0,
+            g_upper: xi.constant(1.0 / (PI * r * r)) - right.g_upper,
+            ..right
+        }
+    } else {
+        Potentials {
+            a_upper: (x * x + (1.0 - 0.5 * r * r)) * 0.75 - right.a_upper,
+            a_lower: x * 1.5 + right.a_lower,
+            g_upper: x * 0.75 + right.g_upper,
+            g_lower: xi.constant(0.75) - right.g_lower,
+        }
+    };
+    Potentials {
+        a_upper: T::Complex::where_below(side, zero, left.a_upper, right.a_upper),
+        a_lower: T::Complex::where_below(side, zero, left.a_lower, right.a_lower),
+        g_upper: T::Complex::where_below(side, zero, left.g_upper, right.g_upper),
+        g_lower: T::Complex::where_below(side, zero, left.g_lower, right.g_lower),
+    }
+}
+
 struct Nodes<'a> {
     integrand: &'a Integrand<'a>,
     nodes: &'a [f64; NODES],
@@ -247,5 +295,37 @@ impl WithSimd for Nodes<'_> {
             }
         }
         values
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use num_complex::Complex64;
+
+    /// On both sides of the imaginary axis the potentials are one analytic function: their series about a point on it.
+    #[test]
+    fn potentials_are_continued_between_the_fronts() {
+        for r in [0.0, 0.05, 0.4, 1.7, 4.0, 40.0] {
+            let at =
+                |xi: Complex64| continued::<f64>(Profile::Hertz, xi, (r, ROUNDING_DIGITS), false);
+            let gap = (r - 1.0_f64).abs();
+            let centre = Complex64::new(0.0, 0.3 * gap);
+            let reach = 0.3 * gap;
+            // the mean over a circle is the value in its centre
+            let points = 64;
+            let mut mean = Potentials::all(Complex64::default());
+            for i in 0..points {
+                let angle = 2.0 * PI * (f64::from(i) + 0.5) / f64::from(points);
+                let own = at(centre + Complex64::from_polar(reach, angle));
+                mean = mean.zip(own, |sum, own| sum + own / f64::from(points));
+            }
+            let centre = centre + Complex64::new(1e-12, 0.0);
+            let off = mean.zip(at(centre), |mean, own| (mean - own).norm());
+            let size = 1.0 + r;
+            for off in [off.a_upper, off.a_lower, off.g_upper, off.g_lower] {
+                assert!(off * size < 1e-10, "{r}: {off:.1e}");
+            }
+        }
     }
 }

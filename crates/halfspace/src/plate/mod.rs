@@ -25,10 +25,9 @@ use crate::trace::{Signal, Trace};
 use cuts::{pieces, roots_of_concave};
 
 use integrand::{Integrand, Part};
-use num_complex::Complex64;
 use quadrature::Panels;
 pub use rays::{Echo, Rays};
-use rays::{Place, arrival, head};
+use rays::{Place, arrival, head, passed};
 use reflection::MOST_LEGS;
 use std::f64::consts::PI;
 
@@ -67,6 +66,14 @@ const FINEST: f64 = 1e-8;
 /// 1e-2 at 12 transits with a farthest begin of 0.35; `echoes_do_not_depend_on_the_path` fails at 0.85, and the second at 2.
 const SAFE: f64 = 0.75;
 const FARTHEST: f64 = 1.0;
+
+/// Pieces of an interval in which no front is narrow.
+const QUARTERS: [f64; 4] = [0.0, 0.25, 0.5, 0.75];
+
+/// Width of a front on the path below which it is a break, widths from it to the breaks around it, and distance of breaks.
+const NARROW: f64 = 0.1;
+const WIDE: f64 = 3.0;
+const CLOSE: f64 = 1e-3;
 
 impl Plate {
     /// Most legs of a wave, and the latest time in transits H/c1.
@@ -201,22 +208,23 @@ impl Plate {
         let arrived = |m: &usize| across.hypot(self.rays.distance(*m, at.z)) < at.t;
         let counted = (1..=self.rays.legs).filter(|m| self.rays.counts(*m, at.z));
         for m in counted.take_while(arrived) {
+            let (delta, breaks) = self.path(at, m, safe);
             let path = Integrand {
                 plate: self,
                 at,
                 m,
-                delta: self.delta(at, m, safe),
+                delta,
                 part: Part::Path,
             };
             let slow = Integrand {
                 part: Part::Slow,
                 ..path
             };
-            for part in [path, slow] {
-                // one panel may miss a narrow peak beside a pole or a front
-                for begin in [0.0, 0.25, 0.5, 0.75] {
-                    panels.add([begin, begin + 0.25], &allowed, |nodes| part.values(nodes));
-                }
+            for piece in breaks.windows(2) {
+                panels.add([piece[0], piece[1]], &allowed, |nodes| path.values(nodes));
+            }
+            for begin in QUARTERS {
+                panels.add([begin, begin + 0.25], &allowed, |nodes| slow.values(nodes));
             }
             self.shear(&path, &allowed, &mut panels);
             for n in 0..=m {
@@ -226,28 +234,41 @@ impl Plate {
         panels
     }
 
-    /// How far to the right of the imaginary axis the path begins: right of the poles, left of the fronts, at which
-    /// distance sqrt(1 + q^2) - q T = i e for waves of one kind; those of other groups lie between.
-    fn delta(&self, at: Point, m: usize, safe: f64) -> f64 {
+    /// How far to the right of the imaginary axis the path begins, right of the poles and left of the fronts, and its pieces: one
+    /// panel may miss the narrow peak beside a front.
+    fn path(&self, at: Point, m: usize, safe: f64) -> (f64, Vec<f64>) {
         let kappa = self.kernel.medium().kappa();
         let radius = self.kernel.profile().radius();
-        let distance = self.rays.distance(m, at.z);
-        let mut least = f64::INFINITY;
-        for (time, speed) in [(at.t, 1.0), (kappa * at.t, kappa)] {
-            for e in [(at.r - radius).abs(), at.r + radius] {
-                let late = time * time - distance * distance;
-                // a front that has not passed lies on the imaginary axis, above the path
-                if late <= e * e {
-                    continue;
-                }
-                let root = Complex64::from(late - e * e).sqrt() * distance;
-                let q = (root + Complex64::new(0.0, e * time)) / late * speed;
-                if q.im < kappa {
-                    least = least.min(q.re);
-                }
+        let edges = [(at.r - radius).abs(), at.r + radius];
+        let mut fronts = vec![];
+        for (legs, n, wave) in self.rays.groups(at.z) {
+            if legs == m {
+                let distances = self.rays.distances(m, n, at.z, wave);
+                let found = edges.map(|e| passed(e, distances, at.t, self.rays.shear));
+                fronts.extend(found.into_iter().flatten());
             }
         }
-        FARTHEST.min(safe * least)
+        // the others pass on the right of its end
+        fronts.retain(|q| q.im < kappa);
+        let nearest = fronts.iter().map(|q| q.re).fold(f64::INFINITY, f64::min);
+        let delta = FARTHEST.min(safe * nearest);
+        let mut breaks = vec![];
+        for q in fronts {
+            let part = q.im / kappa;
+            let place = 1.0 - (1.0 - part).sqrt();
+            let apart = q.re - delta * (1.0 - part.powi(6));
+            let width = apart / (2.0 * kappa * (1.0 - place));
+            if width < NARROW {
+                let around = [-WIDE, 0.0, WIDE].map(|w| place + w * width);
+                breaks.extend(around.into_iter().filter(|v| *v > 0.0 && *v < 1.0));
+            }
+        }
+        breaks.sort_by(f64::total_cmp);
+        breaks.dedup_by(|b, a| *b - *a < CLOSE);
+        breaks.extend(QUARTERS);
+        breaks.push(1.0);
+        breaks.sort_by(f64::total_cmp);
+        (delta, breaks)
     }
 
     /// Adds the waves that were shear over all of m legs, at slownesses between one and 1/kappa.
@@ -373,7 +394,7 @@ mod tests {
             let (mut below, mut worst, mut largest) = (0, 0.0_f64, 0.0_f64);
             let mut ratios = vec![];
             for _ in 0..400 {
-                let thickness = 10_f64.powf(2.3 * random.next() - 1.0);
+                let thickness = 10_f64.powf(4.0 * random.next() - 1.0);
                 let medium = Medium::new(0.48 * random.next()).unwrap();
                 let of = |tolerance: f64| {
                     let kernel = Kernel::new(&medium, Profile::Hertz, tolerance).unwrap();
@@ -385,7 +406,7 @@ mod tests {
                 let r = if random.next() < 0.1 {
                     0.0
                 } else {
-                    10_f64.powf(2.5 * random.next() - 1.5)
+                    thickness.max(1.0) * 10_f64.powf(2.5 * random.next() - 1.5)
                 };
                 let t = thickness * (last - 3.0 * random.next());
                 let found = plate.echoes(r, z, t).unwrap();

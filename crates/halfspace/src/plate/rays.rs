@@ -1,6 +1,7 @@
 //! The waves between the faces of a plate: how far they run, and when they arrive.
 
 use crate::numeric::bisected;
+use num_complex::Complex64;
 
 /// A plate as its waves see it; lengths in any unit, times in that unit over c1.
 ///
@@ -152,4 +153,34 @@ pub(crate) fn arrival(e: f64, [as_p, as_s]: [f64; 2], shear: f64) -> f64 {
 pub(crate) fn head(e: f64, as_s: f64, shear: f64) -> Option<f64> {
     let span = (shear - 1.0).sqrt();
     (e * span >= as_s).then_some(e + as_s * span)
+}
+
+/// Where the front of waves that have arrived stands among complex slownesses i/q, right of the imaginary axis:
+///
+/// ```text
+/// A sqrt(1 + q^2) + B sqrt(1 + k q^2) - q t = -i e
+/// ```
+///
+/// By Newton's method, from the place in a medium with the mean slowness; none before the arrival.
+pub(crate) fn passed(e: f64, [as_p, as_s]: [f64; 2], t: f64, shear: f64) -> Option<Complex64> {
+    if t <= arrival(e, [as_p, as_s], shear) {
+        return None;
+    }
+    let distance = as_p + as_s;
+    let slowness = (as_p + as_s * shear.sqrt()) / distance;
+    let path = t / slowness;
+    let late = (path * path - distance * distance).max(f64::MIN_POSITIVE);
+    let root = (late - e * e).max(1e-6 * late).sqrt() * distance;
+    let mut q = Complex64::new(root, e * path) / (late * slowness);
+    for _ in 0..30 {
+        let [p, s] = [1.0, shear].map(|k| (1.0 + k * q * q).sqrt());
+        let value = as_p * p + as_s * s - q * t + Complex64::new(0.0, e);
+        let slope = q * (as_p / p + as_s * shear / s) - t;
+        let step = value / slope;
+        q -= step;
+        if step.norm() < 1e-9 * q.norm() {
+            return (q.re > 0.0).then_some(q);
+        }
+    }
+    None
 }
