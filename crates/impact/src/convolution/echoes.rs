@@ -37,10 +37,9 @@ impl Echoes {
         Ok(plate.up_to(self.plate.legs))
     }
 
-    /// A place in the half-space as far from the load as the first echo that arrives at a place.
-    pub(crate) fn image_m(&self, [r_m, z_m]: [f64; 2]) -> [f64; 2] {
-        let thickness_m = self.plate.thickness_m;
-        [r_m, (2.0 * thickness_m - z_m).max(thickness_m)]
+    /// Where the waves of a place have come from, see [`image_m`].
+    pub(crate) fn image_m(&self, place_m: [f64; 2]) -> [f64; 2] {
+        image_m(place_m, self.plate.thickness_m)
     }
 
     /// The kernels of a disc at a place.
@@ -57,4 +56,9 @@ impl Echoes {
         let trace = trace.map_err(domain)?;
         Cells::of_trace(trace, Default::default(), wanted).map_err(domain)
     }
+}
+
+/// A place in the half-space as far from the load as the first echo that arrives at a place of a plate.
+pub(crate) fn image_m([r_m, z_m]: [f64; 2], thickness_m: f64) -> [f64; 2] {
+    [r_m, (2.0 * thickness_m - z_m).max(thickness_m)]
 }

@@ -8,6 +8,7 @@
 
 use super::tuning;
 use crate::excitation::{Excitation, PressureRadius};
+use crate::quantity::Derivative;
 use std::f64::consts::PI;
 
 /// A point of a growing contact, in units of the largest radius a and of a/c_R.
@@ -80,6 +81,17 @@ impl<'a> Fronts<'a> {
             false => tuning::LOOKED_UP_DEEP * smallest * smallest,
         };
         [tuning::LOOKED_UP_MOSTLY, worst].map(|own| own * reached(self.chi) + of_cells)
+    }
+
+    /// The same of the echoes of a plate, whose discs are nearly points but have no windows: of displacements or their rates, and
+    /// of stresses.
+    pub(crate) fn echo_errors(&self, derivative: Derivative) -> [f64; 2] {
+        let reached = |power: f64| tuning::LOOKED_UP_MOSTLY * (PI * self.chi).powf(power);
+        match derivative {
+            Derivative::Field => [2.5, 1.5].map(reached),
+            Derivative::First => [1.5; 2].map(reached),
+            Derivative::Second => [0.5; 2].map(reached),
+        }
     }
 
     /// Half-widths in a/c_R of the windows around the fronts of longitudinal, shear and Rayleigh's waves in which so many discs

@@ -15,6 +15,8 @@
 #[cfg(test)]
 mod close_tests;
 pub(crate) mod discs;
+#[cfg(test)]
+mod echo_tests;
 pub(crate) mod echoes;
 mod ends;
 mod exact;
@@ -249,7 +251,7 @@ impl<'a> Convolution<'a> {
     ) -> Result<Vec<[Trace; 6]>, ImpactError> {
         let image_m = echoes.image_m(place_m);
         let radius_m = self.grid.excitation.units().disc_radius_m;
-        let set = self.sets.choose_computed(image_m.map(|x| x / radius_m));
+        let set = self.sets.choose_for_echoes(image_m.map(|x| x / radius_m));
         let discs = self.sets.get(set);
         let cells = discs.radii.iter().map(|&over| {
             let (_, disc_radius_m, wanted) = self.wanted_of(image_m, over, discs.count());

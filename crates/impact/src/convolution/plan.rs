@@ -14,8 +14,8 @@ pub(crate) struct Sets {
     /// Largest r and z in radii of a disc at which a table has kernels; none where they are computed.
     reach: Option<[f64; 2]>,
     follows: bool,
-    /// Inverse distance up to which two discs serve between fronts.
-    two_serve: f64,
+    /// Inverse distance up to which two discs serve between fronts, of fields and of what is asked for.
+    two_serve: [f64; 2],
     /// Whether one does outside the contact.
     one_serves: bool,
 }
@@ -53,10 +53,8 @@ impl Sets {
         let more = if rates { tuning::MORE_FOR_RATES } else { 0 };
         let count = |a_digit: f64| ((a_digit * digits).round().max(2.0) as usize + more).min(most);
         let chi = Fronts::new(excitation, [0.0; 2]).chi;
-        let two_serve = match rates {
-            true => 0.0,
-            false => tuning::TWO_SERVE * tolerance / (chi * chi),
-        };
+        let of_fields = tuning::TWO_SERVE * tolerance / (chi * chi);
+        let two_serve = [of_fields, if rates { 0.0 } else { of_fields }];
         let shorter = if rates { 10.0 } else { 1.0 };
         let one_serves = shorter * chi * chi < tuning::ONE_SERVES * tolerance;
         let mut all = match (follows, reach) {
@@ -89,6 +87,12 @@ impl Sets {
         }
     }
 
+    /// With other discs for all kernels that are computed.
+    #[cfg(test)]
+    pub(crate) fn replace(&mut self, discs: &Discs) {
+        self.all[self.computed..].fill(discs.clone());
+    }
+
     /// The discs of a set.
     pub(crate) fn get(&self, set: usize) -> &Discs {
         &self.all[set]
@@ -119,7 +123,19 @@ impl Sets {
             () if distance < tuning::INSIDE => 2,
             () if self.one_serves => 4,
             () if distance > tuning::FAR => 3,
-            () if self.two_serve > distance.recip() => 1,
+            () if self.two_serve[1] > distance.recip() => 1,
+            () => 0,
+        };
+        self.computed + chosen
+    }
+
+    /// The set for the echoes of a plate, whose waves have come from a place: without windows discs are needed that are nearly
+    /// points, but few of them, also for rates.
+    pub(crate) fn choose_for_echoes(&self, [r, z]: [f64; 2]) -> usize {
+        let chosen = match () {
+            () if !self.follows => 0,
+            () if self.one_serves => 4,
+            () if self.two_serve[0] > r.hypot(z).recip() => 1,
             () => 0,
         };
         self.computed + chosen

@@ -199,9 +199,7 @@ impl Sums {
                 }
             }
         }
-        if !kernels.are_traces() {
-            sums.add_short_waves(forcing, kernels);
-        }
+        sums.add_short_waves(forcing, kernels);
         sums.still_before_arrival(forcing, kernels.place_m);
         Ok(sums)
     }
@@ -305,17 +303,25 @@ impl Sums {
         }
     }
 
-    /// Adds the errors of looked-up fields by the first and last instants of a contact.
+    /// Adds the errors of looked-up fields and of echoes by the first and last instants of a contact.
     fn add_short_waves(&mut self, forcing: &Forcing<'_>, kernels: &PointKernels<'_>) {
         let fronts = Fronts::new(forcing.excitation, kernels.place_m);
-        let [_, part] = fronts.looked_up_errors(
-            kernels.discs.smallest(),
-            forcing.step_s,
-            forcing.derivative.power(),
-        );
+        let parts = if !kernels.are_traces() {
+            let [_, part] = fronts.looked_up_errors(
+                kernels.discs.smallest(),
+                forcing.step_s,
+                forcing.derivative.power(),
+            );
+            [part; 2]
+        } else if kernels.image_m.is_some() && forcing.follows() {
+            fronts.echo_errors(forcing.derivative)
+        } else {
+            return;
+        };
         let peaks = self.values.each_ref().map(|samples| largest(samples));
         for (f, error) in self.errors.iter_mut().enumerate() {
-            *error += part * largest(if f < 2 { &peaks[..2] } else { &peaks[2..] });
+            let kind = usize::from(f >= 2);
+            *error += parts[kind] * largest([&peaks[..2], &peaks[2..]][kind]);
         }
     }
 

@@ -2,6 +2,7 @@
 //!
 //! Constants are seconds of one thread, measured with the jobs of `scripts/time-impacts`.
 
+use crate::convolution::echoes::image_m;
 use crate::convolution::plan::{PointPlan, Sets};
 use crate::excitation::PressureRadius;
 use crate::grid::Grid;
@@ -33,6 +34,10 @@ const ON_AXIS: f64 = 6.0;
 /// Power of the longitudinal over the shear speed, over that of a ratio of 1/4: a block that is nearly incompressible has as many
 /// more fronts between which its waves are integrated.
 const OF_SPEEDS: f64 = 0.25;
+
+/// Echoes of a plate on a disc, over the squared number of groups of waves that are summed: the fronts of each are integrated, at
+/// instants whose number grows with that of the fronts.
+const ECHOES_S: f64 = 8e-5;
 
 /// Points of a section whose plans are made for a forecast, at most.
 const MOST_PLANS: usize = 4096;
@@ -115,6 +120,36 @@ impl Asked {
     }
 }
 
+/// A plate whose echoes are summed until the output ends.
+struct Plate {
+    thickness_m: f64,
+    legs: f64,
+}
+
+impl Plate {
+    fn of(scene: &Scene, grid: &Grid<'_>) -> Option<Self> {
+        let plate = scene.target.echoing()?;
+        let speed = scene.target.longitudinal_speed_m_s();
+        let last_s = grid.times_s().last().unwrap_or(0.0) - grid.excitation.start_s();
+        let transits = (last_s * speed / plate.thickness_m).max(0.0);
+        Some(Self {
+            thickness_m: plate.thickness_m,
+            legs: transits.min(plate.legs as f64),
+        })
+    }
+
+    fn image(&self, place_m: [f64; 2], radius_m: f64) -> [f64; 2] {
+        image_m(place_m, self.thickness_m).map(|x| x / radius_m)
+    }
+
+    /// Groups of waves: half of them arrive at each face, and inside they pass once in each direction, with two last parts.
+    fn groups(&self, z_m: f64) -> f64 {
+        let all = 0.5 * (self.legs + 1.0) * (self.legs + 2.0);
+        let is_inside = z_m > 0.0 && z_m < self.thickness_m;
+        if is_inside { 2.0 * all } else { 0.5 * all }
+    }
+}
+
 /// The roads of the points of a scene at the times of a grid, with kernels of a table that reaches to `reach` or, without it,
 /// computed ones.
 pub(crate) fn roads(scene: &Scene, grid: &Grid<'_>, reach: Option<[f64; 2]>) -> Vec<Road> {
@@ -139,6 +174,7 @@ pub(crate) fn roads(scene: &Scene, grid: &Grid<'_>, reach: Option<[f64; 2]>) -> 
     let harder = (speeds.p / speeds.s / 3.0_f64.sqrt())
         .max(1.0)
         .powf(OF_SPEEDS);
+    let plate = Plate::of(scene, grid);
     let mut roads: Vec<Road> = Vec::new();
     for (place_m, probe, points) in planned(scene) {
         let kind = usize::from(probe.is_none());
@@ -164,7 +200,13 @@ pub(crate) fn roads(scene: &Scene, grid: &Grid<'_>, reach: Option<[f64; 2]>) -> 
             .map(|one| each(one.whole))
             .sum();
         let past_s = harder * axis * past * digits.powi(2) * KERNEL_S;
-        let seconds = discs as f64 * kernels_s + forcings.len() as f64 * sums_s + past_s;
+        let echoes_s = plate.as_ref().map_or(0.0, |plate| {
+            let image = plate.image(place_m, radius_m);
+            let discs = sets.get(sets.choose_for_echoes(image)).count() as f64;
+            discs * (ECHOES_S * plate.groups(place_m[1]).powi(2) + samples * CELL_S)
+        });
+        let fields_s = discs as f64 * kernels_s + forcings.len() as f64 * sums_s + past_s;
+        let seconds = fields_s + echoes_s;
         let integrated = plan.integrated.iter().map(Vec::len).sum::<usize>() as f64;
         let (looked_up, samples) = (reach.is_some(), forcings.len() * count as usize);
         match roads
