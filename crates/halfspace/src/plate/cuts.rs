@@ -11,6 +11,11 @@ pub(crate) fn pieces(mut cuts: Vec<f64>) -> Vec<[f64; 2]> {
     cuts.windows(2).map(|pair| [pair[0], pair[1]]).collect()
 }
 
+/// The root in [0, 1] of a function that falls where it is positive.
+pub(crate) fn root_of_falling(height: &impl Fn(f64) -> f64) -> Option<f64> {
+    (height(0.0) > 0.0 && height(1.0) < 0.0).then(|| root(height, 0.0, 1.0))
+}
+
 /// Adds the roots in [0, 1] of a function that rises, falls, or rises and then falls.
 pub(crate) fn roots_of_concave(height: &impl Fn(f64) -> f64, roots: &mut Vec<f64>) {
     const GOLDEN: f64 = 0.618_033_988_749_894_9;

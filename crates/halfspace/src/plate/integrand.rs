@@ -14,7 +14,7 @@ use crate::potentials::far_front::ROUNDING_DIGITS;
 use crate::potentials::{Potentials, STEP};
 use crate::profile::Profile;
 use pulp::{Simd, WithSimd};
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::PI;
 
 /// Which waves an integrand has.
 #[derive(Debug, Clone, Copy)]
@@ -55,13 +55,13 @@ impl Integrand<'_> {
         let mut places = [0.0; NODES];
         let mut slopes = [0.0; NODES];
         for (i, s) in nodes.iter().enumerate() {
-            let (sin, cos) = (FRAC_PI_2 * s).sin_cos();
+            let rest = 1.0 - s;
             places[i] = if *s < 0.5 {
-                from + (to - from) * sin * sin
+                from + (to - from) * s * s * (3.0 - 2.0 * s)
             } else {
-                to - (to - from) * cos * cos
+                to - (to - from) * rest * rest * (3.0 - 2.0 * rest)
             };
-            slopes[i] = (to - from) * PI * sin * cos;
+            slopes[i] = (to - from) * 6.0 * s * rest;
         }
         let mut values = self.values(&places);
         for values in &mut values {

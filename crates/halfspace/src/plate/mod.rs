@@ -22,7 +22,7 @@ use crate::domain::{DomainError, check, check_hertz, check_place, check_time};
 use crate::field::{Estimate, Field, Point, Six};
 use crate::kernel::Kernel;
 use crate::trace::{Signal, Trace};
-use cuts::{pieces, roots_of_concave};
+use cuts::{pieces, root_of_falling, roots_of_concave};
 
 use integrand::{Integrand, Part};
 use quadrature::Panels;
@@ -133,18 +133,22 @@ impl Plate {
         const MOST_SEGMENTS: usize = 2000;
         self.check_inside(r, z)?;
         check_time(end)?;
-        let radius = self.kernel.profile().radius();
-        let shear = self.rays.shear;
-        let below = if r < radius { Some(0.0) } else { None };
+        let waves = self.waves(r, z);
+        let below = r < self.kernel.profile().radius();
         let mut fronts = vec![];
-        for (m, n, wave) in self.rays.groups(z) {
-            let distances = self.rays.distances(m, n, z, wave);
-            let edges = [(r - radius).abs(), r + radius];
-            for e in edges.into_iter().chain(below) {
-                fronts.push(arrival(e, distances, shear));
-                if distances[0] == 0.0 {
-                    fronts.extend(head(e, distances[1], shear));
-                }
+        for Waves {
+            distances,
+            arrivals,
+            ..
+        } in &waves
+        {
+            fronts.extend(arrivals);
+            fronts.extend(below.then(|| arrival(0.0, *distances, self.rays.shear)));
+            if distances[0] == 0.0 {
+                let heads = self
+                    .edges(r)
+                    .map(|e| head(e, distances[1], self.rays.shear));
+                fronts.extend(heads.into_iter().flatten());
             }
         }
         fronts.sort_by(f64::total_cmp);
@@ -158,7 +162,10 @@ impl Plate {
             size: self.kernel.static_field(r, z)?,
             most_segments: MOST_SEGMENTS,
         };
-        let value = |t: f64| self.echoes(r, z, t.min(self.latest()));
+        let value = |t: f64| {
+            let t = t.min(self.latest());
+            Ok(self.echoes_of(&waves, Point { r, z, t }))
+        };
         Trace::of(&signal, end, (tolerance, rise), value)
     }
 
@@ -181,24 +188,51 @@ impl Plate {
             t,
             "up to 16 transits of the plate by P waves",
         )?;
-        let panels = self.sum(Point { r, z, t }, SAFE);
+        Ok(self.echoes_of(&self.waves(r, z), Point { r, z, t }))
+    }
+
+    /// The echoes of waves that are known.
+    fn echoes_of(&self, waves: &[Waves], at: Point) -> Estimate {
+        let panels = self.sum(at, SAFE, waves);
         let mut found = Estimate::default();
         for f in 0..6 {
             found.value[f] = panels.value[f] / PI;
             found.error[f] = panels.error[f] / PI;
         }
         // on the upper face both tractions of the half-space are those of the load already
-        if self.rays.place(z) == Place::Upper {
+        if self.rays.place(at.z) == Place::Upper {
             for field in [Field::StressZz, Field::StressRz] {
                 found.value[field.index()] = 0.0;
                 found.error[field.index()] = 0.0;
             }
         }
-        Ok(found)
+        found
+    }
+
+    /// All waves at a place.
+    fn waves(&self, r: f64, z: f64) -> Vec<Waves> {
+        let edges = self.edges(r);
+        let of = |(m, n, wave): (usize, usize, usize)| {
+            let distances = self.rays.distances(m, n, z, wave);
+            Waves {
+                m,
+                n,
+                wave,
+                distances,
+                arrivals: edges.map(|e| arrival(e, distances, self.rays.shear)),
+            }
+        };
+        self.rays.groups(z).map(of).collect()
+    }
+
+    /// Distances along the plate from the nearest and the farthest edge of the load.
+    fn edges(&self, r: f64) -> [f64; 2] {
+        let radius = self.kernel.profile().radius();
+        [(r - radius).abs(), r + radius]
     }
 
     /// The sum over all waves that have arrived; the path keeps to a part `safe` of the way to the fronts.
-    fn sum(&self, at: Point, safe: f64) -> Panels {
+    fn sum(&self, at: Point, safe: f64, waves: &[Waves]) -> Panels {
         let mut panels = Panels::default();
         let size = 1.0 + at.r.hypot(self.rays.thickness);
         let own = OF_TOLERANCE * self.kernel.tolerance().max(FINEST);
@@ -208,7 +242,8 @@ impl Plate {
         let arrived = |m: &usize| across.hypot(self.rays.distance(*m, at.z)) < at.t;
         let counted = (1..=self.rays.legs).filter(|m| self.rays.counts(*m, at.z));
         for m in counted.take_while(arrived) {
-            let (delta, breaks) = self.path(at, m, safe);
+            let waves = || waves.iter().filter(move |waves| waves.m == m);
+            let (delta, breaks) = self.path(at, safe, waves());
             let path = Integrand {
                 plate: self,
                 at,
@@ -226,9 +261,11 @@ impl Plate {
             for begin in QUARTERS {
                 panels.add([begin, begin + 0.25], &allowed, |nodes| slow.values(nodes));
             }
-            self.shear(&path, &allowed, &mut panels);
-            for n in 0..=m {
-                self.fast(&path, n, &allowed, &mut panels);
+            for waves in waves() {
+                if waves.distances[0] == 0.0 {
+                    self.shear(&path, waves, &allowed, &mut panels);
+                }
+                self.fast(&path, waves, &allowed, &mut panels);
             }
         }
         panels
@@ -236,16 +273,20 @@ impl Plate {
 
     /// How far to the right of the imaginary axis the path begins, right of the poles and left of the fronts, and its pieces: one
     /// panel may miss the narrow peak beside a front.
-    fn path(&self, at: Point, m: usize, safe: f64) -> (f64, Vec<f64>) {
+    fn path<'w>(
+        &self,
+        at: Point,
+        safe: f64,
+        waves: impl Iterator<Item = &'w Waves>,
+    ) -> (f64, Vec<f64>) {
         let kappa = self.kernel.medium().kappa();
-        let radius = self.kernel.profile().radius();
-        let edges = [(at.r - radius).abs(), at.r + radius];
+        let edges = self.edges(at.r);
         let mut fronts = vec![];
-        for (legs, n, wave) in self.rays.groups(at.z) {
-            if legs == m {
-                let distances = self.rays.distances(m, n, at.z, wave);
-                let found = edges.map(|e| passed(e, distances, at.t, self.rays.shear));
-                fronts.extend(found.into_iter().flatten());
+        for waves in waves {
+            for (e, arrival) in edges.into_iter().zip(waves.arrivals) {
+                if arrival < at.t {
+                    fronts.extend(passed(e, waves.distances, at.t, self.rays.shear));
+                }
             }
         }
         // the others pass on the right of its end
@@ -271,73 +312,87 @@ impl Plate {
         (delta, breaks)
     }
 
-    /// Adds the waves that were shear over all of m legs, at slownesses between one and 1/kappa.
-    fn shear(&self, path: &Integrand<'_>, allowed: &Six, panels: &mut Panels) {
+    /// Adds the waves that were shear over all of their way, at slownesses between one and 1/kappa.
+    fn shear(&self, path: &Integrand<'_>, waves: &Waves, allowed: &Six, panels: &mut Panels) {
         let at = path.at;
-        let k = self.kernel.medium().shear_slowness_squared();
-        let distance = self.rays.distance(path.m, at.z);
-        let span = (k - 1.0).sqrt();
+        let span = (self.rays.shear - 1.0).sqrt();
         let place = |v: f64| {
             let inverse = 1.0 / (1.0 + v * v);
             let (sin, cos) = (2.0 * v * inverse, (1.0 - v * v) * inverse);
-            ((1.0 + (span * sin).powi(2)).sqrt(), span * cos * distance)
+            let x = (1.0 + (span * sin).powi(2)).sqrt();
+            (x, span * cos * waves.distances[1])
         };
         let own = Integrand {
             part: Part::Shear,
             ..*path
         };
-        let cuts = [-1.0, 1.0]
-            .map(|sense| self.fronts(at, place, sense))
-            .concat();
-        for piece in pieces(cuts) {
+        let cuts = [-1.0, 1.0].map(|sense| self.cuts(at, waves, place, sense));
+        for piece in pieces(cuts.concat()) {
             panels.add([0.0, 1.0], allowed, |nodes| own.on(piece, nodes));
         }
     }
 
-    /// Adds the waves of m legs, n of them as P, at slownesses below one.
-    fn fast(&self, path: &Integrand<'_>, n: usize, allowed: &Six, panels: &mut Panels) {
-        let (at, m) = (path.at, path.m);
-        let k = self.kernel.medium().shear_slowness_squared();
-        let inside = self.rays.place(at.z) == Place::Inside;
-        let waves: &[usize] = if inside { &[0, 1] } else { &[0] };
-        for &wave in waves {
-            let [as_p, as_s] = self.rays.distances(m, n, at.z, wave);
-            let place = |u: f64| {
-                let x = 2.0 * u / (1.0 + u * u);
-                let p = (1.0 - u * u) / (1.0 + u * u);
-                (x, as_p * p + as_s * (k - x * x).sqrt())
+    /// Adds waves at slownesses below one.
+    fn fast(&self, path: &Integrand<'_>, waves: &Waves, allowed: &Six, panels: &mut Panels) {
+        let (at, [as_p, as_s]) = (path.at, waves.distances);
+        let place = |u: f64| {
+            let inverse = 1.0 / (1.0 + u * u);
+            let (x, p) = (2.0 * u * inverse, (1.0 - u * u) * inverse);
+            (x, as_p * p + as_s * (self.rays.shear - x * x).sqrt())
+        };
+        let Waves { n, wave, .. } = *waves;
+        for sense in [-1.0, 1.0] {
+            let own = Integrand {
+                part: Part::Fast { n, wave, sense },
+                ..*path
             };
-            for sense in [-1.0, 1.0] {
-                let own = Integrand {
-                    part: Part::Fast { n, wave, sense },
-                    ..*path
-                };
-                for piece in pieces(self.fronts(at, place, sense)) {
-                    let (x, vertical) = place(0.5 * (piece[0] + piece[1]));
-                    let radius = self.kernel.profile().radius();
-                    if ((vertical + sense * at.t) / x).abs() < at.r + radius {
-                        panels.add([0.0, 1.0], allowed, |nodes| own.on(piece, nodes));
-                    }
+            for piece in pieces(self.cuts(at, waves, place, sense)) {
+                let (x, vertical) = place(0.5 * (piece[0] + piece[1]));
+                if ((vertical + sense * at.t) / x).abs() < self.edges(at.r)[1] {
+                    panels.add([0.0, 1.0], allowed, |nodes| own.on(piece, nodes));
                 }
             }
         }
     }
 
     /// Places in [0, 1] at which the fronts `vertical + sense t = e x` of a wave pass; `place` gives x and `vertical`.
-    fn fronts(&self, at: Point, place: impl Fn(f64) -> (f64, f64), sense: f64) -> Vec<f64> {
-        let radius = self.kernel.profile().radius();
+    fn cuts(
+        &self,
+        at: Point,
+        waves: &Waves,
+        place: impl Fn(f64) -> (f64, f64),
+        sense: f64,
+    ) -> Vec<f64> {
         let mut found = vec![];
-        for e in [(at.r - radius).abs(), at.r + radius] {
+        for (e, arrival) in self.edges(at.r).into_iter().zip(waves.arrivals) {
             for e in [-e, e] {
+                // a wave that comes is latest at its arrival
+                if sense < 0.0 && e <= 0.0 && arrival <= at.t {
+                    continue;
+                }
                 let height = |v: f64| {
                     let (x, vertical) = place(v);
                     vertical + sense * at.t - e * x
                 };
-                roots_of_concave(&height, &mut found);
+                match sense < 0.0 && e < 0.0 {
+                    true => roots_of_concave(&height, &mut found),
+                    false => found.extend(root_of_falling(&height)),
+                }
             }
         }
         found
     }
+}
+
+/// Waves of m legs, n of them as P, whose last part is P (0) or S (1), at a place.
+struct Waves {
+    m: usize,
+    n: usize,
+    wave: usize,
+    /// Vertical, as P and as S.
+    distances: [f64; 2],
+    /// From the nearest and the farthest edge of the load.
+    arrivals: [f64; 2],
 }
 
 #[cfg(test)]
@@ -366,7 +421,8 @@ mod tests {
                 continue;
             }
             count += 1;
-            let [one, other] = [0.7, 0.78].map(|safe| plate.sum(Point { r, z, t }, safe).value);
+            let [one, other] = [0.7, 0.78]
+                .map(|safe| plate.sum(Point { r, z, t }, safe, &plate.waves(r, z)).value);
             let size = 1.0 + r.hypot(thickness);
             for f in 0..6 {
                 let unit = if f < 2 { size } else { size * size };
@@ -410,7 +466,7 @@ mod tests {
                 };
                 let t = thickness * (last - 3.0 * random.next());
                 let found = plate.echoes(r, z, t).unwrap();
-                let exact = of(1e-9).sum(Point { r, z, t }, 0.68);
+                let exact = of(1e-9).sum(Point { r, z, t }, 0.68, &plate.waves(r, z));
                 let size = 1.0 + r.hypot(thickness);
                 let fields = if plate.rays.place(z) == Place::Upper {
                     0..4

@@ -161,11 +161,8 @@ pub(crate) fn head(e: f64, as_s: f64, shear: f64) -> Option<f64> {
 /// A sqrt(1 + q^2) + B sqrt(1 + k q^2) - q t = -i e
 /// ```
 ///
-/// By Newton's method, from the place in a medium with the mean slowness; none before the arrival.
+/// By Newton's method, from the place in a medium with the mean slowness.
 pub(crate) fn passed(e: f64, [as_p, as_s]: [f64; 2], t: f64, shear: f64) -> Option<Complex64> {
-    if t <= arrival(e, [as_p, as_s], shear) {
-        return None;
-    }
     let distance = as_p + as_s;
     let slowness = (as_p + as_s * shear.sqrt()) / distance;
     let path = t / slowness;
