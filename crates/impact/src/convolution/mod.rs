@@ -170,8 +170,14 @@ impl<'a> Convolution<'a> {
         let place_m = [r_m, z_m];
         let plan = self.plan(place_m);
         let discs = self.sets.get(plan.set);
+        let distance = r_m.hypot(z_m) / self.grid.excitation.units().disc_radius_m;
+        let part = match &self.past {
+            None => 1.0,
+            Some(_) if distance > tuning::FAR && discs.count() > 1 => tuning::KERNELS_FAR,
+            Some(_) => tuning::KERNELS,
+        };
         let cells = discs.radii.iter().map(|&over| {
-            let (place, disc_radius_m, wanted) = self.wanted_of(place_m, over, discs.count());
+            let (place, disc_radius_m, wanted) = self.wanted_of(place_m, over, part);
             let ratio = self.grid.excitation.medium().poisson_ratio();
             self.source.cells(ratio, place, disc_radius_m, wanted)
         });
@@ -254,7 +260,8 @@ impl<'a> Convolution<'a> {
         let set = self.sets.choose_for_echoes(image_m.map(|x| x / radius_m));
         let discs = self.sets.get(set);
         let cells = discs.radii.iter().map(|&over| {
-            let (_, disc_radius_m, wanted) = self.wanted_of(image_m, over, discs.count());
+            // their traces have no static part that is left over
+            let (_, disc_radius_m, wanted) = self.wanted_of(image_m, over, 1.0);
             echoes.cells(place_m, disc_radius_m, &wanted)
         });
         let cells: Vec<Cells> = cells.collect::<Result<_, _>>()?;
@@ -268,19 +275,13 @@ impl<'a> Convolution<'a> {
         self.forcings.iter().map(of).collect()
     }
 
-    /// The place in radii of a disc of a radius `over` the largest, one of `count`, this radius in m, and the cells as far as the
-    /// outputs need them.
-    fn wanted_of(&self, place_m: [f64; 2], over: f64, count: usize) -> ([f64; 2], f64, CellPlan) {
+    /// The place in radii of a disc of a radius `over` the largest, this radius in m, and the cells as far as the outputs need them,
+    /// to a part of their tolerance.
+    fn wanted_of(&self, place_m: [f64; 2], over: f64, part: f64) -> ([f64; 2], f64, CellPlan) {
         let (excitation, grid) = (self.grid.excitation, self.grid);
         let units = excitation.units();
         let disc_radius_m = over * units.disc_radius_m;
         let differences = self.forcings.iter().map(|forcing| forcing.differences);
-        let distance = place_m[0].hypot(place_m[1]) / units.disc_radius_m;
-        let part = match &self.past {
-            None => 1.0,
-            Some(_) if distance > tuning::FAR && count > 1 => tuning::KERNELS_FAR,
-            Some(_) => tuning::KERNELS,
-        };
         // until the last front from the far edge has passed a cell
         let fronts_s = excitation
             .speeds()

@@ -16,8 +16,8 @@ pub(crate) struct Sets {
     follows: bool,
     /// Inverse distance up to which two discs serve between fronts, of fields and of what is asked for.
     two_serve: [f64; 2],
-    /// Whether one does outside the contact.
-    one_serves: bool,
+    /// Whether one does outside the contact, and for echoes.
+    one_serves: [bool; 2],
 }
 
 /// The road of one point.
@@ -55,8 +55,9 @@ impl Sets {
         let chi = Fronts::new(excitation, [0.0; 2]).chi;
         let of_fields = tuning::TWO_SERVE * tolerance / (chi * chi);
         let two_serve = [of_fields, if rates { 0.0 } else { of_fields }];
-        let shorter = if rates { 10.0 } else { 1.0 };
-        let one_serves = shorter * chi * chi < tuning::ONE_SERVES * tolerance;
+        // rates have shorter waves, those that come by echoes fewer of them
+        let shorter = if rates { [10.0, 3.0] } else { [1.0; 2] };
+        let one_serves = shorter.map(|own| own * chi * chi < tuning::ONE_SERVES * tolerance);
         let mut all = match (follows, reach) {
             (false, _) => vec![Discs::one(1.0)],
             (true, Some(_)) => {
@@ -121,7 +122,7 @@ impl Sets {
         let chosen = match () {
             () if !self.follows => 0,
             () if distance < tuning::INSIDE => 2,
-            () if self.one_serves => 4,
+            () if self.one_serves[0] => 4,
             () if distance > tuning::FAR => 3,
             () if self.two_serve[1] > distance.recip() => 1,
             () => 0,
@@ -134,7 +135,7 @@ impl Sets {
     pub(crate) fn choose_for_echoes(&self, [r, z]: [f64; 2]) -> usize {
         let chosen = match () {
             () if !self.follows => 0,
-            () if self.one_serves => 4,
+            () if self.one_serves[1] => 4,
             () if self.two_serve[0] > r.hypot(z).recip() => 1,
             () => 0,
         };
