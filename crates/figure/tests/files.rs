@@ -133,6 +133,18 @@ fn an_animation_is_white_to_its_last_row() {
     }
 }
 
+/// Frames whose layout differs share a page.
+#[test]
+fn frames_of_different_sizes_make_an_animation() {
+    let figures = [curve().width(300.0), curve().width(302.0)];
+    let bytes = to_gif(&figures, 1.0, 0.1).unwrap();
+    let mut decoder = gif::DecodeOptions::new()
+        .read_info(bytes.as_slice())
+        .unwrap();
+    assert_eq!(decoder.width(), 302);
+    assert!(decoder.read_next_frame().unwrap().is_some());
+}
+
 #[test]
 fn an_image_is_seen_in_its_colours() {
     let pixels = Pixmap::decode_png(&to_png(&image(), 1.0).unwrap()).unwrap();

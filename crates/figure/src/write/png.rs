@@ -19,7 +19,8 @@ use tiny_skia::{
 /// # Errors
 /// [`FigureError`] for a figure that cannot be drawn, or a picture that is too large.
 pub fn to_png(figure: &Figure, scale: f32) -> Result<Vec<u8>, FigureError> {
-    encode(&rendered(&draw(figure)?, scale)?)
+    let drawing = draw(figure)?;
+    encode(&rendered(&drawing, scale, size(&drawing, scale))?)
 }
 
 /// Width and height in pixels.
@@ -29,9 +30,12 @@ fn size(drawing: &Drawing, scale: f32) -> [u32; 2] {
     [drawing.canvas.width(), drawing.canvas.height()].map(pixels)
 }
 
-/// The pixels of a drawing.
-fn rendered(drawing: &Drawing, scale: f32) -> Result<Pixmap, FigureError> {
-    let [width, height] = size(drawing, scale);
+/// The pixels of a drawing on a page of a size.
+fn rendered(
+    drawing: &Drawing,
+    scale: f32,
+    [width, height]: [u32; 2],
+) -> Result<Pixmap, FigureError> {
     let mut canvas = Canvas {
         map: page(width, height)?,
         place: Transform::from_scale(scale, scale),
@@ -50,27 +54,25 @@ fn rendered(drawing: &Drawing, scale: f32) -> Result<Pixmap, FigureError> {
 /// Effort for finding the colours of a frame: 1 is the best, 30 the fastest.
 const SPEED: i32 = 10;
 
-/// Figures as an endless animated GIF: one frame per figure, all of the size of the first, shown for `frame_s` rounded
-/// to 0.01 s.
+/// Figures as an endless animated GIF: one frame per figure, all on a page of the size of the largest, shown for `frame_s`
+/// rounded to 0.01 s.
 ///
 /// # Errors
-/// [`FigureError`] for a figure that cannot be drawn, or frames of different sizes.
+/// [`FigureError`] for a figure that cannot be drawn, or a side of 65536 pixels or more.
 pub fn to_gif(figures: &[Figure], scale: f32, frame_s: f64) -> Result<Vec<u8>, FigureError> {
     let drawings = figures.iter().map(draw).collect::<Result<Vec<_>, _>>()?;
-    let first = drawings
-        .first()
-        .map_or([0, 0], |drawing| size(drawing, scale));
-    let [width, height] = first.map(|pixels| u16::try_from(pixels).unwrap_or(0));
+    let sizes = drawings.iter().map(|drawing| size(drawing, scale));
+    let page = sizes.fold([0; 2], |most: [u32; 2], own| {
+        [most[0].max(own[0]), most[1].max(own[1])]
+    });
+    let [Ok(width), Ok(height)] = page.map(u16::try_from) else {
+        return Err(no_gif("its sides must be below 65536 pixels"));
+    };
     let mut encoder = Encoder::new(Vec::new(), width, height, &[]).map_err(no_gif)?;
     encoder.set_repeat(Repeat::Infinite).map_err(no_gif)?;
     for drawing in &drawings {
-        if size(drawing, scale) != [width, height].map(u32::from) {
-            return Err(no_gif(
-                "its frames must have the same size, below 65536 pixels",
-            ));
-        }
         // the page is white everywhere: no pixel is transparent
-        let mut rgba = rendered(drawing, scale)?.take();
+        let mut rgba = rendered(drawing, scale, page)?.take();
         let mut frame = Frame::from_rgba_speed(width, height, &mut rgba, SPEED);
         frame.delay = (100.0 * frame_s).round().clamp(2.0, 6000.0) as u16;
         encoder.write_frame(&frame).map_err(no_gif)?;

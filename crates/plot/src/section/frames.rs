@@ -226,6 +226,49 @@ impl<'a> SectionView<'a> {
         }
     }
 
+    /// Fronts between the faces of a plate that stay longitudinal or shear: circles about the images of the load, the first of each
+    /// kind with its name.
+    fn echoes(&self, since_s: f64) -> Vec<Layer> {
+        const DEPTHS: u32 = 60;
+        let Some(plate) = self.impact.target.echoing() else {
+            return Vec::new();
+        };
+        let thickness_m = plate.thickness_m;
+        let mut layers = Vec::new();
+        for (name, speed) in [("PP", self.speeds.p), ("SS", self.speeds.s)] {
+            for legs in 1..=plate.legs {
+                let point = |i: u32| {
+                    let z_m = thickness_m * f64::from(i) / f64::from(DEPTHS);
+                    let last_m = if legs % 2 == 1 {
+                        thickness_m - z_m
+                    } else {
+                        z_m
+                    };
+                    let down_m = legs as f64 * thickness_m + last_m;
+                    let across_m = ((speed * since_s).powi(2) - down_m * down_m).sqrt();
+                    (across_m > 0.0).then_some((self.disc_radius_m + across_m, z_m))
+                };
+                let mut line: Vec<(f64, f64)> = (0..=DEPTHS).filter_map(point).collect();
+                // where it crosses the axis
+                let run_m = speed * since_s - legs as f64 * thickness_m;
+                if run_m > 0.0 && run_m < thickness_m {
+                    match legs % 2 {
+                        1 => line.insert(0, (0.0, thickness_m - run_m)),
+                        _ => line.push((0.0, run_m)),
+                    }
+                }
+                if line.len() < 2 {
+                    continue;
+                }
+                if legs == 1 && line.len() > DEPTHS as usize / 2 {
+                    layers.push(Layer::text(line[line.len() / 2], name));
+                }
+                layers.push(Layer::line("", Style::Rimmed, line));
+            }
+        }
+        layers
+    }
+
     /// The fronts at a time as thin lines with their names, in a mirrored panel.
     pub(super) fn fronts(&self, time_s: f64) -> Vec<Layer> {
         let since = time_s - self.start_s;
@@ -246,6 +289,7 @@ impl<'a> SectionView<'a> {
             let across = self.disc_radius_m + radius * angle.sin();
             (across, radius * angle.cos())
         };
+        layers.extend(self.echoes(since));
         // names of fronts that have not separated yet would overlap
         if s < NAMED_FRONTS_APART * self.extent_m()[0] {
             return layers;

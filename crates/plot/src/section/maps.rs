@@ -27,7 +27,7 @@ pub(crate) fn frames(impact: &StoredImpact, request: &Request, count: usize) -> 
     };
     chosen.dedup();
     let quantity = section.quantity(request, section.usual())?;
-    if section.is_near() {
+    if section.is_near() && section.impact.target.echoing().is_none() {
         let pulse_m = section.speeds.p * section.pulse_s;
         notes.push(format!(
             "the waves overlap: the pulse is {} long and the section {}; use a [map] of {} to separate them",
@@ -56,10 +56,14 @@ pub(crate) fn frames(impact: &StoredImpact, request: &Request, count: usize) -> 
     Ok((chosen.iter().zip(images).map(panel).collect(), notes))
 }
 
-/// Uniformly spaced frames: until the longitudinal wave leaves the section, or within a longer pulse.
+/// Uniformly spaced frames: until the longitudinal wave leaves the section, or within a longer pulse; in a plate all of the output.
 fn instants(section: &SectionView<'_>, count: usize) -> Vec<usize> {
     let half = 0.5 / count as f64;
     let (length_s, first, last) = match section.is_near() {
+        _ if section.impact.target.echoing().is_some() => {
+            let last_s = section.stored.time_s.last().copied().unwrap_or(0.0);
+            (last_s - section.start_s, half, 1.0)
+        }
         true => (section.pulse_s, half, 1.0 - half),
         // few frames begin after the waves have separated, many at the onset of the force
         false if count > FEW_FRAMES => (section.crossing_s(), 0.0, 1.0),
