@@ -45,8 +45,18 @@ def front(way, time, e, speed=1.0):
     return speed * (way * np.sqrt(late - e * e + 0j) + 1j * e * time) / late
 
 
+CHORD = np.polynomial.legendre.leggauss(400)
+
+
+def a3(xi, r):
+    """A_3 of a Hertz disc as an integral over its chord, with the roots that belong to Re xi > 0."""
+    s, w = CHORD
+    zeta = xi - 1j * s
+    return 3 / (8 * np.pi) * np.sum(w * (1 - s * s) / np.sqrt(zeta * zeta + r * r))
+
+
 def check(report):
-    """(T68) and (T69)."""
+    """(T68) to (T70)."""
     rng = np.random.default_rng(5)
     worst, worst_turn = 0.0, 0.0
     for _ in range(50):
@@ -61,3 +71,19 @@ def check(report):
         q = front(way, time, e)
         worst_turn = max(worst_turn, abs(way * np.sqrt(1 + q * q) - q * time + 1j * e))
     report.row("T69", "fronts of P against their equation, 50 ways and times", worst_turn, 1e-11)
+    # beside the disc, along a circle that crosses the axis between the fronts
+    worst = 0.0
+    for r in (1.8, 4.0):
+        gap = abs(r - 1)
+        centre, reach = 0.2j * gap, 0.4 * gap
+        mean, points = 0.0, 64
+        for angle in 2 * np.pi * (np.arange(points) + 0.5) / points:
+            xi = centre + reach * np.exp(1j * angle)
+            mean += a3(xi if xi.real > 0 else -xi, r) / points
+        worst = max(worst, abs(mean - a3(centre + 1e-9, r)))
+    report.row("T69", "A_3 continued by A_3(-xi) beside the disc: mean over circles across the axis against its centre", worst, 1e-8)
+    s, w = np.polynomial.legendre.leggauss(40)
+    square = 0.5 * (1 + s)
+    pressure = 0.5 * w * np.sqrt(1 - square)
+    mean = np.sum(pressure * (1 + square)) / np.sum(pressure)
+    report.row("T70", "mean of 1 + r^2 under Hertz's pressure against its value at r^2 = 2/5", abs(mean / 1.4 - 1), 1e-4)

@@ -212,3 +212,24 @@ fn echoes_arrive_by_name() {
             .all(|echo| echo.legs != [1, 0])
     );
 }
+
+/// Reciprocity of the faces: the mean over one disc of the motion under another is that over the other under the one, whichever
+/// face has the load. Lengths are in radii of the loaded disc, so that the plate has another thickness in the second.
+#[test]
+fn faces_are_reciprocal() {
+    let rule = gauss::rule(24);
+    // mean of w under Hertz's pressure on a disc of a radius, in P/(mu r0), opposite a disc of radius 1
+    let mean = |thickness: f64, radius: f64, t: f64| {
+        let both = plate(0.27, thickness);
+        // r^2 = R^2 (1 - c^2), p r dr ~ c^2 dc
+        let terms = rule.on(0.0, 1.0).map(|(c, weight)| {
+            let r = radius * (1.0 - c * c).sqrt();
+            3.0 * weight * c * c * step(&both, W, [r, thickness], t)
+        });
+        terms.sum::<f64>()
+    };
+    for t in [6.0, 11.3, 17.9] {
+        let [one, other] = [mean(4.0, 1.6, t), mean(4.0 / 1.6, 1.0 / 1.6, t / 1.6) / 1.6];
+        assert!((one - other).abs() < 1e-5, "{t}: {one} {other}");
+    }
+}
