@@ -78,10 +78,17 @@ fn echoes_by_few_discs_are_within_their_estimates() {
             }
         }
     }
+    report(&mut errors, &mut ratios);
+    println!("{above} of {count} above their estimate");
+    assert!(20 * above <= count);
+}
+
+/// Prints the errors over the tolerances by kind, and how wide the estimates are.
+fn report(errors: &mut [Vec<f64>; 3], ratios: &mut [f64]) {
     ratios.sort_by(f64::total_cmp);
     for (kind, errors) in ["displacements", "stresses", "velocities"]
         .iter()
-        .zip(&mut errors)
+        .zip(errors)
     {
         errors.sort_by(f64::total_cmp);
         println!(
@@ -91,8 +98,7 @@ fn echoes_by_few_discs_are_within_their_estimates() {
         );
     }
     println!(
-        "{above} of {count} above their estimate, which is {:.0} times the error in the median",
-        ratios[count / 2]
+        "estimate over error {:.0} in the median",
+        ratios[ratios.len() / 2]
     );
-    assert!(20 * above <= count);
 }

@@ -138,8 +138,11 @@ impl Plate {
         })
     }
 
-    fn image(&self, place_m: [f64; 2], radius_m: f64) -> [f64; 2] {
-        image_m(place_m, self.thickness_m).map(|x| x / radius_m)
+    /// Seconds of a point.
+    fn seconds(&self, place_m: [f64; 2], radius_m: f64, (sets, samples): (&Sets, f64)) -> f64 {
+        let image = image_m(place_m, self.thickness_m).map(|x| x / radius_m);
+        let discs = sets.get(sets.choose_for_echoes(image)).count() as f64;
+        discs * (ECHOES_S * self.groups(place_m[1]).powi(2) + samples * CELL_S)
     }
 
     /// Groups of waves: half of them arrive at each face, and inside they pass once in each direction, with two last parts.
@@ -200,11 +203,8 @@ pub(crate) fn roads(scene: &Scene, grid: &Grid<'_>, reach: Option<[f64; 2]>) -> 
             .map(|one| each(one.whole))
             .sum();
         let past_s = harder * axis * past * digits.powi(2) * KERNEL_S;
-        let echoes_s = plate.as_ref().map_or(0.0, |plate| {
-            let image = plate.image(place_m, radius_m);
-            let discs = sets.get(sets.choose_for_echoes(image)).count() as f64;
-            discs * (ECHOES_S * plate.groups(place_m[1]).powi(2) + samples * CELL_S)
-        });
+        let of_echoes = |plate: &Plate| plate.seconds(place_m, radius_m, (&sets, samples));
+        let echoes_s = plate.as_ref().map_or(0.0, of_echoes);
         let fields_s = discs as f64 * kernels_s + forcings.len() as f64 * sums_s + past_s;
         let seconds = fields_s + echoes_s;
         let integrated = plan.integrated.iter().map(Vec::len).sum::<usize>() as f64;

@@ -1,12 +1,18 @@
 //! A striker and a half-space: from two bodies and a velocity to an excitation.
+//!
+//! `run` is a contact solved on its half-space, `plate` on the surface of a plate that its echo moves.
 
-use crate::plate::with_echo;
-use crate::run::{Run, solve_once};
+mod plate;
+mod run;
+
 use crate::scene::{Scene, Strike};
 use contact::{
     Choice, Collision, ContactError, Exact, HalfSpace, Model, Plasticity, Responses, Results,
     Settings, Solver, StaticShare, Striker, warnings,
 };
+use plate::with_echo;
+pub use run::Run;
+use run::solve_once;
 
 /// Relative change of the peak force above which the effect of the full static share causes a warning.
 const NOTABLE: f64 = 0.01;

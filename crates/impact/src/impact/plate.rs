@@ -9,9 +9,9 @@ use crate::convolution::Convolution;
 use crate::error::ImpactError;
 use crate::excitation::Excitation;
 use crate::grid::{Grid, Wanted};
+use crate::impact::run::Run;
 use crate::kernels::KernelSource;
 use crate::quantity::Quantity;
-use crate::run::Run;
 use contact::{
     Choice, Collision, ContactError, Echoes, Echoing, HalfSpace, Memory, Model, Settings,
     SurfaceMotion,
