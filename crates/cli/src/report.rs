@@ -234,7 +234,11 @@ fn validity(fields: &ProbeFields) -> Option<String> {
         .collect();
     let more = if known.len() > SHOWN { ", ..." } else { "" };
     let shown = known[..known.len().min(SHOWN)].join(", ");
-    (!known.is_empty()).then(|| format!("{shown}{more} (first echo)"))
+    let what = match fields.echoes.names.is_empty() {
+        true => "first echo",
+        false => "first echo that is left out",
+    };
+    (!known.is_empty()).then(|| format!("{shown}{more} ({what})"))
 }
 
 /// A number with seven digits and an SI prefix.

@@ -5,6 +5,7 @@
 //! - errors relative to the peak over time of each field, against tolerance 1e-13: median, 99th percentile, largest;
 //! - the time of one sample and samples per second, six fields each, over (r, z) uniform in [0, 6]^2 and t in [0, 20];
 //! - the time of a trace of 300 cell averages of width 0.1, at places of the same square, and cells per second;
+//! - the time of 300 instants of the echoes of a plate;
 //! - the time of one deflection of the surface centre.
 
 #![allow(
@@ -17,7 +18,7 @@ mod support;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use halfspace::random::Stream;
-use halfspace::{Deflection, Kernel, Medium, Profile, Six, SurfaceResponse, kausel};
+use halfspace::{Deflection, Kernel, Medium, Plate, Profile, Six, SurfaceResponse, kausel};
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 use support::{heading, line, peaks};
@@ -154,6 +155,26 @@ fn traces(criterion: &mut Criterion) {
     }
 }
 
+/// A trace of 300 times of the echoes of a plate of four radii, at two radii from the axis.
+fn echoes(criterion: &mut Criterion) {
+    const THICKNESS: f64 = 4.0;
+    let plate = Plate::new(&kernel(1e-6), THICKNESS).unwrap();
+    let mut group = criterion.benchmark_group("300 times of the echoes of a plate");
+    for (face, z) in [("upper face", 0.0), ("lower face", 4.0), ("inside", 1.5)] {
+        for transits in [3.0, 6.0, 12.0] {
+            let times = (1..=300).map(|i| transits * THICKNESS * f64::from(i) / 300.0);
+            let times: Vec<f64> = times.collect();
+            group.bench_function(format!("{face}, {transits} transits"), |b| {
+                b.iter(|| {
+                    for &t in &times {
+                        black_box(plate.echoes(2.0, z, t).unwrap());
+                    }
+                });
+            });
+        }
+    }
+}
+
 fn surface(criterion: &mut Criterion) {
     let medium = Medium::new(POISSON_RATIO).unwrap();
     let mut group = criterion.benchmark_group("deflection of the surface");
@@ -179,6 +200,6 @@ criterion_group! {
         .sample_size(10)
         .warm_up_time(Duration::from_millis(500))
         .measurement_time(Duration::from_secs(4));
-    targets = samples, traces, surface
+    targets = samples, traces, echoes, surface
 }
 criterion_main!(kernels);

@@ -36,10 +36,10 @@ use std::f64::consts::PI;
 /// Reduced units as those of [`Kernel`]; the thickness H is in r0.
 ///
 /// Accuracy, over 1/R for displacements and 1/R^2 for stresses with R = 1 + sqrt(r^2 + H^2): to six transits H/c1 errors are below
-/// a fifth of a tolerance of 1e-4 and below one of 1e-6, at 400 random points. The waves of each m grow and cancel, so that
-/// digits are lost with time; far out along a plate, beyond ten thicknesses, none is left at 12 transits.
-/// [`Estimate::error`] counts that. One to four fields in a hundred are above it, by up to twenty times, most of them where the
-/// error is far below the tolerance (`cargo test -p hertzlamb-halfspace estimates_are -- --nocapture`).
+/// a fifth of a tolerance of 1e-4 and below one of 1e-6, at 400 random points of plates of 0.1 to 1,000 radii. The waves of each m
+/// grow and cancel, so that digits are lost with time: to 1.5e-5 at 12 transits and 1e-2 at 16, and far out along a plate, beyond
+/// ten thicknesses, earlier. [`Estimate::error`] counts that. One or two fields in a hundred are above it, by up to fifty times,
+/// most of them where the error is far below the tolerance (`cargo test -p hertzlamb-halfspace estimates_are -- --nocapture`).
 ///
 /// ```
 /// use halfspace::{Field, Kernel, Medium, Plate, Profile};
