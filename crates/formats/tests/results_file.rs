@@ -125,6 +125,12 @@ fn every_dataset_is_described_and_every_description_is_written() {
     assert!(yielding.contains(OF_FLOW) && !striker.contains(OF_FLOW));
     let mut written: BTreeSet<String> = striker.union(&record).cloned().collect();
     written.extend(yielding);
+    let plate = text
+        .replace("[force]", "thickness_m = 0.02\nechoes = 2\n[force]")
+        .replace("[output]", "[[probe]]\nr_m = 0.0\nz_m = 0.02\n[output]");
+    let of_plate = other.with_file_name("plate.h5");
+    write(&plate, &of_plate);
+    written.extend(described_datasets(&hdf5::File::open(&of_plate).unwrap()));
     assert_eq!(written, listed("## Datasets", "## Attributes"));
     let names = [&file, &dented, &fitted].map(|file| file.attr_names().unwrap());
     let attributes: BTreeSet<String> = names.into_iter().flatten().collect();
