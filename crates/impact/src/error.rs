@@ -102,7 +102,7 @@ pub enum ImpactError {
     #[error(
         "output.duration_s = {} is outside (0, {}]: after 16 transits of the plate no digit of its echoes is left; use a smaller duration_s, and the modes of the plate (Rayleigh-Lamb) for later times",
         fault::number(*duration_s),
-        fault::number(*latest_s)
+        fault::rounded(*latest_s)
     )]
     LateEchoes {
         /// Requested duration in s.
