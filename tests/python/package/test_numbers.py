@@ -167,8 +167,11 @@ def test_every_result_has_an_attribute():
     assert list(_names.OfFields.__annotations__) == fields and list(_names.OfEnergy.__annotations__) == list(DESCRIBED["energy"])
     beside = [f"{field}_{what}" for field in fields for what in ("error", "peak", "peak_time")]
     assert list(_names.OfPlaces.__annotations__) == beside
-    run = hl.impact({**SECTION, "probe": BALL["probe"], "output": {"quantities": [*DESCRIBED["more"]], "peaks": True}})
-    for arrays, own in ((run.probes, _names.OfProbes), (run.section, _names.OfSection)):
+    asked = {**SECTION, "output": {"quantities": [*DESCRIBED["more"]], "peaks": True}}
+    section = hl.impact(asked).section
+    block = {**SECTION["target"], "thickness_m": 0.1, "echoes": 2}
+    probes = hl.impact({**asked, "target": block, "map": None, "probe": BALL["probe"]}).probes
+    for arrays, own in ((probes, _names.OfProbes), (section, _names.OfSection)):
         assert set(arrays) == {*fields, *beside, *own.__annotations__}
 
 
