@@ -111,6 +111,11 @@ impl SceneError {
             "{key} = {} is outside [0, {limit}]: the block ends at {limit_key}",
             number(value)
         );
+        Self::beyond(key, value, limit, sentence)
+    }
+
+    /// A number above a limit that follows from other keys.
+    fn beyond(key: impl Into<String>, value: f64, limit: f64, sentence: String) -> Self {
         let mut error = Self::of_number(key, value, sentence);
         (error.0.of_numbers, error.0.culprit.limits) = (false, Some([0.0, limit]));
         error
@@ -123,9 +128,7 @@ impl SceneError {
             "{key} = {} is outside (0, {latest_s:.4e}]: after 16 transits of the plate no digit of its echoes is left; for later times use the modes of the plate (Rayleigh-Lamb)",
             number(value)
         );
-        let mut error = Self::of_number(key, value, sentence);
-        (error.0.of_numbers, error.0.culprit.limits) = (false, Some([0.0, latest_s]));
-        error
+        Self::beyond(key, value, latest_s, sentence)
     }
 
     /// A word that is not one of the choices, which are separated by commas.

@@ -243,6 +243,35 @@ fn the_echo_that_returns_changes_the_force() {
     );
 }
 
+/// The estimate of a contact counts the error of its echo.
+#[test]
+fn estimates_count_the_echo() {
+    let of = |thickness_m: f64, tolerance: f64| {
+        let impact = steel_ball(thickness_m, Some(Echoes::Legs(1)));
+        impact.to_tolerance(tolerance).solve().unwrap()
+    };
+    for thickness_m in [0.1, 0.05] {
+        let exact = of(thickness_m, 1e-6);
+        for tolerance in [1e-3, 1e-4, 1e-5] {
+            let run = of(thickness_m, tolerance);
+            let off = [
+                run.peak_force_n / exact.peak_force_n,
+                run.contact_time_s / exact.contact_time_s,
+                run.restitution / exact.restitution,
+            ];
+            let off = off
+                .map(|own| (own - 1.0).abs())
+                .into_iter()
+                .fold(0.0, f64::max);
+            let estimate = run.relative_error_estimate + exact.relative_error_estimate;
+            assert!(
+                off < estimate && estimate < tolerance,
+                "{thickness_m} {tolerance:e}: {off:.1e}, {estimate:.1e}"
+            );
+        }
+    }
+}
+
 #[test]
 fn contacts_that_do_not_know_the_echo_are_rejected() {
     let with = |change: fn(&mut Impact), thickness_m: f64| {

@@ -140,35 +140,39 @@ fn read_target(root: &TomlSection<'_>, library: &Library) -> Result<HalfSpace, S
     let mut half_space = made.map_err(|_| target.missing("density_kg_m3", hint))?;
     half_space.thickness_m = target.number("thickness_m")?;
     half_space.radius_m = target.number("radius_m")?;
-    half_space.echoes = read_echoes(&target, &half_space)?;
+    half_space.echoes = read_echoes(&target)?;
+    check_echoes(&target, &half_space)?;
     Ok(half_space)
 }
 
 /// How far the waves of a plate are followed, if a scene asks for that.
-fn read_echoes(target: &TomlSection<'_>, block: &HalfSpace) -> Result<Option<Echoes>, SceneError> {
+fn read_echoes(target: &TomlSection<'_>) -> Result<Option<Echoes>, SceneError> {
     let legs = target.count("echoes", 1..=Plate::MOST_LEGS, "[1, 16]")?;
     let until_s = target.number("until_s")?;
-    let asked = match (legs, until_s) {
-        (None, None) => return Ok(None),
-        (Some(_), Some(_)) => {
-            return Err(SceneError::superfluous(
-                "target.until_s".to_owned(),
-                "echoes",
-                "both say how long the echoes of a plate are computed: remove one",
-            ));
-        }
-        (Some(legs), None) => Echoes::Legs(legs),
-        (None, Some(time_s)) => Echoes::Until(time_s),
-    };
-    let Some(thickness_m) = block.thickness_m else {
-        let hint = "echoes need the thickness of the plate";
-        return Err(target.missing("thickness_m", hint));
-    };
-    let latest_s = Plate::MOST_LEGS as f64 * thickness_m / block.longitudinal_speed_m_s();
-    if let Some(time_s) = until_s.filter(|&time_s| time_s > latest_s) {
-        return Err(SceneError::late_echoes(time_s, latest_s));
+    match (legs, until_s) {
+        (None, None) => Ok(None),
+        (Some(_), Some(_)) => Err(SceneError::superfluous(
+            "target.until_s".to_owned(),
+            "echoes",
+            "both say how long the echoes of a plate are computed: remove one",
+        )),
+        (Some(legs), None) => Ok(Some(Echoes::Legs(legs))),
+        (None, Some(time_s)) => Ok(Some(Echoes::Until(time_s))),
     }
-    Ok(Some(asked))
+}
+
+/// Rejects echoes without a thickness, and until a time to which they cannot be computed.
+fn check_echoes(target: &TomlSection<'_>, block: &HalfSpace) -> Result<(), SceneError> {
+    match (block.echoes, block.echoing()) {
+        (Some(_), None) => {
+            let hint = "echoes need the thickness of the plate";
+            Err(target.missing("thickness_m", hint))
+        }
+        (Some(Echoes::Until(time_s)), Some(plate)) if time_s > plate.latest_s => {
+            Err(SceneError::late_echoes(time_s, plate.latest_s))
+        }
+        (Some(_) | None, _) => Ok(()),
+    }
 }
 
 fn read_library(root: &TomlSection<'_>, directory: &Path) -> Result<Library, SceneError> {

@@ -73,7 +73,7 @@ const QUARTERS: [f64; 4] = [0.0, 0.25, 0.5, 0.75];
 /// Width of a front on the path below which it is a break, widths from it to the breaks around it, and distance of breaks.
 const NARROW: f64 = 0.1;
 const WIDE: f64 = 3.0;
-const CLOSE: f64 = 1e-3;
+const SAME_BREAK: f64 = 1e-3;
 
 impl Plate {
     /// Most legs of a wave, and the latest time in transits H/c1.
@@ -305,7 +305,7 @@ impl Plate {
             }
         }
         breaks.sort_by(f64::total_cmp);
-        breaks.dedup_by(|b, a| *b - *a < CLOSE);
+        breaks.dedup_by(|b, a| *b - *a < SAME_BREAK);
         breaks.extend(QUARTERS);
         breaks.push(1.0);
         breaks.sort_by(f64::total_cmp);

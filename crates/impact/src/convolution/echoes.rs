@@ -12,12 +12,12 @@ use std::sync::Arc;
 
 /// A plate whose echoes are summed.
 #[derive(Debug, Clone)]
-pub(crate) struct Echoes {
+pub(crate) struct PlateEchoes {
     kernel: Arc<Kernel>,
     plate: Echoing,
 }
 
-impl Echoes {
+impl PlateEchoes {
     /// Of a block, for fields of a relative tolerance; none without a plate.
     pub(crate) fn of(
         block: &HalfSpace,

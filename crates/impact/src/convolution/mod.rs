@@ -40,7 +40,7 @@ use crate::quantity::{Derivative, Quantity};
 use crate::sampled::convolve::Method;
 use crate::sampled::projection::largest;
 use contact::HalfSpace;
-use echoes::Echoes;
+use echoes::PlateEchoes;
 use halfspace::Six;
 use loads::{Forcing, Loads, Reading};
 use lookup::BEYOND;
@@ -81,7 +81,7 @@ pub(crate) struct Convolution<'a> {
     /// Of a contact whose radius follows the load, with kernels that are computed.
     past: Option<Past<'a>>,
     /// Of a plate.
-    echoes: Option<Echoes>,
+    echoes: Option<PlateEchoes>,
 }
 
 /// Ratio of the tolerance of an integral over a part of the past, which brings a part of the field, to that of the field.
@@ -121,7 +121,7 @@ impl<'a> Convolution<'a> {
             sets,
             past,
             echoes: match block {
-                Some(block) => Echoes::of(block, excitation.medium(), tolerance)?,
+                Some(block) => PlateEchoes::of(block, excitation.medium(), tolerance)?,
                 None => None,
             },
             source,
@@ -221,7 +221,7 @@ impl<'a> Convolution<'a> {
     /// Adds the echoes of a plate to the outputs of each forcing.
     fn add_echoes(
         &self,
-        echoes: &Echoes,
+        echoes: &PlateEchoes,
         place_m: [f64; 2],
         sums: &mut [[Trace; 6]],
     ) -> Result<(), ImpactError> {
@@ -236,23 +236,21 @@ impl<'a> Convolution<'a> {
         Ok(())
     }
 
-    /// Axial velocity by the echoes of a plate alone, in m/s; the quantities have it.
-    pub(crate) fn echo_velocity(&self, place_m: [f64; 2]) -> Result<Vec<f64>, ImpactError> {
+    /// Axial velocity by the echoes of a plate alone, in m/s; none without a plate, or where the quantities do not have it.
+    pub(crate) fn echo_velocity(&self, place_m: [f64; 2]) -> Result<Option<Trace>, ImpactError> {
         let Some(echoes) = &self.echoes else {
-            return Ok(Vec::new());
+            return Ok(None);
         };
         let sums = self.of_echoes(echoes, place_m)?;
         let all = self.forcings.iter().zip(sums);
         let mut rates = all.filter(|(forcing, _)| forcing.derivative == Derivative::First);
-        Ok(rates
-            .next()
-            .map_or_else(Vec::new, |(_, [_, axial, ..])| axial.samples))
+        Ok(rates.next().map(|(_, [_, axial, ..])| axial))
     }
 
     /// The outputs of each forcing by the echoes of a plate alone.
     fn of_echoes(
         &self,
-        echoes: &Echoes,
+        echoes: &PlateEchoes,
         place_m: [f64; 2],
     ) -> Result<Vec<[Trace; 6]>, ImpactError> {
         let image_m = echoes.image_m(place_m);

@@ -191,12 +191,8 @@ impl Sums {
                     *error += part * largest(samples);
                 }
             }
-            let with_static = kernels.image_m.is_none();
-            for (i, &time_s) in forcing.times_s.iter().enumerate().filter(|_| with_static) {
-                let still = forcing.still(kernels.place_m, time_s)?;
-                for (samples, value) in sums.values.iter_mut().zip(still) {
-                    samples[i] += value;
-                }
+            if kernels.image_m.is_none() {
+                sums.add_still(forcing, kernels.place_m)?;
             }
         }
         sums.add_short_waves(forcing, kernels);
@@ -303,18 +299,29 @@ impl Sums {
         }
     }
 
+    /// Adds the static field of the pressure of each instant.
+    fn add_still(&mut self, forcing: &Forcing<'_>, place_m: [f64; 2]) -> Result<(), DomainError> {
+        for (i, &time_s) in forcing.times_s.iter().enumerate() {
+            let still = forcing.still(place_m, time_s)?;
+            for (samples, value) in self.values.iter_mut().zip(still) {
+                samples[i] += value;
+            }
+        }
+        Ok(())
+    }
+
     /// Adds the errors of looked-up fields and of echoes by the first and last instants of a contact.
     fn add_short_waves(&mut self, forcing: &Forcing<'_>, kernels: &PointKernels<'_>) {
-        let fronts = Fronts::new(forcing.excitation, kernels.place_m);
+        let fronts = || Fronts::new(forcing.excitation, kernels.place_m);
         let parts = if !kernels.are_traces() {
-            let [_, part] = fronts.looked_up_errors(
+            let [_, part] = fronts().looked_up_errors(
                 kernels.discs.smallest(),
                 forcing.step_s,
                 forcing.derivative.power(),
             );
             [part; 2]
         } else if kernels.image_m.is_some() && forcing.follows() {
-            fronts.echo_errors(forcing.derivative)
+            fronts().echo_errors(forcing.derivative)
         } else {
             return;
         };

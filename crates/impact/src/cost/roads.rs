@@ -121,12 +121,12 @@ impl Asked {
 }
 
 /// A plate whose echoes are summed until the output ends.
-struct Plate {
+struct EchoCost {
     thickness_m: f64,
     legs: f64,
 }
 
-impl Plate {
+impl EchoCost {
     fn of(scene: &Scene, grid: &Grid<'_>) -> Option<Self> {
         let plate = scene.target.echoing()?;
         let speed = scene.target.longitudinal_speed_m_s();
@@ -177,7 +177,7 @@ pub(crate) fn roads(scene: &Scene, grid: &Grid<'_>, reach: Option<[f64; 2]>) -> 
     let harder = (speeds.p / speeds.s / 3.0_f64.sqrt())
         .max(1.0)
         .powf(OF_SPEEDS);
-    let plate = Plate::of(scene, grid);
+    let plate = EchoCost::of(scene, grid);
     let mut roads: Vec<Road> = Vec::new();
     for (place_m, probe, points) in planned(scene) {
         let kind = usize::from(probe.is_none());
@@ -203,7 +203,7 @@ pub(crate) fn roads(scene: &Scene, grid: &Grid<'_>, reach: Option<[f64; 2]>) -> 
             .map(|one| each(one.whole))
             .sum();
         let past_s = harder * axis * past * digits.powi(2) * KERNEL_S;
-        let of_echoes = |plate: &Plate| plate.seconds(place_m, radius_m, (&sets, samples));
+        let of_echoes = |plate: &EchoCost| plate.seconds(place_m, radius_m, (&sets, samples));
         let echoes_s = plate.as_ref().map_or(0.0, of_echoes);
         let fields_s = discs as f64 * kernels_s + forcings.len() as f64 * sums_s + past_s;
         let seconds = fields_s + echoes_s;

@@ -5,7 +5,7 @@
 //!
 //! Theory: `docs/theory.md` (T70).
 
-use crate::convolution::Convolution;
+use crate::convolution::{Convolution, Trace};
 use crate::error::ImpactError;
 use crate::excitation::Excitation;
 use crate::grid::{Grid, Wanted};
@@ -13,15 +13,18 @@ use crate::impact::run::Run;
 use crate::kernels::KernelSource;
 use crate::quantity::Quantity;
 use contact::{
-    Choice, Collision, ContactError, Echoes, Echoing, HalfSpace, Memory, Model, Settings,
+    Choice, Collision, ContactError, Echoes, Echoing, HalfSpace, Memory, Model, Results, Settings,
     SurfaceMotion,
 };
 
 /// Solutions at most; each is exact for one echo more.
-const MOST: usize = 12;
+const MOST_SOLUTIONS: usize = 12;
 
 /// Change of the results over the tolerance below which a solution is the last.
-const SETTLED: f64 = 0.1;
+const LAST_CHANGE: f64 = 0.1;
+
+/// Relative change of the force over that of the indentation: Hertz's power.
+const OF_INDENTATION: f64 = 1.5;
 
 /// Distance from the axis, over the radius, at which the motion stands for its mean under Hertz's pressure: exact for one that is
 /// a square of the distance.
@@ -49,31 +52,31 @@ pub(crate) fn with_echo(
     if let Some(reason) = unknown(&run, settings, &plate) {
         return Err(fails(reason));
     }
-    for _ in 0..MOST {
-        let block = {
-            let mut block = half_space.clone();
-            block.echoes = Some(Echoes::Until(run.results.contact_time_s));
-            block
-        };
+    for _ in 0..MOST_SOLUTIONS {
+        let contact_s = run.results.contact_time_s;
+        let mut block = half_space.clone();
+        block.echoes = Some(Echoes::Until(contact_s));
         let motion = motion(&block, run.excitation(), (collision, settings.tolerance));
-        let next = solve(motion.map_err(|error| fails(error.to_string()))?)?;
-        let of = |run: &Run| {
-            let results = &run.results;
-            [
-                results.peak_force_n,
-                results.contact_time_s,
-                results.restitution,
-            ]
-        };
-        let pairs = of(&run).into_iter().zip(of(&next));
-        let change = pairs.map(|(before, now)| (now / before - 1.0).abs());
-        let change = change.fold(0.0, f64::max);
+        let (motion, error_m_s) = motion.map_err(|error| fails(error.to_string()))?;
+        let next = solve(motion)?;
+        let change = largest_change(&run.results, &next.results);
         run = next;
-        if change < SETTLED * settings.tolerance {
+        if change < LAST_CHANGE * settings.tolerance {
+            // as if the surface were off in one direction during all of the contact
+            let off = error_m_s * contact_s / run.results.peak_displacement_m;
+            run.add_error(change + OF_INDENTATION * off);
             return Ok(run);
         }
     }
     Err(fails("its effect on the force does not settle".to_owned()))
+}
+
+/// The largest relative change of peak force, contact time and restitution.
+fn largest_change(one: &Results, other: &Results) -> f64 {
+    let of = |own: &Results| [own.peak_force_n, own.contact_time_s, own.restitution];
+    let pairs = of(one).into_iter().zip(of(other));
+    let changes = pairs.map(|(before, now)| (now / before - 1.0).abs());
+    changes.fold(0.0, f64::max)
 }
 
 /// Why the echo of a contact is not known.
@@ -109,12 +112,12 @@ fn unknown(run: &Run, settings: &Settings, plate: &Echoing) -> Option<String> {
     })
 }
 
-/// Motion of the upper face of a plate under a contact, by its echoes.
+/// Motion of the upper face of a plate under a contact, by its echoes, and the error of its velocity in m/s.
 fn motion(
     block: &HalfSpace,
     excitation: &Excitation,
     (collision, tolerance): (&Collision, f64),
-) -> Result<SurfaceMotion, ImpactError> {
+) -> Result<(SurfaceMotion, f64), ImpactError> {
     let wanted = Wanted {
         tolerance,
         step_s: None,
@@ -131,9 +134,13 @@ fn motion(
     let place_m = [MEAN * excitation.units().disc_radius_m, 0.0];
     let units = collision.units();
     let unit_m_s = units.length_m / units.time_s;
-    let velocity_m_s = convolution.echo_velocity(place_m)?;
-    Ok(SurfaceMotion {
+    let (samples, error_m_s) = match convolution.echo_velocity(place_m)? {
+        Some(Trace { samples, error }) => (samples, error),
+        None => (Vec::new(), 0.0),
+    };
+    let motion = SurfaceMotion {
         step: grid.step_s / units.time_s,
-        velocity: velocity_m_s.iter().map(|v| v / unit_m_s).collect(),
-    })
+        velocity: samples.iter().map(|v| v / unit_m_s).collect(),
+    };
+    Ok((motion, error_m_s))
 }

@@ -15,7 +15,7 @@ pub struct Run {
     pub results: Results,
     /// Warnings for the user.
     pub warnings: Vec<String>,
-    pub(crate) excitation: Excitation,
+    excitation: Excitation,
 }
 
 impl Deref for Run {
@@ -30,6 +30,13 @@ impl Run {
     /// The force on the half-space.
     pub fn excitation(&self) -> &Excitation {
         &self.excitation
+    }
+
+    /// Adds a relative error that the solver does not know, to the results and to the force.
+    pub(crate) fn add_error(&mut self, relative: f64) {
+        self.solved.error += relative;
+        self.results.relative_error_estimate += relative;
+        self.excitation.relative_error += relative;
     }
 }
 
