@@ -133,7 +133,8 @@ impl Plate {
         const MOST_SEGMENTS: usize = 2000;
         self.check_inside(r, z)?;
         check_time(end)?;
-        let waves = self.waves(r, z);
+        let last = end.min(self.latest());
+        let waves = self.waves(r, z, last);
         let below = r < self.kernel.profile().radius();
         let mut fronts = vec![];
         for Waves {
@@ -153,7 +154,7 @@ impl Plate {
         }
         fronts.sort_by(f64::total_cmp);
         let first = fronts.first().copied().unwrap_or(f64::INFINITY);
-        fronts.retain(|t| *t < end.min(self.latest()));
+        fronts.retain(|t| *t < last);
         let signal = Signal {
             fronts,
             passing: None,
@@ -188,7 +189,7 @@ impl Plate {
             t,
             "up to 16 transits of the plate by P waves",
         )?;
-        Ok(self.echoes_of(&self.waves(r, z), Point { r, z, t }))
+        Ok(self.echoes_of(&self.waves(r, z, t), Point { r, z, t }))
     }
 
     /// The echoes of waves that are known.
@@ -209,8 +210,8 @@ impl Plate {
         found
     }
 
-    /// All waves at a place.
-    fn waves(&self, r: f64, z: f64) -> Vec<Waves> {
+    /// All waves at a place that can arrive until a time, and perhaps more.
+    fn waves(&self, r: f64, z: f64, until: f64) -> Vec<Waves> {
         let edges = self.edges(r);
         let of = |(m, n, wave): (usize, usize, usize)| {
             let distances = self.rays.distances(m, n, z, wave);
@@ -222,7 +223,8 @@ impl Plate {
                 arrivals: edges.map(|e| arrival(e, distances, self.rays.shear)),
             }
         };
-        self.rays.groups(z).map(of).collect()
+        let may_arrive = |&(m, ..): &(usize, usize, usize)| self.rays.distance(m, z) < until;
+        self.rays.groups(z).take_while(may_arrive).map(of).collect()
     }
 
     /// Distances along the plate from the nearest and the farthest edge of the load.
@@ -421,8 +423,11 @@ mod tests {
                 continue;
             }
             count += 1;
-            let [one, other] = [0.7, 0.78]
-                .map(|safe| plate.sum(Point { r, z, t }, safe, &plate.waves(r, z)).value);
+            let [one, other] = [0.7, 0.78].map(|safe| {
+                plate
+                    .sum(Point { r, z, t }, safe, &plate.waves(r, z, t))
+                    .value
+            });
             let size = 1.0 + r.hypot(thickness);
             for f in 0..6 {
                 let unit = if f < 2 { size } else { size * size };
@@ -466,7 +471,7 @@ mod tests {
                 };
                 let t = thickness * (last - 3.0 * random.next());
                 let found = plate.echoes(r, z, t).unwrap();
-                let exact = of(1e-9).sum(Point { r, z, t }, 0.68, &plate.waves(r, z));
+                let exact = of(1e-9).sum(Point { r, z, t }, 0.68, &plate.waves(r, z, t));
                 let size = 1.0 + r.hypot(thickness);
                 let fields = if plate.rays.place(z) == Place::Upper {
                     0..4

@@ -139,14 +139,18 @@ pub(crate) fn arrival(e: f64, [as_p, as_s]: [f64; 2], shear: f64) -> f64 {
     if as_p == 0.0 {
         return shear.sqrt() * e.hypot(as_s);
     }
-    // x = sin(angle) of P: the distance covered grows with it
-    let covered = |angle: f64| {
-        let (x, p) = angle.sin_cos();
-        as_p * x / p + as_s * x / (shear - x * x).sqrt()
+    // by the tangent of the angle of P, with which the distance covered grows: its slowness, and the cosines of P and S
+    let slownesses = |tangent: f64| {
+        let p = (1.0 + tangent * tangent).sqrt().recip();
+        let x = tangent * p;
+        [x, p, (shear - x * x).sqrt()]
     };
-    let angle = bisected(0.0, std::f64::consts::FRAC_PI_2, |angle| covered(angle) < e);
-    let (x, p) = angle.sin_cos();
-    e * x + as_p * p + as_s * (shear - x * x).sqrt()
+    let falls_short = |tangent: f64| {
+        let [x, _, s] = slownesses(tangent);
+        as_p * tangent + as_s * x / s < e
+    };
+    let [x, p, s] = slownesses(bisected(0.0, e / as_p, falls_short));
+    e * x + as_p * p + as_s * s
 }
 
 /// When the head wave arrives, longitudinal along a face and shear across; none nearer than it exists.

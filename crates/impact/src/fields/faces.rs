@@ -68,6 +68,7 @@ pub(crate) fn of_probes(scene: &Scene, fields: &ProbeFields, end_s: f64) -> Vec<
         };
         found.push(doubled(&who, face));
     }
+    found.extend(unreached(scene, fields, end_s));
     let inside = (1..).zip(fields.valid_until_s.iter().zip(&faces));
     let inside = inside.filter(|(_, (valid_s, face))| face.is_none() && **valid_s < end_s);
     let echoing: Vec<(usize, f64)> = inside.map(|(i, (&valid_s, _))| (i, valid_s)).collect();
@@ -79,6 +80,22 @@ pub(crate) fn of_probes(scene: &Scene, fields: &ProbeFields, end_s: f64) -> Vec<
         ));
     }
     found
+}
+
+/// A warning of probes so far out on a plate that its echoes end before a wave arrives: elsewhere the output waits for it.
+fn unreached(scene: &Scene, fields: &ProbeFields, end_s: f64) -> Option<String> {
+    scene.target.echoing()?;
+    let arrivals = (1..).zip(&fields.arrival_s);
+    let late: Vec<usize> = arrivals
+        .filter(|(_, [p_s, ..])| *p_s > end_s)
+        .map(|(i, _)| i)
+        .collect();
+    let first = late.first()?;
+    Some(format!(
+        "no wave reaches {} of {} probes, first probe {first}, before the output ends at {end_s:.4e} s: set a longer output.duration_s, as far as the echoes of the plate can be computed",
+        late.len(),
+        fields.arrival_s.len(),
+    ))
 }
 
 /// Of a section in an output that ends at a time in s.
