@@ -22,6 +22,7 @@
 //! - [`Medium`]: wave speeds and Rayleigh function of a Poisson ratio.
 //! - [`Kernel`]: static field, step-response remainder, impulse response and time integral.
 //! - [`Trace`]: the remainder at one place over time, with averages and moments over cells of any width.
+//! - [`Face`]: the mean over a circular face, such as that of a sensor.
 //! - [`Plate`]: the echoes that a second free face adds, to sixteen transits.
 //! - [`SurfaceResponse`]: the deflection under the load itself, with finite memory.
 //! - [`Arrivals`]: times of all wave fronts.
@@ -77,10 +78,12 @@ mod surface;
 mod integral;
 mod kernel;
 mod trace;
+mod face;
 mod plate;
 
 pub use arrivals::Arrivals;
 pub use domain::{DomainError, check};
+pub use face::{Arc, Face};
 pub use field::{Estimate, FIELDS, Field, Six};
 pub use integral::axis::weights_off_axis;
 pub use kernel::Kernel;
