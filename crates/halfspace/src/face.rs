@@ -83,7 +83,8 @@ impl Face {
     /// Circles whose weighted sum is the mean of fields that are smooth over the face: `count` > 0 of them beside the axis, up to
     /// twice as many around it.
     ///
-    /// Of a plane wave of k radius = x the sum is exact to 2 |J_{2 count + 2}(x)|: 9e-8 of the amplitude for four circles at x = 1.
+    /// Of a plane wave of k radius = x the sum is exact to about (x/2)^(2 count)/(2 count)!: 9e-8 of the amplitude for four circles at
+    /// x = 1.
     pub fn arcs(&self, count: usize) -> Vec<Arc> {
         if self.r < BESIDE * self.radius {
             let [inner, outer] = self.edges();

@@ -41,6 +41,7 @@ fn attempt(hard: &Hard, settings: Settings) -> Result<f64, String> {
         settings,
         probes: Vec::new(),
         section: None,
+        sensors: Vec::new(),
         quantities: Vec::new(),
         peaks: false,
         duration_s: None,

@@ -27,6 +27,7 @@ mod tests {
             settings: Settings::default(),
             probes: vec![axis, off],
             section: None,
+            sensors: Vec::new(),
             quantities: vec![Quantity::VelocityZ],
             peaks: false,
             duration_s: None,

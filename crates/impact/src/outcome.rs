@@ -3,6 +3,7 @@
 use crate::energy::EnergySeries;
 use crate::error::{ImpactError, finite};
 use crate::fields::probes::{ProbeFields, SectionFields};
+use crate::fields::sensors::SensorHistory;
 use crate::quantity::Quantity;
 use crate::sampled::convolve::Method;
 use contact::{Choice, Model, Results, Scheme};
@@ -101,6 +102,8 @@ pub struct Outcome {
     pub series: Series,
     /// Fields at the probes.
     pub probes: Option<ProbeFields>,
+    /// Histories of the sensors.
+    pub sensors: Vec<SensorHistory>,
     /// Fields on the section.
     pub section: Option<SectionFields>,
     /// Warnings for the user.
@@ -166,6 +169,15 @@ pub(crate) fn checked(outcome: Outcome) -> Result<Outcome, ImpactError> {
         let values = found.values.iter();
         let values = values.map(|rows| rows.iter().flatten().copied());
         fields("at a probe", &found.quantities, values, &found.errors)?;
+    }
+    for found in &outcome.sensors {
+        let means = found.mean.samples.iter().chain([&found.mean.error]);
+        let outputs = found.output.iter().chain(&found.output_error);
+        finite(
+            || "the mean over the face of a sensor".to_owned(),
+            means.copied(),
+        )?;
+        finite(|| "the output of a sensor".to_owned(), outputs.copied())?;
     }
     if let Some(found) = &outcome.section {
         let arrivals = found.arrival_s[..2].iter().flatten().copied();

@@ -3,6 +3,7 @@
 use crate::quantity::{Derivative, Quantity};
 use crate::record::ForceRecord;
 use contact::{Echoes, HalfSpace, Settings, Striker, WaveSpeeds};
+use halfspace::Field;
 
 /// Load on the half-space.
 #[derive(Debug, Clone, PartialEq)]
@@ -31,6 +32,95 @@ pub struct Probe {
     pub z_m: f64,
 }
 
+contact::choice! {
+    /// A quantity that a sensor measures, at the centre of its face along or across the axis of the load.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+    pub enum Measured {
+        /// Axial displacement.
+        #[default]
+        DisplacementZ = "displacement_z",
+        /// Radial displacement.
+        DisplacementR = "displacement_r",
+        /// Axial velocity.
+        VelocityZ = "velocity_z",
+        /// Radial velocity.
+        VelocityR = "velocity_r",
+        /// Axial acceleration, as a mean over one step of the output.
+        AccelerationZ = "acceleration_z",
+        /// Radial acceleration, as a mean over one step of the output.
+        AccelerationR = "acceleration_r",
+        /// Axial stress, on a face inside the block.
+        StressZz = "stress_zz",
+    }
+}
+
+impl Measured {
+    /// The rate of the displacement that it is; none for a field.
+    pub(crate) fn rate(self) -> Option<Quantity> {
+        match self {
+            Self::DisplacementZ | Self::DisplacementR | Self::StressZz => None,
+            Self::VelocityZ => Some(Quantity::VelocityZ),
+            Self::VelocityR => Some(Quantity::VelocityR),
+            Self::AccelerationZ => Some(Quantity::AccelerationZ),
+            Self::AccelerationR => Some(Quantity::AccelerationR),
+        }
+    }
+
+    /// Its place among the six fields and then some quantities.
+    pub(crate) fn index(self, quantities: &[Quantity]) -> usize {
+        let field = match self {
+            Self::DisplacementR => Field::DisplacementR,
+            Self::StressZz => Field::StressZz,
+            _ => Field::DisplacementZ,
+        };
+        let own = self
+            .rate()
+            .and_then(|rate| quantities.iter().position(|one| *one == rate));
+        own.map_or(field.index(), |place| 6 + place)
+    }
+
+    /// Its derivative of the fields in time.
+    pub(crate) fn derivative(self) -> Derivative {
+        let rate = self.rate().and_then(Quantity::rate);
+        rate.map_or(Derivative::Field, |(derivative, _)| derivative)
+    }
+
+    /// Its unit.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::DisplacementZ | Self::DisplacementR => "m",
+            Self::VelocityZ | Self::VelocityR => "m/s",
+            Self::AccelerationZ | Self::AccelerationR => "m/s^2",
+            Self::StressZz => "Pa",
+        }
+    }
+}
+
+/// A sensor on or in the half-space, parallel to its surface.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sensor {
+    /// Distance of its centre from the axis in m.
+    pub r_m: f64,
+    /// Depth in m.
+    pub z_m: f64,
+    /// Radius of its face in m; 0 for a point.
+    pub face_radius_m: f64,
+    /// The quantity that its output follows.
+    pub measured: Measured,
+}
+
+impl Sensor {
+    /// The nearest place of its face to the load in m.
+    pub(crate) fn nearest_m(&self) -> [f64; 2] {
+        [(self.r_m - self.face_radius_m).max(0.0), self.z_m]
+    }
+
+    /// The farthest place of its face from the load in m.
+    pub(crate) fn farthest_m(&self) -> [f64; 2] {
+        [self.r_m + self.face_radius_m, self.z_m]
+    }
+}
+
 /// A meridional section.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Section {
@@ -57,6 +147,8 @@ pub struct Scene {
     pub settings: Settings,
     /// Points of the requested fields.
     pub probes: Vec<Probe>,
+    /// Sensors, in addition to the probes.
+    pub sensors: Vec<Sensor>,
     /// Requested section of the fields.
     pub section: Option<Section>,
     /// Requested quantities in addition to the fields, at probes and on the section.
@@ -88,7 +180,11 @@ impl Scene {
     pub(crate) fn farthest_m(&self) -> f64 {
         let probes = self.probes.iter().map(|probe| probe.r_m.hypot(probe.z_m));
         let corner = self.section.iter().map(|s| s.r_max_m.hypot(s.z_max_m));
-        probes.chain(corner).fold(0.0, f64::max)
+        let sensors = self.sensors.iter().map(|sensor| {
+            let [r_m, z_m] = sensor.farthest_m();
+            r_m.hypot(z_m)
+        });
+        probes.chain(corner).chain(sensors).fold(0.0, f64::max)
     }
 
     /// When the echoes of a plate stop being exact at the nearest of the points, and when they cannot be computed any longer, in s
@@ -103,8 +199,13 @@ impl Scene {
                 let speeds = WaveSpeeds::of(&block).ok()?;
                 let probes = self.probes.iter().map(|probe| probe.z_m);
                 let section = self.section.iter().flat_map(|s| [0.0, s.z_max_m]);
+                let sensors = self.sensors.iter().map(|sensor| sensor.z_m);
                 let of = |z_m: f64| speeds.first_echo_s(&block, [0.0, z_m], 0.0);
-                probes.chain(section).filter_map(of).reduce(f64::min)?
+                probes
+                    .chain(section)
+                    .chain(sensors)
+                    .filter_map(of)
+                    .reduce(f64::min)?
             }
         };
         Some([exact_s.min(plate.latest_s), plate.latest_s])
@@ -128,9 +229,28 @@ impl Scene {
         })
     }
 
+    /// Rates of the displacement that sensors measure, each once.
+    pub(crate) fn measured_rates(&self) -> Vec<Quantity> {
+        let mut found = Vec::new();
+        for rate in self
+            .sensors
+            .iter()
+            .filter_map(|sensor| sensor.measured.rate())
+        {
+            if !found.contains(&rate) {
+                found.push(rate);
+            }
+        }
+        found
+    }
+
     /// Number of requested rates of the displacement: velocity, acceleration.
     pub(crate) fn rates(&self) -> usize {
-        let own = || self.quantities.iter().filter_map(|one| one.rate());
+        let measured = self.measured_rates();
+        let own = || {
+            let all = self.quantities.iter().chain(&measured);
+            all.filter_map(|one| one.rate())
+        };
         let asked = |derivative: &Derivative| own().any(|(own, _)| own == *derivative);
         let rates = [Derivative::First, Derivative::Second];
         rates.iter().filter(|rate| asked(rate)).count()
@@ -142,6 +262,6 @@ impl Scene {
             .section
             .as_ref()
             .map_or(0, |s| s.points[0] * s.points[1]);
-        self.probes.len() + section
+        self.probes.len() + self.sensors.len() + section
     }
 }

@@ -5,8 +5,10 @@ use crate::cost::{Allowance, Forecast, busy};
 use crate::energy::EnergySeries;
 use crate::error::ImpactError;
 use crate::excitation::Excitation;
+use crate::face::plans;
 use crate::fields::faces;
 use crate::fields::probes::{SectionFields, at_probes, frames, on_rows};
+use crate::fields::sensors::at_sensors;
 use crate::grid::{Grid, Wanted};
 use crate::impact::Impact;
 use crate::kernels::KernelSource;
@@ -228,6 +230,7 @@ fn begin<'e>(
             ..Series::default()
         },
         probes: None,
+        sensors: Vec::new(),
         section: None,
         warnings,
     };
@@ -257,6 +260,16 @@ fn add_fields(
         let found = at_probes(&fields, &scene.target, &scene.probes)?;
         (outcome.warnings).extend(faces::of_probes(scene, &found, end_s));
         outcome.probes = Some(found);
+        method = fields.method();
+    }
+    if !scene.sensors.is_empty() {
+        let plans = plans(scene, grid, source.table_reach().is_none());
+        let asked = (&scene.measured_rates()[..], Some(&scene.target));
+        let fields = Convolution::new(&source, grid, &all, asked, &|| {})?;
+        let found = at_sensors(&fields, scene, (&plans, watch))?;
+        let warnings = faces::of_sensors(scene, &found, end_s);
+        outcome.warnings.extend(warnings);
+        outcome.sensors = found;
         method = fields.method();
     }
     if let Some(section) = &scene.section {

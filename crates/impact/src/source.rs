@@ -249,7 +249,14 @@ fn places(scene: &Scene) -> Vec<[f64; 2]> {
         let part = |most_m: f64, i: u32| most_m * f64::from(i) / 4.0;
         (0..25).map(move |i| [part(section.r_max_m, i / 5), part(section.z_max_m, i % 5)])
     });
-    probes.chain(section).collect()
+    let sensors = scene.sensors.iter().flat_map(|sensor| {
+        [
+            sensor.nearest_m(),
+            [sensor.r_m, sensor.z_m],
+            sensor.farthest_m(),
+        ]
+    });
+    probes.chain(section).chain(sensors).collect()
 }
 
 /// The smallest and the largest r and z of some places.

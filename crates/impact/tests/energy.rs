@@ -24,6 +24,7 @@ fn scene(load: Load, target: Material, settings: Settings) -> Scene {
         duration_s: None,
         probes: Vec::new(),
         section: None,
+        sensors: Vec::new(),
     }
 }
 

@@ -36,6 +36,7 @@ fn scene(record: ForceRecord, places: &[[f64; 2]], tolerance: f64) -> Scene {
         },
         probes: probes.collect(),
         section: None,
+        sensors: Vec::new(),
         quantities: Vec::new(),
         peaks: false,
         duration_s: None,

@@ -34,6 +34,7 @@ fn scene(target: HalfSpace, load: Load, places_m: &[[f64; 2]], duration_s: Optio
         duration_s,
         probes: places_m.iter().map(place).collect(),
         section: None,
+        sensors: Vec::new(),
     }
 }
 

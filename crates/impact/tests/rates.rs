@@ -18,6 +18,7 @@ fn scene(load: Load, disc_radius_m: Option<f64>, tolerance: f64) -> Scene {
         },
         probes: PLACES.map(|[r_m, z_m]| Probe { r_m, z_m }).to_vec(),
         section: None,
+        sensors: Vec::new(),
         quantities: vec![
             Quantity::VelocityR,
             Quantity::VelocityZ,

@@ -43,6 +43,7 @@ fn scene(record: ForceRecord, duration_s: Option<f64>) -> Scene {
         },
         probes: vec![probe(0.0, 0.004), probe(0.004, 0.004), probe(0.02, 0.0)],
         section: None,
+        sensors: Vec::new(),
         quantities: Vec::new(),
         peaks: false,
         duration_s,

@@ -80,6 +80,7 @@ pub fn answer(call: &str, text: &str, range: Range<usize>) -> Answer {
 fn impact(scene: &Scene) -> Result<Answer, ImpactError> {
     let scene = &Scene {
         section: None,
+        sensors: Vec::new(),
         ..scene.clone()
     };
     let outcome = simulate(scene, &KernelChoice::Direct)?;

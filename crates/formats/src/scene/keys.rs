@@ -6,7 +6,7 @@ use contact::{
     Choice, Echoes, Library, Material, Plasticity, Settings, Shape, Striker, choice,
     fall_velocity_m_s, nearest,
 };
-use impact::{ForceRecord, Load, Scene, Strike};
+use impact::{ForceRecord, Load, Scene, Sensor, Strike};
 use toml::{Table, Value};
 
 /// A range of numbers.
@@ -156,6 +156,10 @@ const KEYS: &[Key] = keys! {
     force.baseline_s: POSITIVE = |s, _| s.record()?.treated?.baseline_s?;
     probe.r_m: NOT_NEGATIVE ("the distance from the axis");
     probe.z_m: NOT_NEGATIVE ("the depth below the surface");
+    sensor.r_m: NOT_NEGATIVE ("the distance of the sensor's centre from the axis");
+    sensor.z_m: NOT_NEGATIVE ("the depth of the sensor: 0 on the surface");
+    sensor.face_radius_m: NOT_NEGATIVE;
+    sensor.quantity;
     map.r_max_m: POSITIVE ("the width of the section") = |s, _| s.section.as_ref()?.r_max_m;
     map.z_max_m: POSITIVE ("the depth of the section") = |s, _| s.section.as_ref()?.z_max_m;
     map.points = |s, _| s.section.as_ref()?.points.map(|n| n as i64).to_vec();
@@ -207,12 +211,13 @@ fn strength(material: &Material, of: fn(&Material) -> Option<f64>) -> Option<f64
 }
 
 /// The sections, in the order in which messages list them.
-pub(crate) const SECTIONS: [&str; 8] = [
+pub(crate) const SECTIONS: [&str; 9] = [
     "target",
     "striker",
     "contact",
     "force",
     "probe",
+    "sensor",
     "map",
     "output",
     "materials",
@@ -293,7 +298,22 @@ pub fn resolved_table(scene: &Scene) -> Table {
     if !scene.probes.is_empty() {
         root.insert("probe".into(), probes.collect::<Vec<_>>().into());
     }
+    if !scene.sensors.is_empty() {
+        let sensors = scene.sensors.iter().map(resolved_sensor);
+        root.insert("sensor".into(), sensors.collect::<Vec<_>>().into());
+    }
     root
+}
+
+/// A sensor of a resolved scene.
+fn resolved_sensor(sensor: &Sensor) -> Table {
+    let keys: [(&str, Value); 4] = [
+        ("r_m", sensor.r_m.into()),
+        ("z_m", sensor.z_m.into()),
+        ("face_radius_m", sensor.face_radius_m.into()),
+        ("quantity", sensor.measured.name().into()),
+    ];
+    Table::from_iter(keys.map(|(key, value)| (key.to_owned(), value)))
 }
 
 impl Set {

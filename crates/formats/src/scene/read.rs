@@ -7,7 +7,7 @@ use super::section::{TomlSection, as_number, parse, read_standard, read_text};
 use crate::error::SceneError;
 use contact::{Choice, Conflict, Echoes, HalfSpace, Library, Settings};
 use halfspace::Plate;
-use impact::{Load, Probe, Reading, Scene, Section, Strike};
+use impact::{Load, Probe, Reading, Scene, Section, Sensor, Strike};
 use lookup::schema::FIELD_NAMES;
 use output::{Role, is_standard};
 use std::path::Path;
@@ -87,7 +87,8 @@ pub(crate) fn scene_with(
     let settings = read_settings(&root)?;
     let load = read_load(&root, &settings, library, directory)?;
     let (probes, section) = (read_probes(&root)?, read_section(&root)?);
-    inside(&target, &probes, section.as_ref())?;
+    let sensors = read_sensors(&root)?;
+    inside(&target, (&probes, &sensors), section.as_ref())?;
     let output = root.section("output")?;
     let none = Table::new();
     let output = output.unwrap_or(TomlSection::of("output", &none));
@@ -98,6 +99,7 @@ pub(crate) fn scene_with(
         load,
         settings,
         probes,
+        sensors,
         section,
         duration_s: output.number("duration_s")?,
         quantities: output.choices("quantities")?,
@@ -326,12 +328,16 @@ fn read_source<'a>(force: &TomlSection<'a>) -> Result<RecordSource<'a>, SceneErr
 /// Rejects places outside the block.
 fn inside(
     block: &HalfSpace,
-    probes: &[Probe],
+    (probes, sensors): (&[Probe], &[Sensor]),
     section: Option<&Section>,
 ) -> Result<(), SceneError> {
     let probes = (1..).zip(probes).map(|(i, probe)| {
         let name = format!("probe[{i}]");
         (name, [("z_m", probe.z_m), ("r_m", probe.r_m)])
+    });
+    let sensors = (1..).zip(sensors).map(|(i, sensor)| {
+        let name = format!("sensor[{i}]");
+        (name, [("z_m", sensor.z_m), ("r_m", sensor.r_m)])
     });
     let corner = section.map(|section| {
         let corner = [("z_max_m", section.z_max_m), ("r_max_m", section.r_max_m)];
@@ -339,7 +345,7 @@ fn inside(
     });
     let (thickness, radius) = ("target.thickness_m", "target.radius_m");
     let limits = [(thickness, block.thickness_m), (radius, block.radius_m)];
-    for (name, place) in probes.chain(corner) {
+    for (name, place) in probes.chain(sensors).chain(corner) {
         for ((key, value), (limit_key, limit)) in place.into_iter().zip(limits) {
             if let Some(limit) = limit.filter(|&limit| value > limit) {
                 let key = format!("{name}.{key}");
@@ -362,6 +368,21 @@ fn read_probes(root: &TomlSection<'_>) -> Result<Vec<Probe>, SceneError> {
             })
         })
         .collect()
+}
+
+fn read_sensors(root: &TomlSection<'_>) -> Result<Vec<Sensor>, SceneError> {
+    let read = |(name, table): &(String, &Table)| {
+        let section = TomlSection::of(name, table);
+        section.allow_keys_of("sensor")?;
+        let measured = section.choice("quantity")?.unwrap_or_default();
+        Ok(Sensor {
+            r_m: section.needed("r_m")?,
+            z_m: section.needed("z_m")?,
+            face_radius_m: section.number("face_radius_m")?.unwrap_or(0.0),
+            measured,
+        })
+    };
+    root.list("sensor")?.iter().map(read).collect()
 }
 
 fn read_section(root: &TomlSection<'_>) -> Result<Option<Section>, SceneError> {

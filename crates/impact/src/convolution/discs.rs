@@ -19,6 +19,9 @@
 use halfspace::lagrange;
 use std::f64::consts::PI;
 
+/// A share of the force as a polynomial in the squared radius of the load over the largest.
+pub(crate) type Share = [f64; 3];
+
 /// Squares of some radii over that of the largest, with their polynomials.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Discs {
@@ -26,6 +29,8 @@ pub(crate) struct Discs {
     squares: Vec<f64>,
     /// Their roots.
     pub(crate) radii: Vec<f64>,
+    /// Shares of the force on each, where they are prescribed.
+    prescribed: Option<Vec<Share>>,
 }
 
 impl Discs {
@@ -54,7 +59,24 @@ impl Discs {
 
     fn of(squares: Vec<f64>) -> Self {
         let radii = squares.iter().map(|square| square.sqrt()).collect();
-        Self { squares, radii }
+        Self {
+            squares,
+            radii,
+            prescribed: None,
+        }
+    }
+
+    /// Discs of some radii over the largest of the load, each with a share of the force.
+    pub(crate) fn with_shares(radii: &[f64], shares: &[Share]) -> Self {
+        Self {
+            prescribed: Some(shares.to_vec()),
+            ..Self::of(radii.iter().map(|radius| radius * radius).collect())
+        }
+    }
+
+    /// Whether their shares of the force are prescribed, and stand for all of the load.
+    pub(crate) fn are_prescribed(&self) -> bool {
+        self.prescribed.is_some()
     }
 
     /// How many there are.
@@ -62,26 +84,48 @@ impl Discs {
         self.radii.len()
     }
 
-    /// The smallest radius over the largest.
-    pub(crate) fn smallest(&self) -> f64 {
-        self.radii.iter().copied().fold(1.0, f64::min)
+    /// How many functions of the squared radius the shares are made of: Newton's polynomials, or the powers of prescribed shares.
+    pub(crate) fn orders(&self) -> usize {
+        let Some(shares) = &self.prescribed else {
+            return self.count();
+        };
+        let power = |share: &Share| share.iter().rposition(|own| *own != 0.0).unwrap_or(0);
+        1 + shares.iter().map(power).max().unwrap_or(0)
     }
 
-    /// Newton's polynomial of degree `j` at a square; of degree [`Self::count`] it is that of the term left out.
+    /// The smallest radius over the largest.
+    pub(crate) fn smallest(&self) -> f64 {
+        self.radii.iter().copied().fold(f64::INFINITY, f64::min)
+    }
+
+    /// Newton's polynomial of degree `j` at a square; of degree [`Self::count`] it is that of the term left out. The power `j` for
+    /// prescribed shares.
     pub(crate) fn newton(&self, j: usize, square: f64) -> f64 {
+        if self.are_prescribed() {
+            return square.powi(j as i32);
+        }
         self.squares[..j].iter().map(|own| square - own).product()
     }
 
     /// The same with its slope.
     pub(crate) fn newton_with_slope(&self, j: usize, square: f64) -> [f64; 2] {
+        if self.are_prescribed() {
+            let slope = j
+                .checked_sub(1)
+                .map_or(0.0, |below| j as f64 * square.powi(below as i32));
+            return [square.powi(j as i32), slope];
+        }
         let times = |[value, slope]: [f64; 2], own: &f64| {
             [value * (square - own), slope * (square - own) + value]
         };
         self.squares[..j].iter().fold([1.0, 0.0], times)
     }
 
-    /// Weight of disc `k` in the divided difference of order `j`.
+    /// Weight of disc `k` in the divided difference of order `j`, or its coefficient in a prescribed share.
     pub(crate) fn weight(&self, j: usize, k: usize) -> f64 {
+        if let Some(shares) = &self.prescribed {
+            return shares[k][j];
+        }
         if k > j {
             return 0.0;
         }
@@ -93,6 +137,10 @@ impl Discs {
 
     /// Force on disc `k` over the load, for a load whose radius has this square.
     pub(crate) fn share(&self, k: usize, square: f64) -> f64 {
+        if self.are_prescribed() {
+            let terms = (0..self.orders()).map(|j| self.newton(j, square) * self.weight(j, k));
+            return terms.sum();
+        }
         lagrange(|i| self.squares[i], self.count(), k, square)
     }
 
@@ -137,6 +185,28 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn prescribed_shares_are_kept() {
+        let shares = [[-0.1, 0.2, 0.0], [0.3, -0.1, 0.05], [0.8, -0.1, -0.05]];
+        let discs = Discs::with_shares(&[4.0, 7.5, 9.0], &shares);
+        assert_eq!(discs.smallest(), 4.0);
+        assert_eq!(discs.orders(), 3);
+        for square in [0.0, 0.5, 1.0] {
+            for (k, [a, b, c]) in shares.into_iter().enumerate() {
+                let wanted = a + b * square + c * square * square;
+                assert!((discs.share(k, square) - wanted).abs() < 1e-12);
+            }
+            for j in 0..3 {
+                let [value, slope] = discs.newton_with_slope(j, square);
+                assert_eq!(value, discs.newton(j, square));
+                let beside = discs.newton(j, square + 1e-6);
+                assert!((beside - value - 1e-6 * slope).abs() < 1e-11);
+            }
+        }
+        let constant = shares.map(|[own, ..]| [own, 0.0, 0.0]);
+        assert_eq!(Discs::with_shares(&[4.0, 7.5, 9.0], &constant).orders(), 1);
     }
 
     #[test]

@@ -195,7 +195,7 @@ impl<'a> Forcing<'a> {
     pub(crate) fn on_disc(&self, discs: &Discs, k: usize, time_s: f64) -> f64 {
         let pressures = self.excitation.pressures(time_s);
         let terms =
-            (k..discs.count()).map(|j| discs.weight(j, k) * self.load(discs, j, &pressures));
+            (0..discs.orders()).map(|j| discs.weight(j, k) * self.load(discs, j, &pressures));
         terms.sum()
     }
 
@@ -218,7 +218,8 @@ impl<'a> Forcing<'a> {
         each.any(|load| load.convolver.transform.is_some())
     }
 
-    fn loads_of(&self, discs: &Discs) -> Loads {
+    /// The loads of other discs, which are not kept.
+    pub(crate) fn loads_of(&self, discs: &Discs) -> Loads {
         let mut found = Loads {
             runs: Vec::new(),
             half_variation: vec![tuning::AT_INSTANTS * self.half_jumps(); discs.count()],
@@ -230,7 +231,7 @@ impl<'a> Forcing<'a> {
                 .map(|load| &load.convolver.rises[..])
                 .collect();
             for (k, half_variation) in found.half_variation.iter_mut().enumerate() {
-                let weights = (0..discs.count()).map(|j| discs.weight(j, k));
+                let weights = (0..discs.orders()).map(|j| discs.weight(j, k));
                 let weights: Vec<f64> = weights.collect();
                 let rise = |n: usize| weights.iter().zip(&rises).map(|(w, own)| w * own[n]).sum();
                 let mut changes: Vec<f64> = (0..run.run.count).map(rise).collect();
@@ -260,7 +261,7 @@ impl<'a> Forcing<'a> {
             Reading::Rate => 0.0,
         };
         let least = tuning::NEGLIGIBLE_OF_ERROR * self.excitation.relative_error;
-        let each = (0..discs.count()).map(|j| {
+        let each = (0..discs.orders()).map(|j| {
             let base = base_n * discs.newton(j, 1.0);
             let time_s = |n: f64| run.start_s + n * self.step_s;
             let [samples, nodes] = if self.follows() {
@@ -283,7 +284,7 @@ impl<'a> Forcing<'a> {
             Sampled::new(base, &samples, &nodes, needed, least)
         });
         let each: Vec<Sampled> = each.collect();
-        let next = self.follows().then(|| self.next(sampled, discs));
+        let next = (self.follows() && !discs.are_prescribed()).then(|| self.next(sampled, discs));
         let (mut zones, mut sharp): (Vec<Zone>, Vec<SharpCell>) = Default::default();
         if self.excitation.record().is_none() {
             let spans_s = self.excitation.smooth_s();
@@ -301,7 +302,7 @@ impl<'a> Forcing<'a> {
             let cells = zones.iter().flat_map(|zone| zone.cells.clone());
             let of = |cell: usize| SharpCell {
                 cell,
-                rises: (0..discs.count())
+                rises: (0..discs.orders())
                     .map(|j| {
                         self.residual_rises(run, cell, each[j].projection.taken(cell), |t| {
                             self.load_at(discs, j, t)

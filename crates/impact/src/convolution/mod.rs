@@ -22,6 +22,7 @@ mod ends;
 mod exact;
 pub(crate) mod fronts;
 mod loads;
+pub(crate) mod mean;
 pub(crate) mod plan;
 #[cfg(test)]
 mod rate_tests;
@@ -196,6 +197,12 @@ impl<'a> Convolution<'a> {
         if let Some(echoes) = &self.echoes {
             self.add_echoes(echoes, place_m, &mut sums)?;
         }
+        (self.watch)();
+        Ok(self.with_quantities(&sums))
+    }
+
+    /// The fields and the quantities, of the outputs of each forcing.
+    fn with_quantities(&self, sums: &[[Trace; 6]]) -> Vec<Trace> {
         let mut found = sums[0].to_vec();
         found.extend(self.quantities.iter().map(|&quantity| {
             let Some((derivative, component)) = quantity.rate() else {
@@ -205,8 +212,7 @@ impl<'a> Convolution<'a> {
             let place = derivatives.position(|own| own == derivative);
             sums[place.unwrap_or(0)][component].clone()
         }));
-        (self.watch)();
-        Ok(found)
+        found
     }
 
     fn of_stresses(&self, quantity: Quantity, fields: &[Trace]) -> Trace {

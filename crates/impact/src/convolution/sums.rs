@@ -25,14 +25,16 @@ pub(crate) struct PointKernels<'a> {
     pub(crate) discs: &'a Discs,
     /// Of each disc, in kernel units.
     pub(crate) cells: Vec<Cells>,
-    /// Divided differences of them from the first order on, in SI units.
+    /// Divided differences of them, in SI units; that of order zero is the kernel of the first disc, and is left out, where shares are
+    /// not prescribed.
     differences: Vec<Difference>,
-    /// Units of each disc; the kernel of the first is the difference of order zero.
+    /// Units of each disc.
     units: Vec<Six>,
 }
 
 /// A divided difference of the kernels of discs in the squares of their radii, in SI units.
 struct Difference {
+    static_part: Six,
     smooth: Vec<Six>,
     moments: Moments,
 }
@@ -59,6 +61,7 @@ impl<'a> PointKernels<'a> {
             cells,
         };
         let of = |order: usize| Difference {
+            static_part: made.static_blend(order),
             smooth: made.blend(order, |own| &own.smooth),
             moments: Moments {
                 averages: made.blend(order, |own| &own.moments.averages),
@@ -66,15 +69,18 @@ impl<'a> PointKernels<'a> {
                 second: made.blend(order, |own| &own.moments.second),
             },
         };
-        made.differences = (1..discs.count()).map(of).collect();
+        made.differences = (made.left_out()..discs.orders()).map(of).collect();
         made
     }
 
     /// The divided difference of an order of some list of the kernels, in SI units.
     fn blend(&self, order: usize, list: fn(&Cells) -> &Vec<Six>) -> Vec<Six> {
         let mut sum = vec![Six::default(); list(&self.cells[0]).len()];
-        for (k, (cells, unit)) in self.cells[..=order].iter().zip(&self.units).enumerate() {
+        for (k, (cells, unit)) in self.cells.iter().zip(&self.units).enumerate() {
             let weight = self.discs.weight(order, k);
+            if weight == 0.0 {
+                continue;
+            }
             let unit = unit.map(|unit| weight * unit);
             for (sum, own) in sum.iter_mut().zip(list(cells)) {
                 for f in 0..6 {
@@ -85,9 +91,37 @@ impl<'a> PointKernels<'a> {
         sum
     }
 
+    /// Orders of differences that are the kernel of the first disc.
+    fn left_out(&self) -> usize {
+        usize::from(!self.discs.are_prescribed())
+    }
+
+    /// The divided difference of an order of the static parts, in SI units.
+    fn static_blend(&self, order: usize) -> Six {
+        let mut sum = Six::default();
+        for (k, (cells, unit)) in self.cells.iter().zip(&self.units).enumerate() {
+            let weight = self.discs.weight(order, k);
+            for f in 0..6 {
+                sum[f] += weight * unit[f] * cells.static_part[f];
+            }
+        }
+        sum
+    }
+
+    /// The static part of the difference of an order, in its unit.
+    fn static_part(&self, order: usize) -> Six {
+        match order.checked_sub(self.left_out()) {
+            Some(place) => self.differences[place].static_part,
+            None => self.cells[0].static_part,
+        }
+    }
+
     /// The difference of an order: cells for a smooth load, moments, and their unit.
     fn difference(&self, order: usize) -> (&[Six], &Moments, Six) {
-        match order.checked_sub(1).map(|place| &self.differences[place]) {
+        match order
+            .checked_sub(self.left_out())
+            .map(|place| &self.differences[place])
+        {
             Some(own) => (&own.smooth, &own.moments, [1.0; 6]),
             None => (&self.cells[0].smooth, &self.cells[0].moments, self.units[0]),
         }
@@ -183,7 +217,10 @@ impl Sums {
         sums.add_sharp(forcing, loads, kernels);
         sums.add_jumps(forcing, kernels);
         sums.add_errors(forcing, loads, kernels);
-        if let PressureRadius::Following { largest_m, .. } = forcing.excitation.radius() {
+        let radius = forcing.excitation.radius();
+        if let PressureRadius::Following { largest_m, .. } = radius
+            && !kernels.discs.are_prescribed()
+        {
             if kernels.discs.count() == 1 {
                 let [r_m, z_m] = kernels.image_m.unwrap_or(kernels.place_m);
                 let part = tuning::ONE_DISC * (largest_m / r_m.hypot(z_m)).powi(2);
@@ -202,10 +239,7 @@ impl Sums {
 
     fn add_cells(&mut self, forcing: &Forcing<'_>, loads: &Loads, kernels: &PointKernels<'_>) {
         // the static part of a pressure that follows the load is that of its instant
-        let fixed = match forcing.follows() {
-            false => kernels.cells[0].static_part,
-            true => Six::default(),
-        };
+        let is_of_instant = forcing.follows() && !kernels.discs.are_prescribed();
         let count = components(forcing);
         let mut first = 0;
         for (run, sampled) in loads.runs.iter().zip(&forcing.runs) {
@@ -218,6 +252,10 @@ impl Sums {
             };
             for (order, load) in run.each.iter().enumerate() {
                 let (smooth, moments, unit) = kernels.difference(order);
+                let fixed = match is_of_instant {
+                    true => Six::default(),
+                    false => kernels.static_part(order),
+                };
                 let mut found = load.convolver.fields(&fixed, smooth);
                 load.projection.add(moments, &sampled.needed, &mut found);
                 add(&mut self.values, found, unit);
@@ -236,7 +274,7 @@ impl Sums {
         if loads.runs.iter().all(|run| run.sharp.is_empty()) {
             return;
         }
-        let orders = 0..kernels.discs.count();
+        let orders = 0..kernels.discs.orders();
         let of = |order: usize| SharpKernel::new(kernels, order, forcing.parts);
         let orders: Vec<SharpKernel> = orders.map(of).collect();
         let mut first = 0;
@@ -262,8 +300,10 @@ impl Sums {
 
     /// Adds the response to each jump of the force, a step, at the instants after it; at an arrival it is that after it.
     fn add_jumps(&mut self, forcing: &Forcing<'_>, kernels: &PointKernels<'_>) {
-        let (excitation, cells) = (forcing.excitation, &kernels.cells[0]);
-        let (unit, unit_s) = (kernels.units[0], excitation.units().time_s());
+        let excitation = forcing.excitation;
+        let shares: Vec<f64> = (0..kernels.cells.len())
+            .map(|k| kernels.discs.share(k, 1.0))
+            .collect();
         for jump in excitation.jumps() {
             for (i, &time_s) in forcing.times_s.iter().enumerate() {
                 if !jump.is_past(time_s) {
@@ -271,9 +311,17 @@ impl Sums {
                 }
                 // at the jump itself after it
                 let since_s = (rounded_up(time_s) - jump.time_s).max(f64::MIN_POSITIVE);
-                let response = cells.step_response(since_s / unit_s, forcing.step_s / unit_s);
-                for f in 0..components(forcing) {
-                    self.values[f][i] += jump.rise_n * unit[f] * response[f];
+                for (k, (cells, share)) in kernels.cells.iter().zip(&shares).enumerate() {
+                    let unit_s = kernels.discs.radii[k] * excitation.units().time_s();
+                    let response = cells.step_response(since_s / unit_s, forcing.step_s / unit_s);
+                    let rise_n = share * jump.rise_n;
+                    let values = self
+                        .values
+                        .iter_mut()
+                        .zip(kernels.units[k].iter().zip(response));
+                    for (values, (unit, response)) in values.take(components(forcing)) {
+                        values[i] += rise_n * unit * response;
+                    }
                 }
             }
         }

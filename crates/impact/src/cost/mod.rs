@@ -5,7 +5,7 @@
 
 mod roads;
 
-pub use roads::Road;
+pub use roads::{Place, Road};
 
 use crate::error::ImpactError;
 use crate::grid::Grid;
@@ -148,7 +148,8 @@ impl Forecast {
     fn of(scene: &Scene, samples: f64, threads: f64) -> Self {
         let more = scene.quantities.len() as f64;
         let of_probe = samples * (PROBE_SAMPLE + more * QUANTITY_SAMPLE) + POINT;
-        let probes = scene.probes.len() as f64 * of_probe;
+        // a sensor's mean and output are stored, its fields only while they are averaged
+        let probes = (scene.probes.len() + scene.sensors.len()) as f64 * of_probe;
         let (mut section, mut kept) = (0.0, 0.0);
         if let Some(Section { points, frames, .. }) = &scene.section {
             let [r, z] = points.map(|n| n as f64);
@@ -179,7 +180,12 @@ impl Forecast {
             seconds: 0.0,
             memory_bytes: samples * (SAMPLE + cells) + probes + section + record,
             roads: Vec::new(),
-            disk_bytes: 8.0 * samples * (10.0 + (6.0 + more) * scene.probes.len() as f64) + kept,
+            disk_bytes: 8.0
+                * samples
+                * (10.0
+                    + (6.0 + more) * scene.probes.len() as f64
+                    + 3.0 * scene.sensors.len() as f64)
+                + kept,
         }
     }
 

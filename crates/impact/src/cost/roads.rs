@@ -5,6 +5,7 @@
 use crate::convolution::echoes::image_m;
 use crate::convolution::plan::{PointPlan, Sets};
 use crate::excitation::PressureRadius;
+use crate::face::{MeanPlan, plans};
 use crate::grid::Grid;
 use crate::quantity::Derivative;
 use crate::sampled::convolve::{direct_ns, transform_ns};
@@ -39,15 +40,31 @@ const OF_SPEEDS: f64 = 0.25;
 /// instants whose number grows with that of the fronts.
 const ECHOES_S: f64 = 8e-5;
 
+/// Kernels of the mean over a face over those of a point: so many circles between fronts, on more segments.
+const KERNELS_OF_MEAN: f64 = 100.0;
+
 /// Points of a section whose plans are made for a forecast, at most.
 const MOST_PLANS: usize = 4096;
 
-/// How the fields of a probe, or of the points of the section, are computed: known before any kernel is.
+/// What a road belongs to; probes and sensors are numbered from 0.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Place {
+    /// A probe.
+    Probe(usize),
+    /// A sensor, whose face is a point or a sum over circles.
+    Sensor(usize),
+    /// A sensor with the mean of the kernels themselves.
+    MeanOfKernels(usize),
+    /// All points of the section.
+    Section,
+}
+
+/// How the fields of a probe, of a sensor or of the points of the section are computed: known before any kernel is.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Road {
-    /// Number of the probe from 0; none for the section.
-    pub probe: Option<usize>,
-    /// How many points there are.
+    /// The point of it.
+    pub place: Place,
+    /// How many points there are, as circles of a sensor's face.
     pub points: usize,
     /// Discs of fixed radii that stand for the load, at most.
     pub discs: usize,
@@ -61,10 +78,20 @@ pub struct Road {
     pub seconds: f64,
 }
 
-/// Places of a scene, each with the number of its probe or none in the section, and how many points it stands for.
-fn planned(scene: &Scene) -> Vec<([f64; 2], Option<usize>, f64)> {
+/// Places of a scene, and how many points each stands for.
+fn planned(scene: &Scene, faces: &[MeanPlan]) -> Vec<([f64; 2], Place, f64)> {
     let probes = scene.probes.iter().enumerate();
-    let probes = probes.map(|(i, probe)| ([probe.r_m, probe.z_m], Some(i), 1.0));
+    let probes = probes.map(|(i, probe)| ([probe.r_m, probe.z_m], Place::Probe(i), 1.0));
+    let sensors = scene.sensors.iter().zip(faces).enumerate();
+    let sensors = sensors.map(|(i, (sensor, plan))| {
+        let (place, points) = match plan {
+            // discs have about as many kernels as a point
+            MeanPlan::Point | MeanPlan::Discs(_) => (Place::Sensor(i), 1),
+            MeanPlan::Circles(count, _) => (Place::Sensor(i), *count),
+            MeanPlan::Exact => (Place::MeanOfKernels(i), 1),
+        };
+        ([sensor.r_m, sensor.z_m], place, points as f64)
+    });
     let section = scene.section.iter().flat_map(|section| {
         let Section {
             r_max_m,
@@ -86,9 +113,9 @@ fn planned(scene: &Scene) -> Vec<([f64; 2], Option<usize>, f64)> {
         let places = r_m
             .into_iter()
             .flat_map(move |r| z_m.clone().into_iter().map(move |z| [r, z]));
-        places.map(move |place_m| (place_m, None, each))
+        places.map(move |place_m| (place_m, Place::Section, each))
     });
-    probes.chain(section).collect()
+    probes.chain(sensors).chain(section).collect()
 }
 
 /// Samples of the output, at probes and on the section.
@@ -179,8 +206,9 @@ pub(crate) fn roads(scene: &Scene, grid: &Grid<'_>, reach: Option<[f64; 2]>) -> 
         .powf(OF_SPEEDS);
     let plate = EchoCost::of(scene, grid);
     let mut roads: Vec<Road> = Vec::new();
-    for (place_m, probe, points) in planned(scene) {
-        let kind = usize::from(probe.is_none());
+    let faces = plans(scene, grid, reach.is_none());
+    for (place_m, place, points) in planned(scene, &faces) {
+        let kind = usize::from(place == Place::Section);
         let (times_s, count) = (&asked.times_s[kind][..], asked.counts[kind]);
         let forcings: Vec<_> = derivatives(scene).map(|one| (one, times_s)).collect();
         let plan = PointPlan::new(&sets, (excitation, tolerance), &forcings, place_m);
@@ -206,12 +234,16 @@ pub(crate) fn roads(scene: &Scene, grid: &Grid<'_>, reach: Option<[f64; 2]>) -> 
         let of_echoes = |plate: &EchoCost| plate.seconds(place_m, radius_m, (&sets, samples));
         let echoes_s = plate.as_ref().map_or(0.0, of_echoes);
         let fields_s = discs as f64 * kernels_s + forcings.len() as f64 * sums_s + past_s;
-        let seconds = fields_s + echoes_s;
+        let harder = match place {
+            Place::MeanOfKernels(_) => KERNELS_OF_MEAN,
+            Place::Probe(_) | Place::Sensor(_) | Place::Section => 1.0,
+        };
+        let seconds = harder * fields_s + echoes_s;
         let integrated = plan.integrated.iter().map(Vec::len).sum::<usize>() as f64;
         let (looked_up, samples) = (reach.is_some(), forcings.len() * count as usize);
         match roads
             .last_mut()
-            .filter(|last| last.probe.is_none() && probe.is_none())
+            .filter(|last| last.place == Place::Section && place == Place::Section)
         {
             Some(last) => {
                 last.discs = last.discs.max(discs);
@@ -219,8 +251,8 @@ pub(crate) fn roads(scene: &Scene, grid: &Grid<'_>, reach: Option<[f64; 2]>) -> 
                 last.seconds += points * seconds;
             }
             None => roads.push(Road {
-                probe,
-                points: 1,
+                place,
+                points: points as usize,
                 discs,
                 looked_up,
                 samples,
@@ -230,6 +262,7 @@ pub(crate) fn roads(scene: &Scene, grid: &Grid<'_>, reach: Option<[f64; 2]>) -> 
         }
     }
     if let (Some(last), Some(section)) = (roads.last_mut(), &scene.section) {
+        // the section comes last
         last.points = section.points[0] * section.points[1];
     }
     roads
@@ -239,7 +272,9 @@ pub(crate) fn roads(scene: &Scene, grid: &Grid<'_>, reach: Option<[f64; 2]>) -> 
 fn derivatives(scene: &Scene) -> impl Iterator<Item = Derivative> {
     let rates = [Derivative::First, Derivative::Second];
     let mut own: Vec<Derivative> = vec![Derivative::Field];
-    let asked = scene.quantities.iter().filter_map(|one| one.rate());
+    let measured = scene.measured_rates();
+    let asked = scene.quantities.iter().chain(&measured);
+    let asked = asked.filter_map(|one| one.rate());
     let asked: Vec<Derivative> = asked.map(|(derivative, _)| derivative).collect();
     own.extend(rates.into_iter().filter(|rate| asked.contains(rate)));
     own.into_iter()

@@ -2,7 +2,8 @@
 
 use crate::convolution::Convolution;
 use crate::fields::probes::ProbeFields;
-use crate::scene::{Scene, Section};
+use crate::fields::sensors::SensorHistory;
+use crate::scene::{Probe, Scene, Section, Sensor};
 use contact::HalfSpace;
 
 /// The other face of the block that a place is on, by the keys that say so.
@@ -51,51 +52,85 @@ fn instead(block: &HalfSpace) -> String {
     }
 }
 
-/// Of probes in an output that ends at a time in s.
-pub(crate) fn of_probes(scene: &Scene, fields: &ProbeFields, end_s: f64) -> Vec<String> {
-    let (mut found, count) = (Vec::new(), scene.probes.len());
-    let faces: Vec<Option<Face>> = (scene.probes.iter())
-        .map(|probe| face(&scene.target, [("r_m", probe.r_m), ("z_m", probe.z_m)]))
-        .collect();
-    let on: Vec<(usize, &Face)> = (1..)
-        .zip(&faces)
-        .filter_map(|(i, face)| Some((i, face.as_ref()?)))
-        .collect();
-    if let Some((first, face)) = on.first() {
-        let who = match on.len() {
-            1 => format!("probe {first} is"),
-            several => format!("{several} of {count} probes, the first probe {first}, are"),
-        };
-        found.push(doubled(&who, face));
-    }
-    found.extend(unreached(scene, fields, end_s));
-    let inside = (1..).zip(fields.valid_until_s.iter().zip(&faces));
-    let inside = inside.filter(|(_, (valid_s, face))| face.is_none() && **valid_s < end_s);
-    let echoing: Vec<(usize, f64)> = inside.map(|(i, (&valid_s, _))| (i, valid_s)).collect();
-    if let Some((first, first_s)) = echoing.iter().min_by(|a, b| a.1.total_cmp(&b.1)) {
-        found.push(format!(
-            "echoes from the faces of the block reach {} of {count} probes before the output ends at {end_s:.4e} s, first probe {first} at {first_s:.4e} s: {}",
-            echoing.len(),
-            instead(&scene.target),
-        ));
-    }
-    found
+/// Points of one kind that warnings are about.
+struct Points {
+    /// "probe" or "sensor".
+    kind: &'static str,
+    /// Their distances from the axis and depths in m, by the keys that set them.
+    places: Vec<[(&'static str, f64); 2]>,
+    arrival_s: Vec<[f64; 3]>,
+    valid_until_s: Vec<f64>,
 }
 
-/// A warning of probes so far out on a plate that its echoes end before a wave arrives: elsewhere the output waits for it.
-fn unreached(scene: &Scene, fields: &ProbeFields, end_s: f64) -> Option<String> {
-    scene.target.echoing()?;
-    let arrivals = (1..).zip(&fields.arrival_s);
-    let late: Vec<usize> = arrivals
-        .filter(|(_, [p_s, ..])| *p_s > end_s)
-        .map(|(i, _)| i)
-        .collect();
-    let first = late.first()?;
-    Some(format!(
-        "no wave reaches {} of {} probes, first probe {first}, before the output ends at {end_s:.4e} s: set a longer output.duration_s, as far as the echoes of the plate can be computed",
-        late.len(),
-        fields.arrival_s.len(),
-    ))
+/// Of probes in an output that ends at a time in s.
+pub(crate) fn of_probes(scene: &Scene, fields: &ProbeFields, end_s: f64) -> Vec<String> {
+    let place = |probe: &Probe| [("r_m", probe.r_m), ("z_m", probe.z_m)];
+    let points = Points {
+        kind: "probe",
+        places: scene.probes.iter().map(place).collect(),
+        arrival_s: fields.arrival_s.clone(),
+        valid_until_s: fields.valid_until_s.clone(),
+    };
+    points.warnings(scene, end_s)
+}
+
+/// Of sensors.
+pub(crate) fn of_sensors(scene: &Scene, histories: &[SensorHistory], end_s: f64) -> Vec<String> {
+    let place = |sensor: &Sensor| [("r_m", sensor.farthest_m()[0]), ("z_m", sensor.z_m)];
+    let points = Points {
+        kind: "sensor",
+        places: scene.sensors.iter().map(place).collect(),
+        arrival_s: histories.iter().map(|own| own.arrival_s).collect(),
+        valid_until_s: histories.iter().map(|own| own.valid_until_s).collect(),
+    };
+    points.warnings(scene, end_s)
+}
+
+impl Points {
+    fn warnings(&self, scene: &Scene, end_s: f64) -> Vec<String> {
+        let (mut found, kind, count) = (Vec::new(), self.kind, self.places.len());
+        let faces = self.places.iter().map(|place| face(&scene.target, *place));
+        let faces: Vec<Option<Face>> = faces.collect();
+        let on: Vec<(usize, &Face)> = (1..)
+            .zip(&faces)
+            .filter_map(|(i, face)| Some((i, face.as_ref()?)))
+            .collect();
+        if let Some((first, face)) = on.first() {
+            let who = match on.len() {
+                1 => format!("{kind} {first} is"),
+                several => format!("{several} of {count} {kind}s, the first {kind} {first}, are"),
+            };
+            found.push(doubled(&who, face));
+        }
+        found.extend(self.unreached(scene, end_s));
+        let inside = (1..).zip(self.valid_until_s.iter().zip(&faces));
+        let inside = inside.filter(|(_, (valid_s, face))| face.is_none() && **valid_s < end_s);
+        let echoing: Vec<(usize, f64)> = inside.map(|(i, (&valid_s, _))| (i, valid_s)).collect();
+        if let Some((first, first_s)) = echoing.iter().min_by(|a, b| a.1.total_cmp(&b.1)) {
+            found.push(format!(
+                "echoes from the faces of the block reach {} of {count} {kind}s before the output ends at {end_s:.4e} s, first {kind} {first} at {first_s:.4e} s: {}",
+                echoing.len(),
+                instead(&scene.target),
+            ));
+        }
+        found
+    }
+
+    /// A warning of places so far out on a plate that its echoes end before a wave arrives: elsewhere the output waits for it.
+    fn unreached(&self, scene: &Scene, end_s: f64) -> Option<String> {
+        scene.target.echoing()?;
+        let arrivals = (1..).zip(&self.arrival_s);
+        let late: Vec<usize> = arrivals
+            .filter(|(_, [p_s, ..])| *p_s > end_s)
+            .map(|(i, _)| i)
+            .collect();
+        let (kind, first) = (self.kind, late.first()?);
+        Some(format!(
+            "no wave reaches {} of {} {kind}s, first {kind} {first}, before the output ends at {end_s:.4e} s: set a longer output.duration_s, as far as the echoes of the plate can be computed",
+            late.len(),
+            self.places.len(),
+        ))
+    }
 }
 
 /// Of a section in an output that ends at a time in s.

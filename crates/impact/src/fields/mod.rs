@@ -5,6 +5,7 @@
 
 pub(crate) mod faces;
 pub(crate) mod probes;
+pub(crate) mod sensors;
 
 use crate::convolution::{Convolution, Past, Trace};
 use crate::error::ImpactError;

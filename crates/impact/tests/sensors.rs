@@ -1,0 +1,230 @@
+//! Sensors: means over faces against finer sums, against points, and against the closed form of a point force.
+
+#![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
+
+use contact::{Choice, HalfSpace, Material, Settings, Striker};
+use halfspace::{Arc, Face, random};
+use impact::{
+    FaceMean, ForceRecord, KernelChoice, Load, Measured, Outcome, Probe, Quantity, Scene, Sensor,
+    Strike, simulate,
+};
+use std::f64::consts::PI;
+
+fn block(poisson_ratio: f64) -> HalfSpace {
+    HalfSpace::new(Material::elastic(70e9, poisson_ratio, 2700.0).unwrap()).unwrap()
+}
+
+fn ball(diameter_m: f64, velocity_m_s: f64) -> Load {
+    let steel = Material::elastic(209e9, 0.3, 7800.0).unwrap();
+    let mass_kg = 7800.0 * PI / 6.0 * diameter_m.powi(3);
+    Load::Strike(Strike {
+        striker: Striker::new(steel, mass_kg, 0.5 * diameter_m).unwrap(),
+        velocity_m_s,
+    })
+}
+
+fn scene(target: HalfSpace, load: Load, tolerance: f64) -> Scene {
+    Scene {
+        target,
+        load,
+        settings: Settings {
+            tolerance,
+            ..Settings::default()
+        },
+        quantities: vec![Quantity::VelocityZ, Quantity::VelocityR],
+        peaks: false,
+        duration_s: None,
+        probes: vec![],
+        sensors: vec![],
+        section: None,
+    }
+}
+
+fn sensor(r_m: f64, z_m: f64, face_radius_m: f64, measured: Measured) -> Sensor {
+    Sensor {
+        r_m,
+        z_m,
+        face_radius_m,
+        measured,
+    }
+}
+
+fn run(scene: &Scene) -> Outcome {
+    simulate(scene, &KernelChoice::Direct).unwrap()
+}
+
+/// A face of no size measures what a probe does.
+#[test]
+fn a_point_sensor_is_a_probe() {
+    let mut asked = scene(block(0.25), ball(5e-3, 1.0), 1e-3);
+    let (r_m, z_m) = (0.02, 0.004);
+    asked.probes = vec![Probe { r_m, z_m }];
+    asked.sensors = [
+        Measured::DisplacementZ,
+        Measured::StressZz,
+        Measured::VelocityR,
+    ]
+    .map(|measured| sensor(r_m, z_m, 0.0, measured))
+    .to_vec();
+    let found = run(&asked);
+    let probes = found.probes.unwrap();
+    for (sensor, quantity) in found.sensors.iter().zip([1, 4, 7]) {
+        assert_eq!(sensor.mean.samples, probes.values[quantity][0]);
+        assert_eq!(sensor.mean.error, probes.errors[quantity][0]);
+        assert_eq!(
+            (sensor.face, &sensor.output),
+            (FaceMean::Point, &sensor.mean.samples)
+        );
+        assert_eq!(sensor.arrival_s, probes.arrival_s[0]);
+        let first = sensor.output_error.iter().position(|e| *e > 0.0).unwrap();
+        assert!(found.series.time_s[first] >= sensor.arrival_s[0]);
+    }
+}
+
+/// `tests/reference/face.py`, through a scene: a record of 20,000 rows on a disc of 1e-6 r. Its lines between rows cost 1e-8.
+#[test]
+fn means_are_those_of_a_closed_form() {
+    const ROWS: usize = 20_000;
+    let rows = include_str!("../../../tests/golden/face.csv").lines();
+    let rows = rows
+        .skip(1)
+        .map(|row| row.split(',').map(|x| x.parse().unwrap()));
+    let rows: Vec<Vec<f64>> = rows.map(Iterator::collect).collect();
+    let r_m = 0.05;
+    for case in rows.chunk_by(|one, other| one[..2] == other[..2]).take(2) {
+        let target = block(0.25);
+        let shear_pa = 70e9 / 2.5;
+        let unit_s = r_m / (shear_pa / target.density_kg_m3()).sqrt();
+        let length_s = case[0][1] * unit_s;
+        let part = |i: usize| i as f64 / ROWS as f64;
+        let time_s: Vec<f64> = (0..=ROWS).map(|i| length_s * part(i)).collect();
+        let force_n = (0..=ROWS).map(|i| (PI * part(i)).sin().max(0.0).powf(1.5));
+        let record = ForceRecord::new(time_s, force_n.collect()).unwrap();
+        let mut asked = scene(target, Load::Record(record), 1e-8);
+        asked.quantities.clear();
+        asked.settings.disc_radius_m = Some(1e-6 * r_m);
+        asked.settings.step_s = Some(length_s / 2000.0);
+        asked.duration_s = Some(case.last().unwrap()[2] * unit_s);
+        asked.sensors = vec![sensor(r_m, 0.0, case[0][0] * r_m, Measured::DisplacementZ)];
+        let found = run(&asked);
+        let (times_s, history) = (&found.series.time_s, &found.sensors[0]);
+        let peak = case.iter().map(|row| row[3].abs()).fold(0.0, f64::max);
+        let mut most = 0.0_f64;
+        for row in case {
+            let samples = &history.mean.samples;
+            let after = times_s.partition_point(|t| *t < row[2] * unit_s);
+            let first = after.saturating_sub(3).min(times_s.len() - 6);
+            // of the fifth degree between samples
+            let at = |k: usize| times_s[first + k];
+            let value: f64 = (0..6)
+                .map(|k| {
+                    let others = (0..6).filter(|i| *i != k);
+                    let factors = others.map(|i| (row[2] * unit_s - at(i)) / (at(k) - at(i)));
+                    samples[first + k] * factors.product::<f64>()
+                })
+                .sum();
+            most = most.max((value * shear_pa * r_m - row[3]).abs() / peak);
+        }
+        let estimate = history.mean.error * shear_pa * r_m / peak;
+        println!(
+            "face {} r: {most:.1e}, estimate {estimate:.1e}, {:?}",
+            case[0][0], history.face
+        );
+        assert!(most < 2e-8, "{most:e}");
+    }
+}
+
+/// Faces of random sizes at random places, beside and below the load, under contacts and records, against sums over 64 to 160 circles
+/// that are ten times more accurate.
+#[test]
+fn means_over_faces_are_within_their_estimates() {
+    let mut random = random::Stream::new(7);
+    let (mut above, mut all, mut ratios) = (0, 0, Vec::new());
+    for round in 0..15 {
+        let mut uniform = |from: f64, to: f64| from + (to - from) * random.next();
+        let load = match round % 3 {
+            0 | 1 => ball(uniform(1e-3, 8e-3), uniform(0.1, 3.0)),
+            _ => {
+                let length_s = uniform(2e-6, 2e-5);
+                let time_s: Vec<f64> = (0..=200).map(|i| length_s * f64::from(i) / 200.0).collect();
+                let force = time_s
+                    .iter()
+                    .map(|t| (PI * t / length_s).sin().max(0.0).powf(1.5));
+                Load::Record(ForceRecord::new(time_s.clone(), force.collect()).unwrap())
+            }
+        };
+        let mut asked = scene(
+            block(uniform(0.1, 0.4)),
+            load,
+            if round % 2 == 0 { 1e-3 } else { 1e-4 },
+        );
+        if asked.record().is_some() {
+            asked.settings.disc_radius_m = Some(uniform(1e-4, 1e-3));
+        }
+        let face_m = uniform(5e-4, 4e-3);
+        let z_m = if round % 4 < 2 {
+            0.0
+        } else {
+            uniform(0.005, 0.02)
+        };
+        let r_m = if z_m > 0.0 && round % 8 == 2 && round % 5 != 1 && round % 5 != 3 {
+            0.0
+        } else {
+            face_m + uniform(0.002, 0.03)
+        };
+        let measured = Measured::ALL[round % 5];
+        asked.sensors = vec![sensor(r_m, z_m, face_m, measured)];
+        asked.settings.step_s = Some(2e-7);
+        asked.quantities.clear();
+        asked.duration_s = Some(4e-5);
+        let found = run(&asked);
+        let history = &found.sensors[0];
+        // the same by probes
+        let face = Face::new(r_m, face_m).unwrap();
+        // velocities just behind a Rayleigh wave are as narrow as the contact
+        let arcs = face.arcs(if r_m < 1.5 * face_m { 60 } else { 160 });
+        let mut fine = asked.clone();
+        (fine.settings.tolerance, fine.sensors) = (0.1 * asked.settings.tolerance, vec![]);
+        fine.quantities = Quantity::named(measured.name()).into_iter().collect();
+        fine.probes = arcs.iter().map(|arc| Probe { r_m: arc.r, z_m }).collect();
+        let fine = run(&fine);
+        assert_eq!(fine.series.time_s, found.series.time_s);
+        let probes = fine.probes.unwrap();
+        let quantity = match measured {
+            Measured::DisplacementR => 0,
+            Measured::DisplacementZ => 1,
+            Measured::StressZz => 4,
+            _ => 6,
+        };
+        let weight = |arc: &Arc| match measured {
+            Measured::DisplacementR | Measured::VelocityR | Measured::AccelerationR => arc.odd,
+            _ => arc.even,
+        };
+        let of = |i: usize| -> f64 {
+            let rows = arcs.iter().zip(&probes.values[quantity]);
+            rows.map(|(arc, row)| weight(arc) * row[i]).sum()
+        };
+        let apart = (0..found.series.time_s.len()).map(|i| (of(i) - history.mean.samples[i]).abs());
+        let apart = apart.fold(0.0, f64::max);
+        let own: f64 = probes.errors[quantity].iter().fold(0.0, |a, b| a.max(*b));
+        let peak = history.mean.peak().abs();
+        println!(
+            "{:?} r {r_m:.4} z {z_m:.4} face {face_m:.4} {measured:?}: {:?}, error {:.1e}, estimate {:.1e}, of the finer {:.1e}",
+            round,
+            history.face,
+            apart / peak,
+            history.mean.error / peak,
+            own / peak
+        );
+        all += 1;
+        above += usize::from(apart > history.mean.error);
+        ratios.push(history.mean.error / apart);
+    }
+    ratios.sort_by(f64::total_cmp);
+    println!(
+        "{above} of {all} above their estimates, in the median {:.0} times the error",
+        ratios[all / 2]
+    );
+    assert!(above == 0, "{above}");
+    assert!(ratios[all / 2] < 100.0, "{}", ratios[all / 2]);
+}
