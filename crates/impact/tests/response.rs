@@ -138,7 +138,12 @@ fn pulses_agree_with_the_differential_equation() {
                 error < allowed * peak,
                 "{instrument} {corner_hz} {steps}: {error:e}"
             );
-            assert!(largest(&found.error) < 100.0 * error.max(1e-10), "{steps}");
+            println!(
+                "{instrument} {corner_hz} Hz, {steps} steps: error {error:.1e} of {peak:.2}, estimate {:.1e}",
+                largest(&found.error)
+            );
+            // fifth order: 2.5 * 2^5 and 0.8 * 3^5
+            assert!(largest(&found.error) < 250.0 * error.max(1e-10));
         }
     }
 }
