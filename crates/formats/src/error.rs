@@ -3,6 +3,7 @@
 use contact::{UnknownMaterial, nearest};
 use fault::{Class, Culprit, Fault, number};
 use impact::TreatmentError;
+use impact::response::ResponseError;
 use std::borrow::Cow;
 use std::path::Path;
 use thiserror::Error;
@@ -196,6 +197,19 @@ impl From<TreatmentError> for SceneError {
         let key = format!("force.{}", error.key);
         let mut found = Self::of_number(key, error.value, format!("force.{error}"));
         (found.0.of_numbers, found.0.culprit.limits) = (false, Some(error.limits));
+        found
+    }
+}
+
+/// A response that is impossible.
+impl From<ResponseError> for SceneError {
+    fn from(error: ResponseError) -> Self {
+        let mut found = Self::told(error.to_string());
+        let culprit = error.culprit();
+        let owned = |text: Cow<'_, str>| Cow::Owned(text.into_owned());
+        found.0.culprit.key = culprit.key.map(owned);
+        found.0.culprit.range = culprit.range.map(owned);
+        (found.0.culprit.number, found.0.culprit.limits) = (culprit.number, culprit.limits);
         found
     }
 }
