@@ -204,12 +204,8 @@ impl From<TreatmentError> for SceneError {
 /// A response that is impossible.
 impl From<ResponseError> for SceneError {
     fn from(error: ResponseError) -> Self {
-        let mut found = Self::told(error.to_string());
-        let culprit = error.culprit();
-        let owned = |text: Cow<'_, str>| Cow::Owned(text.into_owned());
-        found.0.culprit.key = culprit.key.map(owned);
-        found.0.culprit.range = culprit.range.map(owned);
-        (found.0.culprit.number, found.0.culprit.limits) = (culprit.number, culprit.limits);
+        let mut found = Self::of(error.to_string(), error.key);
+        found.0.culprit.number = error.value;
         found
     }
 }

@@ -142,7 +142,7 @@ fn pulses_agree_with_the_differential_equation() {
                 "{instrument} {corner_hz} Hz, {steps} steps: error {error:.1e} of {peak:.2}, estimate {:.1e}",
                 largest(&found.error)
             );
-            assert!(largest(&found.error) < 40.0 * allowed * peak);
+            assert!(largest(&found.error) < 100.0 * allowed * peak);
         }
     }
 }

@@ -153,6 +153,9 @@ enum Column {
     PhaseRad(f64),
 }
 
+/// Places in a row of the columns of frequency, amplitude and phase.
+type Places = [Option<(usize, Column)>; 3];
+
 /// The header of a table.
 const HEADER: &str = "frequency_hz,amplitude,phase_deg";
 
@@ -187,7 +190,7 @@ fn column(name: &str) -> Result<Option<Column>, String> {
 }
 
 /// The columns of frequency, amplitude and phase by their place in a header; none if the line is no header.
-fn header(line: &str) -> Result<Option<[Option<(usize, Column)>; 3]>, String> {
+fn header(line: &str) -> Result<Option<Places>, String> {
     let mut found = [None; 3];
     for (place, name) in columns(line, separator(line)).into_iter().enumerate() {
         let Some(column) = column(name)? else {

@@ -26,7 +26,7 @@ pub use poles::PolesZeros;
 pub use spectrum::{Fir, band_pass};
 pub use table::{MOST_ROWS, Tabulated};
 
-use fault::{Class, Culprit, Fault, number, rounded};
+use fault::{Class, Culprit, Fault, number};
 use num_complex::Complex64;
 use thiserror::Error;
 
@@ -54,148 +54,32 @@ pub struct Output {
 
 /// A response that is impossible, or a history that it does not fit.
 #[derive(Debug, Clone, PartialEq, Error)]
-#[non_exhaustive]
-pub enum ResponseError {
-    /// A pole that grows.
-    #[error(
-        "response.poles contains {pole}, whose real part is outside (-inf, 0): the response would grow without end; poles are in rad/s, not in Hz, and their real parts are negative"
-    )]
-    Unstable {
-        /// The pole in rad/s.
-        pole: Complex64,
-    },
-    /// More zeros than poles.
-    #[error(
-        "response.zeros has {zeros} zeros, more than the {poles} poles: the response would differentiate its input; use the sensor's velocity or acceleration as quantity instead, with one zero at 0 less for each derivative"
-    )]
-    TooManyZeros {
-        /// Number of zeros.
-        zeros: usize,
-        /// Number of poles.
-        poles: usize,
-    },
-    /// A complex root without its conjugate.
-    #[error(
-        "{key} contains {root} without its conjugate {}: the output would not be real; list both", root.conj()
-    )]
-    Unpaired {
-        /// Key of the list.
-        key: &'static str,
-        /// The root in rad/s.
-        root: Complex64,
-    },
-    /// A number outside its range.
-    #[error("{key} = {} is outside {range}", number(*value))]
-    OutOfRange {
-        /// Its key.
-        key: &'static str,
-        /// Its value.
-        value: f64,
-        /// The allowed range.
-        range: &'static str,
-    },
-    /// A list with too few or too many elements.
-    #[error("{key} has {count} elements, but {expected} are required")]
-    Count {
-        /// Key of the list.
-        key: &'static str,
-        /// Number of elements.
-        count: usize,
-        /// The allowed numbers.
-        expected: String,
-    },
-    /// Frequencies in the wrong order.
-    #[error(
-        "response.frequency_hz = {} does not follow {}: frequencies must ascend", number(*value), number(*before)
-    )]
-    NotAscending {
-        /// The frequency in Hz.
-        value: f64,
-        /// The frequency before in Hz.
-        before: f64,
-    },
-    /// An amplitude of zero where the phase follows from the amplitudes.
-    #[error(
-        "response.amplitude = 0 at {} Hz is outside (0, inf): without a column of phases the response is minimum phase, which requires positive amplitudes; remove the row or add the phases",
-        number(*frequency_hz)
-    )]
-    NoPhase {
-        /// The frequency in Hz.
-        frequency_hz: f64,
-    },
-    /// A band that is no band of the history or of the response.
-    #[error(
-        "band = [{}, {}, {}, {}] Hz must ascend within [{}, {}]: half the sampling rate is the highest frequency of the samples, and a response has nothing outside its table or above half its rate",
-        band_hz[0], band_hz[1], band_hz[2], band_hz[3], rounded(limits_hz[0]), rounded(limits_hz[1])
-    )]
-    Band {
-        /// The band in Hz.
-        band_hz: [f64; 4],
-        /// Its limits in Hz.
-        limits_hz: [f64; 2],
-    },
-    /// A response of zero inside the band.
-    #[error(
-        "the response is zero at {} Hz and cannot be removed there: use a band without this frequency", rounded(*frequency_hz)
-    )]
-    ZeroInBand {
-        /// The frequency in Hz.
-        frequency_hz: f64,
-    },
-    /// A zero whose inverse grows.
-    #[error(
-        "response.zeros contains {zero}, whose real part is positive: the inverse of the response would grow without end; fit the input to the output instead"
-    )]
-    GrowingInverse {
-        /// The zero in rad/s.
-        zero: Complex64,
-    },
-    /// A digital filter that lasts too many steps.
-    #[error(
-        "step_s = {} is too small for a filter of {} s: use at least {} s, or resample the filter", rounded(*step_s), rounded(*length_s), rounded(*least_s)
-    )]
-    TooFine {
-        /// The step in s.
-        step_s: f64,
-        /// Length of the filter in s.
-        length_s: f64,
-        /// The smallest step in s.
-        least_s: f64,
-    },
-    /// Samples too coarse for a resonance.
-    #[error(
-        "step_s = {} is too large for the resonance of the response at {} Hz: use a step of at most {} s", rounded(*step_s), rounded(*frequency_hz), rounded(0.1 / frequency_hz)
-    )]
-    TooCoarse {
-        /// The step in s.
-        step_s: f64,
-        /// Frequency of the pole or zero in Hz.
-        frequency_hz: f64,
-    },
+#[error("{sentence}")]
+pub struct ResponseError {
+    /// Scene key or argument at fault.
+    pub key: &'static str,
+    /// Its value, if it is one number.
+    pub value: Option<f64>,
+    /// The key, the value, the allowed range and a way out.
+    sentence: String,
+}
+
+impl ResponseError {
+    fn new(key: &'static str, value: impl Into<Option<f64>>, sentence: String) -> Self {
+        let value = value.into();
+        Self {
+            key,
+            value,
+            sentence,
+        }
+    }
 }
 
 impl Fault for ResponseError {
     fn culprit(&self) -> Culprit<'_> {
-        let culprit = Culprit::of(Class::Scene);
-        match self {
-            Self::Unstable { pole } => culprit.key("response.poles").number(pole.re),
-            Self::TooManyZeros { .. } => culprit.key("response.zeros"),
-            Self::GrowingInverse { zero } => culprit.key("response.zeros").number(zero.re),
-            Self::Unpaired { key, .. } | Self::Count { key, .. } => culprit.key(key),
-            Self::OutOfRange { key, value, range } => culprit.key(key).number(*value).range(range),
-            Self::NotAscending { value, .. } => culprit.key("response.frequency_hz").number(*value),
-            Self::NoPhase { .. } => culprit
-                .key("response.amplitude")
-                .number(0.0)
-                .range("(0, inf)"),
-            Self::Band { limits_hz, .. } => Culprit {
-                limits: Some(*limits_hz),
-                ..culprit.key("band")
-            },
-            Self::ZeroInBand { frequency_hz } => culprit.key("band").number(*frequency_hz),
-            Self::TooCoarse { step_s, .. } | Self::TooFine { step_s, .. } => {
-                culprit.key("step_s").number(*step_s)
-            }
+        Culprit {
+            number: self.value,
+            ..Culprit::of(Class::Scene).key(self.key)
         }
     }
 }
@@ -209,8 +93,20 @@ fn within(
 ) -> Result<(), ResponseError> {
     match numbers.into_iter().find(|&x| !fits(x)) {
         None => Ok(()),
-        Some(value) => Err(ResponseError::OutOfRange { key, value, range }),
+        Some(value) => {
+            let sentence = format!("{key} = {} is outside {range}", number(value));
+            Err(ResponseError::new(key, value, sentence))
+        }
     }
+}
+
+/// Rejects a list with a wrong number of elements.
+fn counted(key: &'static str, count: usize, fits: bool, needed: &str) -> Result<(), ResponseError> {
+    if fits {
+        return Ok(());
+    }
+    let sentence = format!("{key} has {count} elements, but {needed} are required");
+    Err(ResponseError::new(key, count as f64, sentence))
 }
 
 /// Checks the step and the samples of a history.
@@ -268,7 +164,7 @@ impl Response {
     /// Fraction in [0, 1] of the energy (sum of squares) of a history at frequencies outside [`Response::limits_hz`].
     ///
     /// # Errors
-    /// [`ResponseError::OutOfRange`] for a step or a sample that is not a number.
+    /// [`ResponseError`] for a step or a sample that is not a number.
     pub fn outside(&self, step_s: f64, samples: &[f64]) -> Result<f64, ResponseError> {
         history(step_s, samples)?;
         Ok(spectrum::outside(step_s, samples, self.limits_hz()))
@@ -286,7 +182,7 @@ impl Response {
     /// Nothing is done to the samples before: no taper, no mean removed.
     ///
     /// # Errors
-    /// [`ResponseError::OutOfRange`] and [`ResponseError::TooCoarse`].
+    /// [`ResponseError`] for such numbers, and for a step that is too large for a resonance or too small for a filter.
     pub fn apply(&self, step_s: f64, samples: &[f64]) -> Result<Output, ResponseError> {
         history(step_s, samples)?;
         let (samples_out, before, largest_gain) = self.output(step_s, samples)?;

@@ -2,6 +2,7 @@
 
 use super::section::{Section, Way};
 use super::{ResponseError, within};
+use fault::rounded;
 use num_complex::Complex64;
 use std::f64::consts::TAU;
 
@@ -37,11 +38,17 @@ impl PolesZeros {
             within(key, parts, f64::is_finite, "(-inf, inf)")?;
         }
         if let Some(&pole) = poles.iter().find(|pole| pole.re >= 0.0) {
-            return Err(ResponseError::Unstable { pole });
+            let sentence = format!(
+                "response.poles contains {pole}, whose real part is outside (-inf, 0): the response would grow without end; poles are in rad/s, not in Hz, and their real parts are negative"
+            );
+            return Err(ResponseError::new("response.poles", pole.re, sentence));
         }
         if zeros.len() > poles.len() {
             let (zeros, poles) = (zeros.len(), poles.len());
-            return Err(ResponseError::TooManyZeros { zeros, poles });
+            let sentence = format!(
+                "response.zeros has {zeros} zeros, more than the {poles} poles: the response would differentiate its input; use the sensor's velocity or acceleration as quantity instead, with one zero at 0 less for each derivative"
+            );
+            return Err(ResponseError::new("response.zeros", zeros as f64, sentence));
         }
         paired("response.poles", &poles)?;
         paired("response.zeros", &zeros)?;
@@ -67,14 +74,13 @@ impl PolesZeros {
     /// to velocity.
     ///
     /// # Errors
-    /// [`ResponseError::Count`] if there are fewer zeros at 0.
+    /// [`ResponseError`] if there are fewer zeros at 0.
     pub fn of_derivative(mut self, times: usize) -> Result<Self, ResponseError> {
-        for done in 0..times {
+        for _ in 0..times {
             let origin = self.zeros.iter().position(|zero| zero.norm() == 0.0);
-            let origin = origin.ok_or_else(|| ResponseError::Count {
-                key: "response.zeros",
-                count: done,
-                expected: format!("{times} zeros at 0"),
+            let origin = origin.ok_or_else(|| {
+                let sentence = format!("response.zeros has fewer than {times} zeros at 0, so that the response does not refer to an integral of its input");
+                ResponseError::new("response.zeros", None, sentence)
             })?;
             self.zeros.remove(origin);
         }
@@ -110,7 +116,10 @@ impl PolesZeros {
     /// The input at the samples of an output: the inverse of [`PolesZeros::output`] to rounding.
     pub(super) fn input(&self, step_s: f64, samples: &[f64]) -> Result<Vec<f64>, ResponseError> {
         if let Some(&zero) = self.zeros.iter().find(|zero| zero.re > 0.0) {
-            return Err(ResponseError::GrowingInverse { zero });
+            let sentence = format!(
+                "response.zeros contains {zero}, whose real part is positive: the inverse of the response would grow without end; fit the input to the output instead"
+            );
+            return Err(ResponseError::new("response.zeros", zero.re, sentence));
         }
         let mut input = samples.to_vec();
         Chain::new(self, step_s)?.backward(&mut input);
@@ -127,9 +136,11 @@ struct Chain {
 impl Chain {
     fn new(response: &PolesZeros, step_s: f64) -> Result<Self, ResponseError> {
         let of = |root: Complex64, way: Way| {
-            let section = Section::new(root, step_s).ok_or(ResponseError::TooCoarse {
-                step_s,
-                frequency_hz: root.norm() / TAU,
+            let section = Section::new(root, step_s).ok_or_else(|| {
+                let frequency_hz = root.norm() / TAU;
+                let [step, at, least] = [step_s, frequency_hz, 0.1 / frequency_hz].map(rounded);
+                let sentence = format!("step_s = {step} is too large for the resonance of the response at {at} Hz: use a step of at most {least} s");
+                ResponseError::new("step_s", step_s, sentence)
             })?;
             Ok((section, way))
         };
@@ -209,7 +220,10 @@ fn paired(key: &'static str, roots: &[Complex64]) -> Result<Vec<Complex64>, Resp
         if root.im != 0.0 {
             let fits = |other: &Complex64| (other - root.conj()).norm() <= CONJUGATE * root.norm();
             let partner = left.iter().position(fits);
-            left.remove(partner.ok_or(ResponseError::Unpaired { key, root })?);
+            left.remove(partner.ok_or_else(|| {
+                let sentence = format!("{key} contains {root} without its conjugate {}: the output would not be real; list both", root.conj());
+                ResponseError::new(key, root.im, sentence)
+            })?);
         }
         found.push(root);
     }

@@ -7,16 +7,17 @@
 //!
 //! The polynomial through five samples around n is integrated exactly, so that a pole far above the sampling rate is as
 //! good as a slow one. A pair has the product of both polynomials in the shift, which is real.
-//! Four points of odd degree, or two, would have their zeros on the unit circle or outside; this sum has as many zeros
-//! inside as it has shifts to the past (the test `the_sum_has_no_zero_on_the_circle`), so that it is a causal filter times
-//! one that looks ahead, both with a bounded inverse. Past and future are two passes over the samples. The causal ones
+//! A polynomial through an even number of samples would have a zero at half the sampling rate, one through samples of the
+//! past alone zeros outside the unit circle, and neither could be inverted. This sum has as many zeros inside the circle
+//! as shifts to the past (the test `the_sum_has_no_zero_on_the_circle`), so that it is a causal filter times one that
+//! looks ahead, both with a bounded inverse. Past and future are two passes over the samples. The causal ones
 //! come first, which makes the product exact for a record that begins at any time.
 //!
 //! After the last sample the filter that looks ahead continues its input by a polynomial of degree four.
 
 use num_complex::Complex64;
 
-/// 4! times... coefficients of L_i in powers of t, for the nodes -2..2.
+/// Coefficients of L_i in powers of t.
 const LAGRANGE: [[f64; 5]; 5] = [
     [0.0, 2.0 / 24.0, -1.0 / 24.0, -2.0 / 24.0, 1.0 / 24.0],
     [0.0, -4.0 / 6.0, 4.0 / 6.0, 1.0 / 6.0, -1.0 / 6.0],

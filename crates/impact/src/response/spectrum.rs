@@ -1,6 +1,7 @@
 //! Responses and bands as factors of the spectrum of a record, and the response of a digital filter.
 
-use super::{ResponseError, history, within};
+use super::{ResponseError, counted, history, within};
+use fault::{number, rounded};
 use num_complex::Complex64;
 use realfft::RealFftPlanner;
 use std::f64::consts::{PI, TAU};
@@ -29,13 +30,9 @@ impl Fir {
     /// [`ResponseError`] without coefficients, or for numbers out of range.
     pub fn new(coefficients: Vec<f64>, rate_hz: f64) -> Result<Self, ResponseError> {
         let count = coefficients.len();
-        if !(1..=MOST_COEFFICIENTS).contains(&count) {
-            return Err(ResponseError::Count {
-                key: "response.coefficients",
-                count,
-                expected: format!("1 to {MOST_COEFFICIENTS}"),
-            });
-        }
+        let fits = (1..=MOST_COEFFICIENTS).contains(&count);
+        let needed = format!("1 to {MOST_COEFFICIENTS}");
+        counted("response.coefficients", count, fits, &needed)?;
         let finite = f64::is_finite;
         within(
             "response.coefficients",
@@ -65,14 +62,14 @@ impl Fir {
     pub(super) fn steps(&self, step_s: f64) -> Result<usize, ResponseError> {
         let length_s = self.coefficients.len() as f64 / self.rate_hz;
         let least_s = length_s / MOST_STEPS;
-        match step_s >= least_s {
-            true => Ok((length_s / step_s) as usize),
-            false => Err(ResponseError::TooFine {
-                step_s,
-                length_s,
-                least_s,
-            }),
+        if step_s >= least_s {
+            return Ok((length_s / step_s) as usize);
         }
+        let [step, length, least] = [step_s, length_s, least_s].map(rounded);
+        let sentence = format!(
+            "step_s = {step} is too small for a filter of {length} s: use at least {least} s, or resample the filter"
+        );
+        Err(ResponseError::new("step_s", step_s, sentence))
     }
 
     /// sum_k c_k e^{-2 pi i f k/rate} up to half the rate.
@@ -109,13 +106,16 @@ pub(super) fn check_band(
     band_hz: [f64; 4],
     [least, most]: [f64; 2],
 ) -> Result<(), ResponseError> {
-    let limits_hz = [least, most.min(0.5 / step_s)];
+    let most = most.min(0.5 / step_s);
     let ascends = band_hz.windows(2).all(|pair| pair[0] < pair[1]);
-    let most = limits_hz[1] * (1.0 + ROUNDED);
-    match ascends && band_hz[0] >= least && band_hz[3] <= most {
-        true => Ok(()),
-        false => Err(ResponseError::Band { band_hz, limits_hz }),
+    if ascends && band_hz[0] >= least && band_hz[3] <= most * (1.0 + ROUNDED) {
+        return Ok(());
     }
+    let (band, [least, most]) = (band_hz.map(number).join(", "), [least, most].map(rounded));
+    let sentence = format!(
+        "band = [{band}] Hz must ascend within [{least}, {most}]: half the sampling rate is the highest frequency of the samples, and a response has nothing outside its table or above half its rate"
+    );
+    Err(ResponseError::new("band", None, sentence))
 }
 
 /// The factor of a band at a frequency.
@@ -176,7 +176,13 @@ pub(super) fn divided(
     all.truncate(samples.len());
     match zero {
         None => Ok(all),
-        Some(frequency_hz) => Err(ResponseError::ZeroInBand { frequency_hz }),
+        Some(frequency_hz) => {
+            let sentence = format!(
+                "the response is zero at {} Hz and cannot be removed there: use a band without this frequency",
+                rounded(frequency_hz)
+            );
+            Err(ResponseError::new("band", frequency_hz, sentence))
+        }
     }
 }
 

@@ -1,6 +1,7 @@
 //! A response that is tabulated over frequency.
 
-use super::{ResponseError, within};
+use super::{ResponseError, counted, within};
+use fault::number;
 use num_complex::Complex64;
 use std::f64::consts::{PI, TAU};
 
@@ -38,28 +39,20 @@ impl Tabulated {
         phases_rad: Option<Vec<f64>>,
     ) -> Result<Self, ResponseError> {
         let count = frequencies_hz.len();
-        let number = |key, count: usize, fits: bool, expected: String| match fits {
-            true => Ok(()),
-            false => Err(ResponseError::Count {
-                key,
-                count,
-                expected,
-            }),
-        };
         let fits = (2..=MOST_ROWS).contains(&count);
-        number(
+        counted(
             "response.frequency_hz",
             count,
             fits,
-            format!("2 to {MOST_ROWS}"),
+            &format!("2 to {MOST_ROWS}"),
         )?;
-        let same =
-            |key, list: &[f64]| number(key, list.len(), list.len() == count, count.to_string());
-        same("response.amplitude", &amplitudes)?;
-        same(
-            "response.phase",
-            phases_rad.as_deref().unwrap_or(&amplitudes),
-        )?;
+        let phases = phases_rad.as_deref().unwrap_or(&amplitudes);
+        for (key, list) in [
+            ("response.amplitude", &*amplitudes),
+            ("response.phase", phases),
+        ] {
+            counted(key, list.len(), list.len() == count, &count.to_string())?;
+        }
         let positive = |x: f64| x >= 0.0 && x.is_finite();
         within(
             "response.frequency_hz",
@@ -77,7 +70,12 @@ impl Tabulated {
         within("response.phase", given, f64::is_finite, "(-inf, inf)")?;
         if let Some(pair) = frequencies_hz.windows(2).find(|pair| pair[1] <= pair[0]) {
             let (before, value) = (pair[0], pair[1]);
-            return Err(ResponseError::NotAscending { value, before });
+            let sentence = format!(
+                "response.frequency_hz = {} does not follow {}: frequencies must ascend",
+                number(value),
+                number(before)
+            );
+            return Err(ResponseError::new("response.frequency_hz", value, sentence));
         }
         let is_minimum_phase = phases_rad.is_none();
         let phases_rad = match phases_rad {
@@ -149,7 +147,11 @@ fn without_turns(mut phases_rad: Vec<f64>) -> Vec<f64> {
 fn minimum_phase(frequencies_hz: &[f64], amplitudes: &[f64]) -> Result<Vec<f64>, ResponseError> {
     let mut rows = frequencies_hz.iter().zip(amplitudes);
     if let Some((&frequency_hz, _)) = rows.find(|(_, amplitude)| **amplitude == 0.0) {
-        return Err(ResponseError::NoPhase { frequency_hz });
+        let sentence = format!(
+            "response.amplitude = 0 at {} Hz is outside (0, inf): without a column of phases the response is minimum phase, which requires positive amplitudes; remove the row or add the phases",
+            number(frequency_hz)
+        );
+        return Err(ResponseError::new("response.amplitude", 0.0, sentence));
     }
     let slope = |(f, a): (&[f64], &[f64])| (a[1] / a[0]).ln() / (f[1] - f[0]);
     let slopes = frequencies_hz
