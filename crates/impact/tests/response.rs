@@ -247,7 +247,7 @@ fn the_end_of_the_record_changes_nothing_before_it() {
 fn the_estimate_holds() {
     let mut random = Random(50);
     let mut ratios = Vec::new();
-    for case in 0..200 {
+    for case in 0..1500 {
         let mut poles = Vec::new();
         let mut zeros = Vec::new();
         for _ in 0..1 + (random.next() * 3.0) as usize {

@@ -16,8 +16,8 @@ pub struct PolesZeros {
 
 /// Difference between two roots that count as conjugate, relative to their size: files have six digits or more.
 const CONJUGATE: f64 = 1e-5;
-/// Samples before an impulse and after the end whose gains are summed one by one: filters that look ahead have decayed to
-/// 1e-8 there, and larger numbers change nothing but the time.
+/// Samples before an impulse and before the end whose gains are summed one by one: filters that look ahead have decayed to
+/// 1e-8 there (the test `the_largest_gain_bounds_the_output` fails at 1).
 const NEAR: usize = 16;
 
 impl PolesZeros {

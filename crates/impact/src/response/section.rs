@@ -28,8 +28,8 @@ const LAGRANGE: [[f64; 5]; 5] = [
 
 /// Largest number of rows of the elimination that finds both factors.
 ///
-/// Each row gains a digit or more, and 30 rows are enough for every root below half the sampling rate (the test
-/// `the_sum_has_no_zero_on_the_circle` fails below 20).
+/// Each row gains half a digit or more, so that 40 are enough for every root below half the sampling rate; the rest is for
+/// those beyond (the test `the_sum_has_no_zero_on_the_circle` fails at 15).
 const MOST_ROWS: usize = 200;
 /// Largest error of the product of both factors, relative to the sum: far above rounding, far below any factors of a sum
 /// that has none (the same test).
