@@ -3,6 +3,7 @@
 use contact::{UnknownMaterial, nearest};
 use fault::{Class, Culprit, Fault, number};
 use impact::TreatmentError;
+use impact::response::ResponseError;
 use std::borrow::Cow;
 use std::path::Path;
 use thiserror::Error;
@@ -196,6 +197,15 @@ impl From<TreatmentError> for SceneError {
         let key = format!("force.{}", error.key);
         let mut found = Self::of_number(key, error.value, format!("force.{error}"));
         (found.0.of_numbers, found.0.culprit.limits) = (false, Some(error.limits));
+        found
+    }
+}
+
+/// A response that is impossible.
+impl From<ResponseError> for SceneError {
+    fn from(error: ResponseError) -> Self {
+        let mut found = Self::of(error.to_string(), error.key);
+        found.0.culprit.number = error.value;
         found
     }
 }

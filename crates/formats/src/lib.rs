@@ -50,6 +50,6 @@ pub use report::{
 #[cfg(feature = "hdf5")]
 pub use results::{check_results, stage_results, stage_results_csv, write_results};
 pub use scene::{
-    parse_materials, parse_scene, read_materials, read_record, read_scene, read_with_inputs,
-    resolved,
+    parse_materials, parse_scene, read_materials, read_record, read_response, read_scene,
+    read_with_inputs, resolved,
 };

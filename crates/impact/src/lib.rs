@@ -22,6 +22,7 @@
 #![warn(missing_docs)]
 
 // From the bottom up: a module uses those above it alone.
+pub mod response;
 mod error;
 mod quantity;
 mod sampled;

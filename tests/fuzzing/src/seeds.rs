@@ -88,7 +88,8 @@ fn made(target: Target, folder: &Path) -> Result<Vec<Vec<u8>>, Box<dyn Error>> {
         | Target::Sweep
         | Target::Grid
         | Target::Materials
-        | Target::Record => Ok(Vec::new()),
+        | Target::Record
+        | Target::Response => Ok(Vec::new()),
     }
 }
 

@@ -3,7 +3,7 @@
 use crate::stand_in::content;
 use formats::stored::StoredPart;
 use formats::sweep::{Block, Blocks, Kept, Spec, SweepError, run_rows};
-use formats::{SceneError, json_report, parse_materials, parse_scene, read_record};
+use formats::{SceneError, json_report, parse_materials, parse_scene, read_record, read_response};
 use impact::{Allowance, Forecast, KernelChoice, Load, Reading, simulate_within};
 use lookup::{Content, Smoothness, Table, TableError, TableFile};
 use output::Existing;
@@ -29,6 +29,8 @@ pub enum Target {
     Materials,
     /// A force record as text.
     Record,
+    /// The response of a sensor as text.
+    Response,
     /// A force record in HDF5.
     Results,
     /// The journal of a sweep.
@@ -95,13 +97,14 @@ const MOST_BYTES: f64 = 2e8;
 
 impl Target {
     /// All of them.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 13] = [
         Self::Scene,
         Self::Impact,
         Self::Sweep,
         Self::Grid,
         Self::Materials,
         Self::Record,
+        Self::Response,
         Self::Results,
         Self::Journal,
         Self::Part,
@@ -120,6 +123,7 @@ impl Target {
             Self::Grid => "grid",
             Self::Materials => "materials",
             Self::Record => "record",
+            Self::Response => "response",
             Self::Results => "results",
             Self::Journal => "journal",
             Self::Part => "part",
@@ -144,7 +148,8 @@ impl Target {
             | Self::Sweep
             | Self::Grid
             | Self::Materials
-            | Self::Record => true,
+            | Self::Record
+            | Self::Response => true,
             Self::Results
             | Self::Journal
             | Self::Part
@@ -190,6 +195,7 @@ impl Target {
                 &file(folder, "x.csv", input),
                 Reading::default(),
             )),
+            Self::Response => judged(read_response(&file(folder, "x.csv", input))),
             Self::Results => judged(read_record(
                 &file(folder, "x.h5", input),
                 Reading::default(),

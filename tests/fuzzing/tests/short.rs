@@ -15,7 +15,9 @@ fn count(target: Target) -> usize {
         Target::Impact => 300,
         Target::Part | Target::Shard | Target::Table | Target::Sealed => 1000,
         Target::Sweep | Target::Results | Target::Journal => 2000,
-        Target::Scene | Target::Grid | Target::Materials | Target::Record => 5000,
+        Target::Scene | Target::Grid | Target::Materials | Target::Record | Target::Response => {
+            5000
+        }
     }
 }
 

@@ -191,12 +191,12 @@ const FORCES: [(&str, f64); 8] = [
 const SIGNALS: [(&str, f64); 2] = [("V", 1.0), ("mV", 1e-3)];
 
 /// The separator of columns in a line; none for blanks.
-fn separator(line: &str) -> Option<char> {
+pub(super) fn separator(line: &str) -> Option<char> {
     ['\t', ';', ','].into_iter().find(|&c| line.contains(c))
 }
 
 /// The columns of a line, without surrounding blanks and quotes.
-fn columns(line: &str, by: Option<char>) -> Vec<&str> {
+pub(super) fn columns(line: &str, by: Option<char>) -> Vec<&str> {
     let bare = |part| str::trim(part).trim_matches('"').trim();
     match by {
         Some(by) => line.split(by).map(bare).collect(),
@@ -205,7 +205,7 @@ fn columns(line: &str, by: Option<char>) -> Vec<&str> {
 }
 
 /// A finite number; accepts a decimal comma if commas do not separate columns.
-fn number(text: &str, by: Option<char>) -> Option<f64> {
+pub(super) fn number(text: &str, by: Option<char>) -> Option<f64> {
     let number = match by {
         Some(',') => text.parse(),
         _ => text.replace(',', ".").parse(),

@@ -1,0 +1,231 @@
+//! A rational response of poles and zeros.
+
+use super::section::{Section, Way};
+use super::{ResponseError, within};
+use fault::rounded;
+use num_complex::Complex64;
+use std::f64::consts::TAU;
+
+/// H(s) = gain prod(s - z)/prod(s - p), s = i w in rad/s.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PolesZeros {
+    poles: Vec<Complex64>,
+    zeros: Vec<Complex64>,
+    gain: f64,
+}
+
+/// Difference between two roots that count as conjugate, relative to their size: files have six digits or more.
+const CONJUGATE: f64 = 1e-5;
+/// Samples before an impulse and before the end whose gains are summed one by one: filters that look ahead have decayed to
+/// 1e-8 there (the test `the_largest_gain_bounds_the_output` fails at 1).
+const NEAR: usize = 16;
+
+impl PolesZeros {
+    /// A response of poles and zeros in rad/s and a real factor; the order of the roots is free.
+    ///
+    /// # Errors
+    /// [`ResponseError`] for poles whose real part is not negative, more zeros than poles, complex roots without their
+    /// conjugates, and numbers that are not finite.
+    pub fn new(
+        poles: Vec<Complex64>,
+        zeros: Vec<Complex64>,
+        gain: f64,
+    ) -> Result<Self, ResponseError> {
+        let fits = |x: f64| x.is_finite() && x != 0.0;
+        within("response.gain", [gain], fits, "(-inf, inf) without 0")?;
+        for (key, roots) in [("response.poles", &poles), ("response.zeros", &zeros)] {
+            let parts = roots.iter().flat_map(|root| [root.re, root.im]);
+            within(key, parts, f64::is_finite, "(-inf, inf)")?;
+        }
+        if let Some(&pole) = poles.iter().find(|pole| pole.re >= 0.0) {
+            let sentence = format!(
+                "response.poles contains {pole}, whose real part is outside (-inf, 0): the response would grow without end; poles are in rad/s, not in Hz, and their real parts are negative"
+            );
+            return Err(ResponseError::new("response.poles", pole.re, sentence));
+        }
+        if zeros.len() > poles.len() {
+            let (zeros, poles) = (zeros.len(), poles.len());
+            let sentence = format!(
+                "response.zeros has {zeros} zeros, more than the {poles} poles: the response would differentiate its input; use the sensor's velocity or acceleration as quantity instead, with one zero at 0 less for each derivative"
+            );
+            return Err(ResponseError::new("response.zeros", zeros as f64, sentence));
+        }
+        paired("response.poles", &poles)?;
+        paired("response.zeros", &zeros)?;
+        Ok(Self { poles, zeros, gain })
+    }
+
+    /// Poles in rad/s.
+    pub fn poles(&self) -> &[Complex64] {
+        &self.poles
+    }
+
+    /// Zeros in rad/s.
+    pub fn zeros(&self) -> &[Complex64] {
+        &self.zeros
+    }
+
+    /// The real factor.
+    pub fn gain(&self) -> f64 {
+        self.gain
+    }
+
+    /// The same response to the derivative of its input, so many times: as many zeros at 0 less, as from SAC's displacement
+    /// to velocity.
+    ///
+    /// # Errors
+    /// [`ResponseError`] if there are fewer zeros at 0.
+    pub fn of_derivative(mut self, times: usize) -> Result<Self, ResponseError> {
+        for _ in 0..times {
+            let origin = self.zeros.iter().position(|zero| zero.norm() == 0.0);
+            let origin = origin.ok_or_else(|| {
+                let sentence = format!("response.zeros has fewer than {times} zeros at 0, so that the response does not refer to an integral of its input");
+                ResponseError::new("response.zeros", None, sentence)
+            })?;
+            self.zeros.remove(origin);
+        }
+        Ok(self)
+    }
+
+    /// H at a frequency.
+    pub(super) fn at(&self, frequency_hz: f64) -> Complex64 {
+        let s = Complex64::new(0.0, TAU * frequency_hz);
+        // one factor after the other, so that large numbers of both signs of the exponent do not meet
+        let mut zeros = self.zeros.iter();
+        let each = self.poles.iter().map(|pole| match zeros.next() {
+            Some(zero) => (s - zero) / (s - pole),
+            None => 1.0 / (s - pole),
+        });
+        each.fold(Complex64::from(self.gain), |product, factor| {
+            product * factor
+        })
+    }
+
+    /// The output at the samples of an input, and the largest gain of an error.
+    pub(super) fn output(
+        &self,
+        step_s: f64,
+        samples: &[f64],
+    ) -> Result<(Vec<f64>, f64), ResponseError> {
+        let chain = Chain::new(self, step_s)?;
+        let mut output = samples.to_vec();
+        chain.forward(&mut output);
+        Ok((output, chain.largest_gain(samples.len())))
+    }
+
+    /// The input at the samples of an output: the inverse of [`PolesZeros::output`] to rounding.
+    pub(super) fn input(&self, step_s: f64, samples: &[f64]) -> Result<Vec<f64>, ResponseError> {
+        if let Some(&zero) = self.zeros.iter().find(|zero| zero.re > 0.0) {
+            let sentence = format!(
+                "response.zeros contains {zero}, whose real part is positive: the inverse of the response would grow without end; fit the input to the output instead"
+            );
+            return Err(ResponseError::new("response.zeros", zero.re, sentence));
+        }
+        let mut input = samples.to_vec();
+        Chain::new(self, step_s)?.backward(&mut input);
+        Ok(input)
+    }
+}
+
+/// The sections of all poles and zeros: a zero differentiates, a pole integrates.
+struct Chain {
+    sections: Vec<(Section, Way)>,
+    gain: f64,
+}
+
+impl Chain {
+    fn new(response: &PolesZeros, step_s: f64) -> Result<Self, ResponseError> {
+        let of = |root: Complex64, way: Way| {
+            let section = Section::new(root, step_s).ok_or_else(|| {
+                let frequency_hz = root.norm() / TAU;
+                let [step, at, least] = [step_s, frequency_hz, 0.1 / frequency_hz].map(rounded);
+                let sentence = format!("step_s = {step} is too large for the resonance of the response at {at} Hz: use a step of at most {least} s");
+                ResponseError::new("step_s", step_s, sentence)
+            })?;
+            Ok((section, way))
+        };
+        let poles = paired("response.poles", &response.poles)?;
+        let zeros = paired("response.zeros", &response.zeros)?;
+        let degree = |root: &Complex64| if root.im == 0.0 { 1 } else { 2 };
+        let mut sections = Vec::new();
+        let mut zeros = zeros.into_iter();
+        // A zero comes before the pole that makes up for it: differences of smooth samples keep their digits, but those of
+        // an integral lose the square of its length in steps. Not all zeros come first, for those of rough samples.
+        let (mut differences, mut integrals) = (0, 0);
+        for pole in poles {
+            while differences <= integrals
+                && let Some(zero) = zeros.next()
+            {
+                differences += degree(&zero);
+                sections.push(of(zero, Way::Inverse)?);
+            }
+            integrals += degree(&pole);
+            sections.push(of(pole, Way::Integral)?);
+        }
+        for zero in zeros {
+            sections.push(of(zero, Way::Inverse)?);
+        }
+        let gain = response.gain;
+        Ok(Self { sections, gain })
+    }
+
+    fn forward(&self, samples: &mut [f64]) {
+        for (section, way) in &self.sections {
+            section.causal(samples, *way);
+        }
+        for (section, way) in &self.sections {
+            section.looking_ahead(samples, *way);
+        }
+        samples.iter_mut().for_each(|x| *x *= self.gain);
+    }
+
+    fn backward(&self, samples: &mut [f64]) {
+        samples.iter_mut().for_each(|x| *x /= self.gain);
+        let inverse = |way: &Way| match way {
+            Way::Integral => Way::Inverse,
+            Way::Inverse => Way::Integral,
+        };
+        for (section, way) in self.sections.iter().rev() {
+            section.looking_ahead(samples, inverse(way));
+        }
+        for (section, way) in self.sections.iter().rev() {
+            section.causal(samples, inverse(way));
+        }
+    }
+
+    /// Largest sum of magnitudes of a row of the matrix that makes outputs of inputs.
+    ///
+    /// All rows are those of the impulse response but the last, where the polynomial beyond the end counts.
+    fn largest_gain(&self, count: usize) -> f64 {
+        let impulse = |length: usize, at: usize| {
+            let mut samples = vec![0.0; length];
+            samples[at] = 1.0;
+            self.forward(&mut samples);
+            samples
+        };
+        let sum = |samples: &[f64]| samples.iter().map(|x| x.abs()).sum::<f64>();
+        let response = impulse(NEAR + count, NEAR.min(count));
+        let ends: Vec<Vec<f64>> = (NEAR..2 * NEAR).map(|at| impulse(2 * NEAR, at)).collect();
+        let row = |n: usize| ends.iter().map(|end| end[NEAR + n].abs()).sum::<f64>();
+        let of_end = (0..NEAR).map(row).fold(0.0, f64::max);
+        sum(&response).max(of_end + sum(&response[(2 * NEAR).min(response.len())..]))
+    }
+}
+
+/// Real roots, and one of each conjugate pair.
+fn paired(key: &'static str, roots: &[Complex64]) -> Result<Vec<Complex64>, ResponseError> {
+    let mut left = roots.to_vec();
+    let mut found = Vec::new();
+    while let Some(root) = left.pop() {
+        if root.im != 0.0 {
+            let fits = |other: &Complex64| (other - root.conj()).norm() <= CONJUGATE * root.norm();
+            let partner = left.iter().position(fits);
+            left.remove(partner.ok_or_else(|| {
+                let sentence = format!("{key} contains {root} without its conjugate {}: the output would not be real; list both", root.conj());
+                ResponseError::new(key, root.im, sentence)
+            })?);
+        }
+        found.push(root);
+    }
+    Ok(found)
+}
