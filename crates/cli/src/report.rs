@@ -1,9 +1,11 @@
 //! The results of an impact as text.
 
 use crate::failure::lines;
-use contact::{Material, Shape};
+use contact::{Choice, Material, Shape};
 use formats::{choices, kernel_name};
-use impact::{Cause, Load, Outcome, ProbeFields, RecordResults, Scene, SectionFields, Treated};
+use impact::{
+    Cause, Load, Outcome, ProbeFields, RecordResults, Scene, SectionFields, SensorHistory, Treated,
+};
 use std::ops::Range;
 
 /// The results as text for people.
@@ -162,7 +164,23 @@ fn of_output(outcome: &Outcome) -> Vec<(&'static str, String)> {
         told.push(("field errors", field_errors(fields)));
         told.extend(validity(fields).map(|until| ("valid until", until)));
     }
+    told.extend(outcome.sensors.iter().map(|own| ("sensor", of_sensor(own))));
     told
+}
+
+/// Peak of a sensor's output with its error.
+fn of_sensor(own: &SensorHistory) -> String {
+    let larger = |most: f64, x: &f64| if x.abs() > most.abs() { *x } else { most };
+    let [peak, error] = [&own.output, &own.output_error].map(|all| all.iter().fold(0.0, larger));
+    let unit = own.sensor.output_unit();
+    format!(
+        "{} at r = {}, z = {}: peak {}, error up to {}",
+        own.sensor.measured.name(),
+        short(own.sensor.r_m, "m"),
+        short(own.sensor.z_m, "m"),
+        short(peak, unit),
+        short(error, unit)
+    )
 }
 
 /// The largest estimated errors at the probes, relative to the largest value of the same kind at the same probe.

@@ -1,9 +1,10 @@
 //! The results of an impact as JSON.
 
 use crate::quantities::{Kind, QUANTITIES};
+use crate::results::mean_name;
 use crate::schema::results::TREATMENT;
 use contact::{Choice, Collision, GRAVITY_M_S2, InferError, Inferred, Material, Measure, Unknown};
-use impact::{Cause, Outcome, Scene};
+use impact::{Cause, Outcome, Scene, SensorHistory};
 use lookup::schema::FIELD_NAMES;
 use lookup::{Accuracy, Quantiles, Table};
 use serde_json::{Value, json};
@@ -182,6 +183,24 @@ pub fn json_report(scene: &Scene, outcome: &Outcome, wall_s: f64) -> Value {
     let probes = outcome.probes.as_ref();
     let section = outcome.section.as_ref();
     report["probes"] = probes.map_or(0, |fields| fields.r_m.len()).into();
+    let sensor = |own: &SensorHistory| {
+        json!({
+            "r_m": own.sensor.r_m,
+            "z_m": own.sensor.z_m,
+            "face_radius_m": own.sensor.face_radius_m,
+            "quantity": own.sensor.measured.name(),
+            "unit": own.sensor.measured.unit(),
+            "output_unit": own.sensor.output_unit(),
+            "face_mean": mean_name(own.face),
+            "mean_peak": own.mean.peak(),
+            "mean_error": own.mean.error,
+            "output_peak": peak_of(&own.output),
+            "output_error": peak_of(&own.output_error),
+            "first_arrival_s": own.arrival_s[0],
+            "valid_until_s": Some(own.valid_until_s).filter(|t| t.is_finite()),
+        })
+    };
+    report["sensors"] = outcome.sensors.iter().map(sensor).collect();
     report["map"] = section.map_or(Value::Null, |s| {
         json!([s.time_s.len(), s.z_m.len(), s.r_m.len()])
     });
@@ -192,6 +211,12 @@ pub fn json_report(scene: &Scene, outcome: &Outcome, wall_s: f64) -> Value {
         report["force_treatment"][name] = number.into();
     }
     report
+}
+
+/// The sample of the largest magnitude, with its sign.
+fn peak_of(samples: &[f64]) -> f64 {
+    let larger = |most: f64, x: &f64| if x.abs() > most.abs() { *x } else { most };
+    samples.iter().fold(0.0, larger)
 }
 
 /// A material with its wave speeds.

@@ -110,6 +110,11 @@ pub struct Sensor {
 }
 
 impl Sensor {
+    /// Unit of its output.
+    pub fn output_unit(&self) -> &str {
+        self.measured.unit()
+    }
+
     /// The nearest place of its face to the load in m.
     pub(crate) fn nearest_m(&self) -> [f64; 2] {
         [(self.r_m - self.face_radius_m).max(0.0), self.z_m]

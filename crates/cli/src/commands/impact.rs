@@ -6,7 +6,7 @@ use crate::progress::Bar;
 use crate::report::{text_report, understood};
 use clap::Args;
 use formats::{check_results, json_report, read_with_inputs, stage_results, stage_results_csv};
-use impact::{Allowance, Forecast, ImpactError, Outcome, Road, Scene, simulate_within};
+use impact::{Allowance, Forecast, ImpactError, Outcome, Place, Road, Scene, simulate_within};
 use output::{CSV, Ending, Existing, HDF5, Output, Role, Staged, apart};
 use serde::{Serialize, Serializer};
 use std::cell::RefCell;
@@ -153,6 +153,7 @@ struct ScenePlan {
 #[derive(Serialize)]
 struct PlannedRoad {
     probe: Option<usize>,
+    sensor: Option<usize>,
     points: usize,
     discs: usize,
     looked_up: bool,
@@ -164,7 +165,14 @@ struct PlannedRoad {
 impl From<&Road> for PlannedRoad {
     fn from(road: &Road) -> Self {
         Self {
-            probe: road.probe.map(|probe| probe + 1),
+            probe: match road.place {
+                Place::Probe(probe) => Some(probe + 1),
+                Place::Sensor(_) | Place::MeanOfKernels(_) | Place::Section => None,
+            },
+            sensor: match road.place {
+                Place::Sensor(sensor) | Place::MeanOfKernels(sensor) => Some(sensor + 1),
+                Place::Probe(_) | Place::Section => None,
+            },
             points: road.points,
             discs: road.discs,
             looked_up: road.looked_up,
@@ -177,9 +185,14 @@ impl From<&Road> for PlannedRoad {
 
 /// One line about the method for a probe or the section.
 fn along(road: &Road) -> String {
-    let name = match road.probe {
-        Some(probe) => format!("probe {}", probe + 1),
-        None => format!("section, {} points", road.points),
+    let name = match road.place {
+        Place::Probe(probe) => format!("probe {}", probe + 1),
+        Place::Sensor(sensor) if road.points > 1 => {
+            format!("sensor {}, {} circles", sensor + 1, road.points)
+        }
+        Place::Sensor(sensor) => format!("sensor {}", sensor + 1),
+        Place::MeanOfKernels(sensor) => format!("sensor {}, averaged kernels", sensor + 1),
+        Place::Section => format!("section, {} points", road.points),
     };
     let discs = match (road.discs, road.looked_up) {
         (1, false) => "1 disc".to_owned(),
@@ -189,10 +202,12 @@ fn along(road: &Road) -> String {
         }
     };
     let each = road.integrated / road.points.max(1) as f64;
-    let integrated = match road.probe {
+    let integrated = match road.place {
         _ if each == 0.0 => String::new(),
-        Some(_) => format!("; {each:.0} of {} samples integrated", road.samples),
-        None => format!(
+        Place::Probe(_) | Place::Sensor(_) | Place::MeanOfKernels(_) => {
+            format!("; {each:.0} of {} samples integrated", road.samples)
+        }
+        Place::Section => format!(
             "; {each:.1} of {} samples of a point integrated",
             road.samples
         ),

@@ -5,8 +5,10 @@
 
 mod identity;
 mod section;
+mod sensors;
 mod write;
 
 pub use identity::{check_results, scene_sha256};
 pub use section::beside;
+pub use sensors::mean_name;
 pub use write::{peaks_of, stage_results, stage_results_csv, write_results};

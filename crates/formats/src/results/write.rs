@@ -2,6 +2,7 @@
 
 use super::identity::scene_sha256;
 use super::section::{beside, waves, write_section};
+use super::sensors::write_sensors;
 use crate::hdf::{
     attach_scales, new_file, numbers, reason, scalar, scale, set_scale, text, texts as words,
     vector,
@@ -10,6 +11,7 @@ use crate::quantities::QUANTITIES;
 use crate::report::{choices, kernel_name, treatment};
 use crate::scene::resolved;
 use crate::schema::results as schema;
+use contact::Choice;
 use hdf5::{Dataset, File};
 use impact::{EchoArrivals, EnergySeries, Outcome, Peaks, ProbeFields, Scene};
 use output::{Existing, Output, OutputError, OutputFault, Staged};
@@ -58,6 +60,9 @@ fn fill(file: &File, scene: &Scene, outcome: &Outcome) -> Result<(), hdf5::Error
     }
     if let Some(fields) = &outcome.probes {
         write_probes(file, fields, &series.time_s, scene)?;
+    }
+    if !outcome.sensors.is_empty() {
+        write_sensors(file, &outcome.sensors, &series.time_s)?;
     }
     if let Some(section) = &outcome.section {
         write_section(file, section)?;
@@ -163,6 +168,15 @@ pub fn stage_results_csv<'a>(
             let (r_m, z_m) = (probe.r_m, probe.z_m);
             writeln!(file, "# probe{i}: r = {r_m} m, z = {z_m} m")?;
         }
+        for (i, sensor) in (1..).zip(&scene.sensors) {
+            let (r_m, z_m, face_m) = (sensor.r_m, sensor.z_m, sensor.face_radius_m);
+            let words = [sensor.measured.name(), sensor.output_unit()];
+            writeln!(
+                file,
+                "# sensor{i}: r = {r_m} m, z = {z_m} m, face radius {face_m} m, {}, output in {}",
+                words[0], words[1]
+            )?;
+        }
         let columns = columns(outcome);
         let names: Vec<&str> = columns.iter().map(|(name, _)| name.as_str()).collect();
         writeln!(file, "{}", names.join(","))?;
@@ -188,6 +202,9 @@ fn columns(outcome: &Outcome) -> Vec<(String, &[f64])> {
             let name = format!("probe{probe}_{name}{}", ending(unit));
             (name, samples.as_slice())
         }));
+    }
+    for (i, sensor) in (1..).zip(&outcome.sensors) {
+        found.push((format!("sensor{i}_output"), &sensor.output));
     }
     found
 }

@@ -337,7 +337,12 @@ fn inside(
     });
     let sensors = (1..).zip(sensors).map(|(i, sensor)| {
         let name = format!("sensor[{i}]");
-        (name, [("z_m", sensor.z_m), ("r_m", sensor.r_m)])
+        let edge = match sensor.face_radius_m {
+            0.0 => "r_m",
+            _ => "r_m + face_radius_m",
+        };
+        let edge_m = sensor.r_m + sensor.face_radius_m;
+        (name, [("z_m", sensor.z_m), (edge, edge_m)])
     });
     let corner = section.map(|section| {
         let corner = [("z_max_m", section.z_max_m), ("r_max_m", section.r_max_m)];

@@ -6,7 +6,7 @@ use impact::{EnergySeries, ProbeFields, Series};
 /// Value of the attribute `file_type`.
 pub const FILE_TYPE: &str = "hertzlamb results";
 /// Version of the format. The first number changes when older readers would fail.
-pub const FORMAT_VERSION: &str = "1.10";
+pub const FORMAT_VERSION: &str = "1.11";
 /// Minor version since which files have a checksum trailer.
 pub(crate) const SEALED_FROM: u32 = 8;
 /// Datasets in the root, with unit and description.
@@ -80,6 +80,30 @@ pub const ECHO_ARRIVALS: (&str, &str, &str) = (
     "s",
     "first arrival time of each wave that has run between the faces of the plate; infinite if it does not arrive",
 );
+/// Group of the sensors.
+pub const SENSORS: &str = "sensors";
+/// Number of each sensor, the scale of their dimension.
+pub const SENSOR: (&str, &str, &str) = ("sensor", "1", "number of the sensor, from 1");
+/// Numbers of the sensors, one a sensor.
+pub const FACES: [(&str, &str, &str); 3] = labels! {
+    "r", "m", "distance of the centre of the face from the axis";
+    "z", "m", "depth of the face below the surface";
+    "face_radius", "m", "radius of the face; 0 for a point";
+};
+/// Words of the sensors, one a sensor.
+pub const SENSED: [(&str, &str, &str); 4] = labels! {
+    "quantity", "1", "measured quantity";
+    "unit", "1", "unit of the mean";
+    "output_unit", "1", "unit of the output";
+    "face_mean", "1", "method of the mean over the face: point, discs, circles or kernels";
+};
+/// Means over the faces, their errors, the outputs and theirs; the units are those of `unit` and `output_unit`.
+pub const OUTPUTS: [(&str, &str, &str); 4] = labels! {
+    "mean", "1", "mean of the measured quantity over the face, in its unit";
+    "mean_error", "1", "estimated absolute error of the mean, in its unit";
+    "output", "1", "output of the sensor, in output_unit";
+    "output_error", "1", "estimated absolute error of the output, in output_unit";
+};
 /// Text attribute of the root: warnings about the results, one per line.
 pub const WARNINGS: &str = "warnings";
 /// Text attribute with the resolved scene.

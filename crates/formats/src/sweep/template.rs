@@ -164,6 +164,7 @@ fn contact_only(scene: &Scene, observed: bool) -> Result<(), SceneError> {
     let sections = [
         ("[force]", scene.record().is_some()),
         ("[[probe]]", !scene.probes.is_empty() && !observed),
+        ("[[sensor]]", !scene.sensors.is_empty()),
         ("[map]", scene.section.is_some()),
     ];
     if scene.target.echoing().is_some() && scene.probes.is_empty() {
