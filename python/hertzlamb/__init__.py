@@ -46,6 +46,7 @@ from hertzlamb._errors import (
 from hertzlamb._fields import Fields
 from hertzlamb._impact import Impact, Inferred, Probes, Section, impact, infer, resolve
 from hertzlamb._materials import Material, Materials, materials
+from hertzlamb._sensors import Response, Sensor
 from hertzlamb._sweep import Collisions, Sweep, collide, sweep
 from hertzlamb._table import Table, Trace, tabulate
 
@@ -66,8 +67,10 @@ __all__ = [
     "OutputExists",
     "OutsideTable",
     "Probes",
+    "Response",
     "SceneError",
     "Section",
+    "Sensor",
     "Sweep",
     "Table",
     "TooMuchMemory",

@@ -14,6 +14,7 @@ from hertzlamb import _core
 from hertzlamb._errors import HertzlambWarning, OutputExists, SceneError
 from hertzlamb._names import OfEnergy, OfFields, OfProbes, OfSection
 from hertzlamb._progress import Progress, told
+from hertzlamb._sensors import Sensor
 from hertzlamb._table import Table
 
 if TYPE_CHECKING:
@@ -45,6 +46,7 @@ class _Results(Protocol):
     def series(self) -> dict[str, Floats]: ...
     def energy(self) -> dict[str, Floats] | None: ...
     def probes(self) -> dict[str, Any] | None: ...
+    def sensors(self) -> list[dict[str, Any]]: ...
     def section(self) -> dict[str, Any] | None: ...
     def save(self, path: os.PathLike[str] | str, overwrite: bool, csv: bool) -> None: ...
 
@@ -57,6 +59,10 @@ class _Kept:
         for part in ("series", "energy", "probes", "section"):
             for array in (parts[part] or {}).values():
                 array.setflags(write=False)
+        for sensor in parts["sensors"]:
+            for value in sensor.values():
+                if hasattr(value, "setflags"):
+                    value.setflags(write=False)
 
     def numbers(self) -> dict[str, Any]:
         return dict(self.parts["numbers"])
@@ -78,6 +84,9 @@ class _Kept:
 
     def probes(self) -> dict[str, Any] | None:
         return None if self.parts["probes"] is None else dict(self.parts["probes"])
+
+    def sensors(self) -> list[dict[str, Any]]:
+        return [dict(sensor) for sensor in self.parts["sensors"]]
 
     def section(self) -> dict[str, Any] | None:
         return None if self.parts["section"] is None else dict(self.parts["section"])
@@ -445,6 +454,11 @@ class Impact:
             raise SceneError('the scene has no probes: add some, "probe": [{"r_m": 0.02, "z_m": 0.0}]', key="probe")
         return self._probes
 
+    @cached_property
+    def sensors(self) -> tuple[Sensor, ...]:
+        """Histories of the sensors of the scene; empty without sensors."""
+        return tuple(Sensor(parts, self.time) for parts in self._core.sensors())
+
     @property
     def section(self) -> Section:
         """Fields on the section that ``map`` of the scene defines. Raises `SceneError` if the scene has no ``map``."""
@@ -560,13 +574,14 @@ class Impact:
         lines.append(f"  {'time':24} {len(self.time)} samples to {self.time[-1]:.4g} s")
         if self._probes is not None:
             lines.append(f"  {'probes':24} {len(self._probes.r)}, kernels {self.report['kernel']}")
+        lines.extend(f"  {sensor!r}" for sensor in self.sensors)
         if self._section is not None:
             lines.append(f"  {'section':24} {' x '.join(map(str, self._section.displacement_z.shape))} (frame, z, r)")
         lines.extend(f"  warning: {warning}" for warning in self.warnings)
         return "\n".join(lines)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        names = ("numbers", "report", "warnings", "scene", "series", "energy", "probes", "section")
+        names = ("numbers", "report", "warnings", "scene", "series", "energy", "probes", "sensors", "section")
         parts = {name: getattr(self._core, name)() for name in names}
         if isinstance(self._core, _Kept):
             return _restored, (parts, self._core.files)

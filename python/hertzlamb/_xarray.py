@@ -68,6 +68,15 @@ def of_impact(run: Impact) -> xr.Dataset:
             described = _attributes("arrival", "echo_arrival")
             variables["echo_arrival"] = (("probe", "echo"), probes.echo_arrival, described)
         variables.update(_fields(probes, ("probe", "time"), ("probe",)))
+    if run.sensors:
+        coordinates["sensor"] = ("sensor", np.arange(1, len(run.sensors) + 1), {"long_name": "number of the sensor, from 1"})
+        for name in ("quantity", "unit", "output_unit"):
+            coordinates[f"sensor_{name}"] = ("sensor", [getattr(sensor, name) for sensor in run.sensors])
+        for name in ("mean", "output", "output_error"):
+            values = np.array([getattr(sensor, name) for sensor in run.sensors])
+            variables[f"sensor_{name}"] = (("sensor", "time"), values, _attributes("outputs", name))
+        errors = [sensor.mean_error for sensor in run.sensors]
+        variables["sensor_mean_error"] = ("sensor", errors, _attributes("outputs", "mean_error"))
     scalars = {name: value for name, value in run.report.items() if isinstance(value, (int, float, str))}
     return xr.Dataset(variables, coordinates, {**scalars, "warnings": "\n".join(run.warnings)})
 

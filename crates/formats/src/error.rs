@@ -170,6 +170,16 @@ impl SceneError {
         error
     }
 
+    /// Of a key inside a section of a list, such as `sensor[1]`, with which the sentence begins.
+    #[must_use]
+    pub(crate) fn of_section(mut self, section: &str) -> Self {
+        self.0.sentence = format!("{section}.{}", self.0.sentence);
+        if let Some(key) = &self.0.culprit.key {
+            self.0.culprit.key = Some(format!("{section}.{key}").into());
+        }
+        self
+    }
+
     /// Adds the path of the file to the sentence, unless the error has a path already.
     #[must_use]
     pub fn in_file(mut self, path: &Path) -> Self {

@@ -1,5 +1,6 @@
 //! Errors of an impact and of its fields.
 
+use crate::response::ResponseError;
 use contact::ContactError;
 use fault::{AnyError, Class, Culprit, Fault};
 use halfspace::DomainError;
@@ -116,6 +117,9 @@ pub enum ImpactError {
         /// Time in s.
         seconds: f64,
     },
+    /// The response of a sensor does not fit its history.
+    #[error(transparent)]
+    Response(ResponseError),
     /// A result that is not finite.
     #[error(
         "{quantity} is {value}: the numbers of the scene exceed the range of floating-point numbers; check their units"
@@ -166,6 +170,7 @@ impl Fault for ImpactError {
             Self::Contact(error) | Self::Doubtful { error, .. } => of_contact(error),
             Self::Table(fault) => of_table(fault),
             Self::OutsideTable { source, .. } => source.culprit(),
+            Self::Response(source) => source.culprit(),
             Self::OutsideBlock { source, .. } | Self::Domain(source) => source.culprit(),
             Self::TooMuchMemory { .. } => Culprit::of(Class::Memory),
             Self::TooManySamples { .. } | Self::GivenUp { .. } | Self::NotFinite { .. } => culprit,

@@ -61,6 +61,6 @@ pub use record::condition::TreatmentError;
 pub use record::jump::{Jump, follows};
 pub use record::{ASCENDING, ForceRecord, Reading, RecordError, Treated};
 pub use sampled::convolve;
-pub use scene::{Load, Measured, Probe, Scene, Section, Sensor, Strike};
+pub use scene::{Load, Measured, Probe, Scene, Section, Sensor, SensorResponse, Strike};
 pub use simulate::{simulate, simulate_rows, simulate_within};
 pub use source::{KernelChoice, Shared, Tables};

@@ -2,8 +2,10 @@
 
 use crate::quantity::{Derivative, Quantity};
 use crate::record::ForceRecord;
+use crate::response::Response;
 use contact::{Echoes, HalfSpace, Settings, Striker, WaveSpeeds};
 use halfspace::Field;
+use std::path::PathBuf;
 
 /// Load on the half-space.
 #[derive(Debug, Clone, PartialEq)]
@@ -107,12 +109,28 @@ pub struct Sensor {
     pub face_radius_m: f64,
     /// The quantity that its output follows.
     pub measured: Measured,
+    /// Its response to the mean of that quantity over its face; without one the output is the mean.
+    pub response: Option<SensorResponse>,
+}
+
+/// Response of a sensor.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SensorResponse {
+    /// From the measured quantity in SI units to the output.
+    pub response: Response,
+    /// Unit of the output.
+    pub unit: String,
+    /// File that it was read from.
+    pub file: Option<PathBuf>,
 }
 
 impl Sensor {
     /// Unit of its output.
     pub fn output_unit(&self) -> &str {
-        self.measured.unit()
+        match &self.response {
+            Some(own) => &own.unit,
+            None => self.measured.unit(),
+        }
     }
 
     /// The nearest place of its face to the load in m.

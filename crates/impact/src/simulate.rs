@@ -8,7 +8,7 @@ use crate::excitation::Excitation;
 use crate::face::plans;
 use crate::fields::faces;
 use crate::fields::probes::{SectionFields, at_probes, frames, on_rows};
-use crate::fields::sensors::at_sensors;
+use crate::fields::sensors::{at_sensors, outside};
 use crate::grid::{Grid, Wanted};
 use crate::impact::Impact;
 use crate::kernels::KernelSource;
@@ -269,6 +269,7 @@ fn add_fields(
         let found = at_sensors(&fields, scene, (&plans, watch))?;
         let warnings = faces::of_sensors(scene, &found, end_s);
         outcome.warnings.extend(warnings);
+        outcome.warnings.extend(outside(&found, grid.step_s));
         outcome.sensors = found;
         method = fields.method();
     }

@@ -46,6 +46,7 @@ fn sensor(r_m: f64, z_m: f64, face_radius_m: f64, measured: Measured) -> Sensor 
         z_m,
         face_radius_m,
         measured,
+        response: None,
     }
 }
 

@@ -7,10 +7,10 @@ use crate::values::{from_json, frozen, vector};
 use crate::work::{Threads, run};
 use contact::{Choice, Unknown};
 use formats::quantities::{Described, Kind, Labels, QUANTITIES, labels_of};
-use formats::results::{beside, peaks_of};
+use formats::results::{beside, mean_name, peaks_of};
 use formats::schema::results as schema;
 use formats::{Existing, Output, json_report, stage_results, stage_results_csv};
-use impact::{Allowance, KernelChoice, Outcome as Computed, Scene, simulate_within};
+use impact::{Allowance, KernelChoice, Outcome as Computed, Scene, SensorHistory, simulate_within};
 use output::{CSV, HDF5};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -167,6 +167,41 @@ impl Outcome {
             put_beside(&found, beside(row, errors, peaks.as_ref()), &shape[..1])?;
         }
         Ok(Some(found))
+    }
+
+    /// A dictionary of each sensor.
+    fn sensors<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyDict>>> {
+        let of = |own: &SensorHistory| {
+            let found = PyDict::new(py);
+            let sensor = &own.sensor;
+            let places = [sensor.r_m, sensor.z_m, sensor.face_radius_m];
+            for ((name, ..), value) in schema::FACES.iter().zip(places) {
+                found.set_item(name, value)?;
+            }
+            let words = [
+                sensor.measured.name(),
+                sensor.measured.unit(),
+                sensor.output_unit(),
+                mean_name(own.face),
+            ];
+            for ((name, ..), word) in schema::SENSED.iter().zip(words) {
+                found.set_item(name, word)?;
+            }
+            found.set_item(schema::ARRIVALS.0, vector(py, own.arrival_s.to_vec())?)?;
+            found.set_item(schema::VALID_UNTIL.0, own.valid_until_s)?;
+            let [mean, mean_error, output, output_error] = schema::OUTPUTS.map(|row| row.0);
+            found.set_item(mean_error, own.mean.error)?;
+            let histories = [
+                (mean, &own.mean.samples),
+                (output, &own.output),
+                (output_error, &own.output_error),
+            ];
+            for (name, samples) in histories {
+                found.set_item(name, vector(py, samples.clone())?)?;
+            }
+            Ok(found)
+        };
+        self.found.1.sensors.iter().map(of).collect()
     }
 
     /// Fields on the section by name, each (time, z, r), with arrivals (3, z, r), errors and requested peaks, each (z, r).

@@ -24,6 +24,7 @@ mod kernels;
 mod sweep;
 mod table;
 mod tabulate;
+mod response;
 mod impact_outcome;
 
 use pyo3::prelude::*;
@@ -35,6 +36,7 @@ mod _core {
     use crate::{
         impact_outcome::{Outcome, infer, run_impact},
         kernels::{arrivals, kernel, medium, static_field, surface, surface_centre},
+        response::Response,
         library::{describe, materials},
         scene::{resolved, sections_of},
         sweep::{Plan, check_at_once, plan, plan_of_columns},

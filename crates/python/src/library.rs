@@ -56,6 +56,7 @@ pub(crate) fn describe(py: Python<'_>) -> PyResult<Bound<'_, PyAny>> {
         "energy": part(&schema::ENERGIES),
         "fields": part(&FIELDS),
         "places": part(&schema::PLACES),
+        "outputs": part(&schema::OUTPUTS),
         "arrival": part(&[schema::ARRIVALS, schema::VALID_UNTIL, schema::ECHO_ARRIVALS]),
         "map": part(&schema::MAP_SCALES),
         "waves": schema::WAVES,

@@ -6,7 +6,9 @@ use contact::{
     Choice, Echoes, Library, Material, Plasticity, Settings, Shape, Striker, choice,
     fall_velocity_m_s, nearest,
 };
-use impact::{ForceRecord, Load, Scene, Sensor, Strike};
+use impact::response::Response;
+use impact::{ForceRecord, Load, Scene, Sensor, SensorResponse, Strike};
+use num_complex::Complex64;
 use toml::{Table, Value};
 
 /// A range of numbers.
@@ -160,6 +162,14 @@ const KEYS: &[Key] = keys! {
     sensor.z_m: NOT_NEGATIVE ("the depth of the sensor: 0 on the surface");
     sensor.face_radius_m: NOT_NEGATIVE;
     sensor.quantity;
+    sensor.response;
+    response.file;
+    response.poles;
+    response.zeros;
+    response.gain: FINITE ("the factor of the product of poles and zeros");
+    response.coefficients;
+    response.rate_hz: POSITIVE ("the sampling rate of the coefficients");
+    response.unit;
     map.r_max_m: POSITIVE ("the width of the section") = |s, _| s.section.as_ref()?.r_max_m;
     map.z_max_m: POSITIVE ("the depth of the section") = |s, _| s.section.as_ref()?.z_max_m;
     map.points = |s, _| s.section.as_ref()?.points.map(|n| n as i64).to_vec();
@@ -223,6 +233,9 @@ pub(crate) const SECTIONS: [&str; 9] = [
     "materials",
 ];
 
+/// Sections inside others: of a sensor.
+const INNER: [&str; 1] = ["response"];
+
 /// The keys of a section; those of an elastic body come last.
 pub(crate) fn keys_of(section: &str) -> impl Iterator<Item = &'static Key> {
     let bodies = ["target", "striker"].contains(&section);
@@ -233,7 +246,7 @@ pub(crate) fn keys_of(section: &str) -> impl Iterator<Item = &'static Key> {
 /// The full name of a key, with the first section that has it.
 pub(super) fn full_name(name: &str) -> Option<String> {
     let has = |section: &&str| keys_of(section).any(|key| key.name == name);
-    let section = SECTIONS.into_iter().find(has)?;
+    let section = SECTIONS.into_iter().chain(INNER).find(has)?;
     Some(format!("{section}.{name}"))
 }
 
@@ -313,7 +326,37 @@ fn resolved_sensor(sensor: &Sensor) -> Table {
         ("face_radius_m", sensor.face_radius_m.into()),
         ("quantity", sensor.measured.name().into()),
     ];
-    Table::from_iter(keys.map(|(key, value)| (key.to_owned(), value)))
+    let mut table = Table::from_iter(keys.map(|(key, value)| (key.to_owned(), value)));
+    if let Some(own) = &sensor.response {
+        table.insert("response".to_owned(), resolved_response(own).into());
+    }
+    table
+}
+
+/// A response of a resolved scene: its file, or its numbers.
+fn resolved_response(own: &SensorResponse) -> Table {
+    let roots = |all: &[Complex64]| -> Value {
+        let pair = |root: &Complex64| Value::from(vec![root.re, root.im]);
+        all.iter().map(pair).collect::<Vec<_>>().into()
+    };
+    let mut keys: Vec<(&str, Value)> = vec![("unit", own.unit.clone().into())];
+    match (&own.file, &own.response) {
+        (Some(file), _) => keys.push(("file", file.display().to_string().into())),
+        (None, Response::PolesZeros(own)) => keys.extend([
+            ("poles", roots(own.poles())),
+            ("zeros", roots(own.zeros())),
+            ("gain", own.gain().into()),
+        ]),
+        (None, Response::Fir(own)) => keys.extend([
+            ("coefficients", own.coefficients().to_vec().into()),
+            ("rate_hz", own.rate_hz().into()),
+        ]),
+        // a table has a file
+        (None, Response::Tabulated(_)) => {}
+    }
+    keys.into_iter()
+        .map(|(key, value)| (key.to_owned(), value))
+        .collect()
 }
 
 impl Set {
@@ -349,7 +392,7 @@ mod tests {
     #[test]
     fn the_document_has_every_key_with_its_range() {
         let document = include_str!("../../../../data-schema/scene.md");
-        for section in SECTIONS {
+        for section in SECTIONS.into_iter().chain(INNER) {
             let own = document.split("\n## ").filter(|part| {
                 let heading = part.lines().next().unwrap_or_default();
                 // the striker shares the elastic keys of the target

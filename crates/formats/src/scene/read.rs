@@ -3,11 +3,13 @@
 use super::body::{body, read_materials, read_strike};
 use super::keys::{SECTIONS, Set, keys_of};
 use super::record::{read_record, record_of_samples};
+use super::response::read_response;
 use super::section::{TomlSection, as_number, parse, read_standard, read_text};
 use crate::error::SceneError;
 use contact::{Choice, Conflict, Echoes, HalfSpace, Library, Settings};
 use halfspace::Plate;
-use impact::{Load, Probe, Reading, Scene, Section, Sensor, Strike};
+use impact::response::{Fir, PolesZeros, Response, ResponseError};
+use impact::{Load, Probe, Reading, Scene, Section, Sensor, SensorResponse, Strike};
 use lookup::schema::FIELD_NAMES;
 use output::{Role, is_standard};
 use std::path::Path;
@@ -42,6 +44,11 @@ pub fn read_with_inputs(path: &Path) -> Result<(Scene, Vec<Role>), SceneError> {
             found.push((role, folder.join(file)));
         }
     }
+    let files = scene
+        .sensors
+        .iter()
+        .filter_map(|sensor| sensor.response.as_ref()?.file.clone());
+    found.extend(files.map(|file| ("the response of a sensor", file)));
     Ok((scene, found))
 }
 
@@ -87,7 +94,7 @@ pub(crate) fn scene_with(
     let settings = read_settings(&root)?;
     let load = read_load(&root, &settings, library, directory)?;
     let (probes, section) = (read_probes(&root)?, read_section(&root)?);
-    let sensors = read_sensors(&root)?;
+    let sensors = read_sensors(&root, directory)?;
     inside(&target, (&probes, &sensors), section.as_ref())?;
     let output = root.section("output")?;
     let none = Table::new();
@@ -375,7 +382,7 @@ fn read_probes(root: &TomlSection<'_>) -> Result<Vec<Probe>, SceneError> {
         .collect()
 }
 
-fn read_sensors(root: &TomlSection<'_>) -> Result<Vec<Sensor>, SceneError> {
+fn read_sensors(root: &TomlSection<'_>, directory: &Path) -> Result<Vec<Sensor>, SceneError> {
     let read = |(name, table): &(String, &Table)| {
         let section = TomlSection::of(name, table);
         section.allow_keys_of("sensor")?;
@@ -385,9 +392,61 @@ fn read_sensors(root: &TomlSection<'_>) -> Result<Vec<Sensor>, SceneError> {
             z_m: section.needed("z_m")?,
             face_radius_m: section.number("face_radius_m")?.unwrap_or(0.0),
             measured,
+            response: read_sensor_response(name, &section, directory)?,
         })
     };
     root.list("sensor")?.iter().map(read).collect()
+}
+
+/// The response of a sensor: of a file, of poles and zeros, or of a digital filter.
+fn read_sensor_response(
+    name: &str,
+    sensor: &TomlSection<'_>,
+    directory: &Path,
+) -> Result<Option<SensorResponse>, SceneError> {
+    let Some(inner) = sensor.section("response")? else {
+        return Ok(None);
+    };
+    let full = format!("{name}.response");
+    let section = inner.renamed(&full);
+    section.allow_keys_of("response")?;
+    let (poles, zeros) = (section.roots("poles")?, section.roots("zeros")?);
+    let coefficients = section.numbers("coefficients")?;
+    let (gain, rate_hz) = (section.number("gain")?, section.number("rate_hz")?);
+    let file = section.text("file")?;
+    let has_roots = poles.is_some() || zeros.is_some() || gain.is_some();
+    let has_filter = coefficients.is_some() || rate_hz.is_some();
+    if u8::from(file.is_some()) + u8::from(has_roots) + u8::from(has_filter) > 1 {
+        return Err(SceneError::told(format!(
+            "{full} has more than one response: keep file, or poles, zeros and gain, or coefficients and rate_hz"
+        )));
+    }
+    let of = |error: ResponseError| SceneError::from(error).of_section(name);
+    let response = match (file, has_filter, has_roots) {
+        (Some(file), ..) => read_response(&directory.join(file))?,
+        (None, true, _) => {
+            let hint = "a digital filter has a list of coefficients";
+            let own = coefficients.ok_or_else(|| section.missing("coefficients", hint))?;
+            Response::Fir(Fir::new(own, section.needed("rate_hz")?).map_err(of)?)
+        }
+        (None, false, true) => {
+            let made = PolesZeros::new(
+                poles.unwrap_or_default(),
+                zeros.unwrap_or_default(),
+                section.needed("gain")?,
+            );
+            Response::PolesZeros(made.map_err(of)?)
+        }
+        (None, false, false) => {
+            let hint = "name a file, or list poles, zeros and gain, or coefficients and rate_hz";
+            return Err(section.missing("file", hint));
+        }
+    };
+    Ok(Some(SensorResponse {
+        response,
+        unit: section.text("unit")?.unwrap_or("V").to_owned(),
+        file: file.map(|file| directory.join(file)),
+    }))
 }
 
 fn read_section(root: &TomlSection<'_>) -> Result<Option<Section>, SceneError> {

@@ -5,6 +5,7 @@
 use super::keys::{FINITE, Range, full_name, keys_of, named, number};
 use crate::error::SceneError;
 use contact::{Choice, nearest};
+use num_complex::Complex64;
 use std::fs::File;
 use std::io::{self, Read};
 use std::ops::RangeInclusive;
@@ -25,6 +26,17 @@ impl<'a> TomlSection<'a> {
 
     pub(crate) fn of(name: &'a str, table: &'a Table) -> Self {
         Self { name, table }
+    }
+
+    /// The same under another name.
+    pub(super) fn renamed<'n>(&self, name: &'n str) -> TomlSection<'n>
+    where
+        'a: 'n,
+    {
+        TomlSection {
+            name,
+            table: self.table,
+        }
     }
 
     pub(crate) fn key(&self, key: &str) -> String {
@@ -197,6 +209,19 @@ impl<'a> TomlSection<'a> {
     pub(super) fn numbers(&self, key: &str) -> Result<Option<Vec<f64>>, SceneError> {
         self.typed(key, "a list of numbers", |value| {
             value.as_array()?.iter().map(as_number).collect()
+        })
+    }
+
+    /// A list of complex numbers, each a pair of its real and imaginary part, or its real part alone.
+    pub(super) fn roots(&self, key: &str) -> Result<Option<Vec<Complex64>>, SceneError> {
+        let root = |value: &Value| match value.as_array().map(Vec::as_slice) {
+            Some([re, im]) => Some(Complex64::new(as_number(re)?, as_number(im)?)),
+            Some(_) => None,
+            None => Some(as_number(value)?.into()),
+        };
+        let expected = "a list of pairs such as [[-1e4, 2e6], [-1e4, -2e6]], real and imaginary parts in rad/s";
+        self.typed(key, expected, |value| {
+            value.as_array()?.iter().map(root).collect()
         })
     }
 

@@ -4,6 +4,7 @@ use crate::convolution::mean::FaceAt;
 use crate::convolution::{Convolution, Trace};
 use crate::error::ImpactError;
 use crate::face::MeanPlan;
+use crate::response::{Response, ResponseError};
 use crate::scene::{Scene, Sensor};
 use rayon::prelude::*;
 
@@ -77,6 +78,15 @@ fn history(
         true => 0.0,
         false => mean.error,
     };
+    let errors: Vec<f64> = times_s.iter().map(error).collect();
+    let (output, output_error) = match &sensor.response {
+        None => (mean.samples.clone(), errors),
+        Some(own) => {
+            let step_s = convolution.grid.step_s;
+            let found = through(&own.response, step_s, times_s, (&mean.samples, &errors));
+            found.map_err(ImpactError::Response)?
+        }
+    };
     Ok(SensorHistory {
         arrival_s,
         valid_until_s: echo_s.map_or(f64::INFINITY, |t| excitation.start_s() + t),
@@ -86,9 +96,53 @@ fn history(
             MeanPlan::Circles(count, _) => FaceMean::Circles(*count),
             MeanPlan::Exact => FaceMean::Kernels,
         },
-        output: mean.samples.clone(),
-        output_error: times_s.iter().map(error).collect(),
+        output,
+        output_error,
         mean,
         sensor: sensor.clone(),
     })
+}
+
+/// The output of a response and its error, of samples and their errors at times that are multiples of a step from the first: between
+/// runs of samples a history is constant.
+fn through(
+    response: &Response,
+    step_s: f64,
+    times_s: &[f64],
+    (samples, errors): (&[f64], &[f64]),
+) -> Result<(Vec<f64>, Vec<f64>), ResponseError> {
+    let start_s = times_s.first().copied().unwrap_or(0.0);
+    let place = |time_s: &f64| ((time_s - start_s) / step_s).round() as usize;
+    let places: Vec<usize> = times_s.iter().map(place).collect();
+    let mut all = Vec::new();
+    for (place, sample) in places.iter().zip(samples) {
+        let last = all.last().copied().unwrap_or(0.0);
+        all.resize((*place).max(all.len()), last);
+        all.push(*sample);
+    }
+    let found = response.apply(step_s, &all)?;
+    let error = |(place, own): (&usize, &f64)| match *own > 0.0 {
+        true => found.error[*place] + found.largest_gain * own,
+        false => 0.0,
+    };
+    let output = places.iter().map(|place| found.samples[*place]).collect();
+    Ok((output, places.iter().zip(errors).map(error).collect()))
+}
+
+/// A warning about the part of a sensor's mean at frequencies at which its response is not known.
+pub(crate) fn outside(histories: &[SensorHistory], step_s: f64) -> Vec<String> {
+    /// Fraction of the energy from which on it is reported.
+    const COUNTS: f64 = 1e-4;
+    let of = |(i, own): (usize, &SensorHistory)| {
+        let response = &own.sensor.response.as_ref()?.response;
+        let part = response.outside(step_s, &own.mean.samples).ok()?;
+        let [low_hz, high_hz] = response.limits_hz();
+        (part > COUNTS).then(|| {
+            format!(
+                "{:.2} % of the energy of the input of sensor {i} lies outside its response, which is known from {low_hz:.3e} to {high_hz:.3e} Hz: the output leaves it out",
+                100.0 * part
+            )
+        })
+    };
+    (1..).zip(histories).filter_map(of).collect()
 }
