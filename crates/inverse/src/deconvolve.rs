@@ -1,0 +1,589 @@
+//! A force history that is not negative and as smooth as the traces allow, with its band.
+//!
+//! ```text
+//! minimise |A x - d|^2 + lambda |L x|^2,   x >= 0,   d and A = sum_k g_k h_k in units of the noise, L second differences
+//! ```
+//!
+//! The force is linear between its samples and zero outside its window.
+//! The default lambda has the largest likelihood of the traces, over all forces whose second differences are normal with
+//! the variance 1/lambda; the discrepancy principle smooths more, and its bands are too narrow.
+//!
+//! Theory: `docs/theory.md` (T73).
+
+use crate::error::{Estimate, InverseError};
+use crate::fit::{PulseFit, variance};
+use crate::nnls::{Factor, Solution, Symmetric, dot, nnls};
+use crate::problem::{Gain, Problem, Rows, Smoothing};
+use libm::erfc;
+
+/// One point of the L-curve.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LCurvePoint {
+    /// Weight of the squared second differences in 1/N^2.
+    pub lambda: f64,
+    /// Norm of the residual in units of the noise.
+    pub residual: f64,
+    /// Norm of the second differences of the force in N.
+    pub roughness: f64,
+}
+
+/// A force history with its band.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ForceHistory {
+    /// Time of the first force sample in s; the force is zero a step before it and a step after the last one.
+    pub start_s: f64,
+    /// Time between force samples in s.
+    pub step_s: f64,
+    /// Force in N.
+    pub force_n: Vec<f64>,
+    /// Lower end of the band in N.
+    pub low_n: Vec<f64>,
+    /// Upper end of the band in N.
+    pub high_n: Vec<f64>,
+    /// Largest force in N.
+    pub peak_n: Estimate,
+    /// Impulse in N s.
+    pub impulse_n_s: Estimate,
+    /// Gain of each trace; the standard deviation of a known one is 0.
+    pub gains: Vec<Estimate>,
+    /// Weight of the squared second differences in 1/N^2.
+    pub lambda: f64,
+    /// Other weights.
+    pub l_curve: Vec<LCurvePoint>,
+    /// Squared residual over the variance of the noise, of the rows that the window can change.
+    pub chi_squared: f64,
+    /// Those rows less the effective number of unknowns.
+    pub degrees_of_freedom: f64,
+    /// Factor by which the errors were enlarged because chi-squared is too large; 1 if it is not.
+    pub error_factor: f64,
+    /// Part of the squared whitened traces that the force explains.
+    pub variance_reduction: f64,
+}
+
+/// The normal equations of each trace for a gain of one, over a window of force samples.
+pub(crate) struct Normal {
+    /// First force sample.
+    pub(crate) start: usize,
+    parts: Vec<Part>,
+    penalty: Symmetric,
+}
+
+struct Part {
+    matrix: Symmetric,
+    right: Vec<f64>,
+    /// Squared rows that the window can change, their number, and all squared rows.
+    data: [f64; 3],
+}
+
+/// The normal equations of all traces with their gains.
+pub(crate) struct Stacked {
+    matrix: Symmetric,
+    right: Vec<f64>,
+    square: f64,
+    count: f64,
+}
+
+impl Normal {
+    /// Over the force samples from `start` to `end`.
+    pub(crate) fn new(problem: &Problem, rows: &[Rows], [start, end]: [usize; 2]) -> Self {
+        let size = end + 1 - start;
+        let parts = rows
+            .iter()
+            .map(|rows| Part::new(problem, rows, start, size))
+            .collect();
+        let penalty = Symmetric::from_fn(size, |i, j| {
+            [6.0, -4.0, 1.0].get(i - j).copied().unwrap_or(0.0)
+        });
+        Self {
+            start,
+            parts,
+            penalty,
+        }
+    }
+
+    /// Those of all traces but one, with the variance of the noise.
+    pub(crate) fn stacked(&self, gains: &[f64], but: Option<usize>, variance: f64) -> Stacked {
+        let size = self.penalty.size();
+        let matrix = Symmetric::from_fn(size, |_, _| 0.0);
+        let mut all = Stacked {
+            matrix,
+            right: vec![0.0; size],
+            square: 0.0,
+            count: 0.0,
+        };
+        for (k, (part, gain)) in self.parts.iter().zip(gains).enumerate() {
+            if Some(k) == but {
+                continue;
+            }
+            all.matrix.add(gain * gain / variance, &part.matrix);
+            all.right
+                .iter_mut()
+                .zip(&part.right)
+                .for_each(|(b, p)| *b += gain * p / variance);
+            all.square += part.data[0] / variance;
+            all.count += part.data[1];
+        }
+        all
+    }
+
+    /// The force of a weight, from a start.
+    pub(crate) fn solve(
+        &self,
+        all: &Stacked,
+        lambda: f64,
+        start: &[f64],
+    ) -> Result<Solution, InverseError> {
+        nnls(&self.weighted(all, lambda), &all.right, start).ok_or(InverseError::NotSolved)
+    }
+
+    fn weighted(&self, all: &Stacked, lambda: f64) -> Symmetric {
+        let mut matrix = all.matrix.clone();
+        matrix.add(lambda, &self.penalty);
+        matrix
+    }
+
+    /// Logarithm of the likelihood of the traces.
+    fn likelihood(&self, all: &Stacked, lambda: f64) -> f64 {
+        Factor::of(&self.weighted(all, lambda)).map_or(f64::NEG_INFINITY, |factor| {
+            let y = factor.forward(&all.right);
+            0.5 * (dot(&y, &y) - factor.log_determinant() + all.right.len() as f64 * lambda.ln())
+        })
+    }
+
+    /// Squared norms of residual and second differences.
+    fn norms(&self, all: &Stacked, x: &[f64]) -> [f64; 2] {
+        let residual = dot(&all.matrix.times(x), x) - 2.0 * dot(&all.right, x) + all.square;
+        [residual.max(0.0), dot(&self.penalty.times(x), x)]
+    }
+
+    fn point(
+        &self,
+        all: &Stacked,
+        lambda: f64,
+        start: &mut Vec<f64>,
+    ) -> Result<LCurvePoint, InverseError> {
+        *start = self.solve(all, lambda, start)?.x;
+        let [residual, roughness] = self.norms(all, start).map(f64::sqrt);
+        Ok(LCurvePoint {
+            lambda,
+            residual,
+            roughness,
+        })
+    }
+
+    /// The gains of a force where they are unknown, and the factor that the known ones ask of the force.
+    fn gains(&self, rows: &[Rows], x: &[f64]) -> (Vec<[f64; 2]>, [f64; 2]) {
+        let mut known = [0.0; 2];
+        let gains = self.parts.iter().zip(rows).map(|(part, rows)| {
+            let (square, product) = (dot(&part.matrix.times(x), x), dot(&part.right, x));
+            match rows.gain {
+                Gain::Known(gain) => {
+                    known[0] += gain * product;
+                    known[1] += gain * gain * square;
+                    [gain, 0.0]
+                }
+                Gain::Unknown => [product / square, square],
+            }
+        });
+        (gains.collect(), known)
+    }
+}
+
+impl Part {
+    fn new(problem: &Problem, rows: &Rows, start: usize, size: usize) -> Self {
+        let rho = problem.oversampling as isize;
+        let count = rows.data.len();
+        let origin = rows.force_index(problem, 0) as isize - start as isize;
+        let response = |i: isize, a: usize| {
+            let place = origin + i * rho - a as isize;
+            usize::try_from(place)
+                .ok()
+                .and_then(|k| rows.kernel.get(k))
+                .copied()
+                .unwrap_or(0.0)
+        };
+        // one force sample later is a row earlier: along a diagonal two rows change
+        let mut matrix = Symmetric::from_fn(size, |_, _| 0.0);
+        for a in (0..size).rev() {
+            for b in 0..=a {
+                let entry = match a + problem.oversampling < size {
+                    true => {
+                        let [entering, leaving] =
+                            [count as isize - 1, -1].map(|i| response(i, a) * response(i, b));
+                        matrix.row(a + problem.oversampling)[b + problem.oversampling] + entering
+                            - leaving
+                    }
+                    false => (0..count as isize)
+                        .map(|i| response(i, a) * response(i, b))
+                        .sum(),
+                };
+                matrix.set(a, b, entry);
+            }
+        }
+        let right = (0..size).map(|a| {
+            (0..count)
+                .map(|i| response(i as isize, a) * rows.data[i])
+                .sum()
+        });
+        let first = (0..count).find(|&i| rows.force_index(problem, i) >= start + rows.arrival);
+        let changed = &rows.data[first.unwrap_or(count)..];
+        let data = [
+            dot(changed, changed),
+            changed.len() as f64,
+            dot(&rows.data, &rows.data),
+        ];
+        Self {
+            right: right.collect(),
+            matrix,
+            data,
+        }
+    }
+}
+
+/// Steps of the search in the logarithm of lambda: decades until it is bracketed, then golden sections down to a factor of
+/// 1.4, which changes the force by a tenth of its error.
+const DECADES: usize = 14;
+const SECTIONS: usize = 6;
+
+/// Points of the L-curve on either side, and points in a decade.
+const L_CURVE_SIDE: i32 = 10;
+const L_CURVE_DENSITY: f64 = 2.0;
+
+/// Changes of gain and force, at most, and the change at which they end.
+const GAIN_CHANGES: usize = 50;
+const GAIN_CHANGE: f64 = 1e-5;
+
+/// The force history over a window of force samples.
+pub(crate) fn deconvolve(
+    problem: &Problem,
+    rows: &[Rows],
+    fit: &PulseFit,
+    normal: &Normal,
+) -> Result<ForceHistory, InverseError> {
+    let guess = guess(problem, fit, normal);
+    let mut gains: Vec<f64> = fit.gains.iter().map(|gain| gain.value).collect();
+    let mut noise = 1.0;
+    loop {
+        let mut all = normal.stacked(&gains, None, noise);
+        let mut lambda = chosen(problem.smoothing, normal, &all, guess)?;
+        let mut solution = normal.solve(&all, lambda, &pulse_samples(problem, fit, normal))?;
+        if rows.iter().any(|rows| rows.gain == Gain::Unknown) {
+            for _ in 0..GAIN_CHANGES {
+                let before = gains.clone();
+                gains = regained(problem, normal, rows, &solution.x);
+                all = normal.stacked(&gains, None, noise);
+                solution = normal.solve(&all, lambda, &solution.x)?;
+                if gains
+                    .iter()
+                    .zip(&before)
+                    .all(|(a, b)| (a - b).abs() <= GAIN_CHANGE * a.abs())
+                {
+                    break;
+                }
+            }
+            lambda = chosen(problem.smoothing, normal, &all, lambda)?;
+            solution = normal.solve(&all, lambda, &solution.x)?;
+        }
+        let posterior = Posterior::new(normal, &all, lambda, solution);
+        let [residual, _] = normal.norms(&all, &posterior.solution.x);
+        let degrees = (all.count - posterior.unknowns).max(1.0);
+        let found = variance(residual, degrees);
+        if found > 1.0 && noise == 1.0 {
+            noise = found;
+            continue;
+        }
+        return posterior.history(problem, rows, &all, noise, residual * noise);
+    }
+}
+
+/// Samples of the fitted pulse in the window.
+fn pulse_samples(problem: &Problem, fit: &PulseFit, normal: &Normal) -> Vec<f64> {
+    let sample = |j| {
+        let time_s = problem.force_time_s((normal.start + j) as f64) - fit.start_s.value;
+        fit.peak_n.value * problem.pulse.at(time_s / fit.duration_s.value)[0]
+    };
+    (0..normal.penalty.size()).map(sample).collect()
+}
+
+/// The weight that suits the fitted pulse.
+fn guess(problem: &Problem, fit: &PulseFit, normal: &Normal) -> f64 {
+    let pulse = pulse_samples(problem, fit, normal);
+    let roughness = dot(&normal.penalty.times(&pulse), &pulse);
+    pulse.iter().filter(|p| **p > 0.0).count().max(1) as f64 / roughness
+}
+
+/// The gains of a force where they are unknown, in the scale of the known ones or of the impulse.
+fn regained(problem: &Problem, normal: &Normal, rows: &[Rows], x: &[f64]) -> Vec<f64> {
+    let (gains, [product, square]) = normal.gains(rows, x);
+    let impulse = x.iter().sum::<f64>() * problem.force_step_s();
+    let scale = match problem.impulse_n_s {
+        Some(known) if square == 0.0 => known.value / impulse,
+        Some(_) | None => product / square,
+    };
+    let scaled = |(gain, rows): (&[f64; 2], &Rows)| match rows.gain {
+        Gain::Known(gain) => gain,
+        Gain::Unknown => gain[0] / scale,
+    };
+    gains.iter().zip(rows).map(scaled).collect()
+}
+
+/// The weight by the choice of the problem.
+fn chosen(
+    smoothing: Smoothing,
+    normal: &Normal,
+    all: &Stacked,
+    guess: f64,
+) -> Result<f64, InverseError> {
+    let mut start = Vec::new();
+    match smoothing {
+        Smoothing::Given(lambda) => Ok(lambda),
+        Smoothing::Likelihood => {
+            Ok(largest(|log| normal.likelihood(all, log.exp()), guess.ln()).exp())
+        }
+        Smoothing::Discrepancy => {
+            let (mut low, mut high) = ((guess * 1e-8).ln(), (guess * 1e8).ln());
+            for _ in 0..24 {
+                let middle = 0.5 * (low + high);
+                let point = normal.point(all, middle.exp(), &mut start)?;
+                *(if point.residual * point.residual > all.count {
+                    &mut high
+                } else {
+                    &mut low
+                }) = middle;
+            }
+            Ok(low.exp())
+        }
+        Smoothing::LCurve => {
+            let points = l_curve(normal, all, guess)?;
+            let logs: Vec<[f64; 2]> = points
+                .iter()
+                .map(|p| [p.residual.ln(), p.roughness.ln()])
+                .collect();
+            let bend = |i: usize| {
+                let [a, b] =
+                    [0, 1].map(|c| [logs[i][c] - logs[i - 1][c], logs[i + 1][c] - logs[i][c]]);
+                // sine of the angle between two chords
+                (a[0] * b[1] - a[1] * b[0]) / (a[0].hypot(b[0]) * a[1].hypot(b[1]))
+            };
+            let corner = (1..logs.len() - 1).max_by(|&i, &j| bend(i).total_cmp(&bend(j)));
+            Ok(corner.map_or(guess, |i| points[i].lambda))
+        }
+    }
+}
+
+/// Where a function with one maximum has it.
+fn largest(of: impl Fn(f64) -> f64, guess: f64) -> f64 {
+    let decade = std::f64::consts::LN_10;
+    let (mut middle, mut best) = (guess, of(guess));
+    let [mut below, mut above] = [-decade, decade].map(|d| of(guess + d));
+    for _ in 0..DECADES {
+        if above > best {
+            (below, best, middle) = (best, above, middle + decade);
+            above = of(middle + decade);
+        } else if below > best {
+            (above, best, middle) = (best, below, middle - decade);
+            below = of(middle - decade);
+        } else {
+            break;
+        }
+    }
+    let (mut low, mut high) = (middle - decade, middle + decade);
+    let golden = 0.5 * (5.0_f64.sqrt() - 1.0);
+    let mut inner = [high - golden * (high - low), low + golden * (high - low)];
+    let mut values = inner.map(&of);
+    for _ in 0..SECTIONS {
+        if values[0] > values[1] {
+            (high, inner[1], values[1]) = (inner[1], inner[0], values[0]);
+            inner[0] = high - golden * (high - low);
+            values[0] = of(inner[0]);
+        } else {
+            (low, inner[0], values[0]) = (inner[0], inner[1], values[1]);
+            inner[1] = low + golden * (high - low);
+            values[1] = of(inner[1]);
+        }
+    }
+    0.5 * (low + high)
+}
+
+/// Residual and roughness for weights around one, ascending.
+fn l_curve(normal: &Normal, all: &Stacked, lambda: f64) -> Result<Vec<LCurvePoint>, InverseError> {
+    let mut start = Vec::new();
+    let weights = (-L_CURVE_SIDE..=L_CURVE_SIDE).rev();
+    let points = weights.map(|i| {
+        normal.point(
+            all,
+            lambda * 10_f64.powf(f64::from(i) / L_CURVE_DENSITY),
+            &mut start,
+        )
+    });
+    let mut points: Vec<LCurvePoint> = points.collect::<Result<_, _>>()?;
+    points.reverse();
+    Ok(points)
+}
+
+/// The force of a weight with what it does not determine.
+struct Posterior<'a> {
+    normal: &'a Normal,
+    lambda: f64,
+    solution: Solution,
+    /// Variance of each sample: of a free one the geometric mean of the posterior's, which has all of the prior in it, and
+    /// of the noise's, which has none; of a pinned one the posterior's if it were free.
+    variance: Vec<f64>,
+    /// Variance of the sum of all samples.
+    variance_of_sum: f64,
+    /// Effective number of unknowns.
+    unknowns: f64,
+    /// Half of the change of the force when the weight is doubled and halved.
+    bias: Vec<f64>,
+}
+
+impl<'a> Posterior<'a> {
+    fn new(normal: &'a Normal, all: &Stacked, lambda: f64, solution: Solution) -> Self {
+        let (free, factor) = (&solution.free, &solution.factor);
+        let size = solution.x.len();
+        let matrix = normal.weighted(all, lambda);
+        let mut variance = vec![0.0; size];
+        let mut unknowns = free.len() as f64;
+        for (at, &j) in free.iter().enumerate() {
+            let mut column = vec![0.0; size];
+            let unit: Vec<f64> = (0..free.len())
+                .map(|i| f64::from(u8::from(i == at)))
+                .collect();
+            factor
+                .solve(&unit)
+                .iter()
+                .zip(free)
+                .for_each(|(value, &i)| column[i] = *value);
+            // rows of the penalty have five entries
+            let near = |i: usize| i.saturating_sub(2)..(i + 3).min(size);
+            let rough = |i: usize| dot(&normal.penalty.row(i)[near(i)], &column[near(i)]);
+            let prior: f64 = free.iter().map(|&i| column[i] * rough(i)).sum();
+            unknowns -= lambda * rough(j);
+            let sampling = (column[j] - lambda * prior).max(0.0);
+            variance[j] = (column[j] * sampling).sqrt();
+        }
+        for j in (0..size).filter(|&j| solution.x[j] == 0.0) {
+            let entries: Vec<f64> = free.iter().map(|&i| matrix.row(j)[i]).collect();
+            let known = factor.forward(&entries);
+            variance[j] = 1.0 / (matrix.row(j)[j] - dot(&known, &known));
+        }
+        let sum = factor.forward(&vec![1.0; free.len()]);
+        let variance_of_sum = dot(&sum, &sum);
+        let changed = [0.5, 2.0].map(|factor| normal.solve(all, factor * lambda, &solution.x));
+        let bias = match changed {
+            [Ok(rough), Ok(smooth)] => rough
+                .x
+                .iter()
+                .zip(&smooth.x)
+                .map(|(a, b)| 0.5 * (a - b))
+                .collect(),
+            _ => vec![0.0; size],
+        };
+        Self {
+            normal,
+            lambda,
+            solution,
+            variance,
+            variance_of_sum,
+            unknowns,
+            bias,
+        }
+    }
+
+    fn history(
+        &self,
+        problem: &Problem,
+        rows: &[Rows],
+        all: &Stacked,
+        noise: f64,
+        chi_squared: f64,
+    ) -> Result<ForceHistory, InverseError> {
+        let x = &self.solution.x;
+        let tail = 0.5 * (1.0 - problem.confidence);
+        let width = quantile(tail);
+        let half = |j: usize| width * self.variance[j].sqrt() + self.bias[j].abs();
+        let free = |j: usize| x[j] > 0.0;
+        let high = (0..x.len()).map(|j| {
+            if free(j) {
+                x[j] + half(j)
+            } else {
+                self.pinned(j, 2.0 * tail) + self.bias[j].abs()
+            }
+        });
+        let low = (0..x.len()).map(|j| {
+            if free(j) {
+                (x[j] - half(j)).max(0.0)
+            } else {
+                0.0
+            }
+        });
+        let top = (0..x.len())
+            .max_by(|&i, &j| x[i].total_cmp(&x[j]))
+            .unwrap_or(0);
+        let step = problem.force_step_s();
+        let bias_of_sum: f64 = self.bias.iter().sum();
+        let squares: f64 = self.normal.parts.iter().map(|part| part.data[2]).sum();
+        let changed: f64 = self.normal.parts.iter().map(|part| part.data[0]).sum();
+        let (gains, [_, square]) = self.normal.gains(rows, x);
+        let scale = match problem.impulse_n_s {
+            Some(known) if square == 0.0 => (known.sd / known.value).powi(2),
+            Some(_) | None => noise / square,
+        };
+        let gains = gains.iter().map(|&[value, square]| match square {
+            0.0 => Estimate { value, sd: 0.0 },
+            square => Estimate {
+                value,
+                sd: (noise / square + value * value * scale).sqrt(),
+            },
+        });
+        Ok(ForceHistory {
+            start_s: problem.force_time_s(self.normal.start as f64),
+            step_s: step,
+            low_n: low.collect(),
+            high_n: high.collect(),
+            peak_n: Estimate {
+                value: x[top],
+                sd: self.variance[top].sqrt().hypot(self.bias[top]),
+            },
+            impulse_n_s: Estimate {
+                value: step * x.iter().sum::<f64>(),
+                sd: step * self.variance_of_sum.sqrt().hypot(bias_of_sum),
+            },
+            gains: gains.collect(),
+            lambda: self.lambda / noise,
+            l_curve: l_curve(self.normal, all, self.lambda)?,
+            chi_squared,
+            degrees_of_freedom: (all.count - self.unknowns).max(1.0),
+            error_factor: noise.sqrt(),
+            variance_reduction: 1.0 - (chi_squared + squares - changed) / squares,
+            force_n: x.clone(),
+        })
+    }
+
+    /// The upper end of a pinned sample: its posterior is the tail of a normal law whose mean is negative.
+    fn pinned(&self, j: usize, tail: f64) -> f64 {
+        let sd = self.variance[j].sqrt();
+        // beyond 30 standard deviations the tail is below 1e-197
+        let mean = (self.solution.gradient[j] * sd).clamp(-30.0, 0.0);
+        (sd * (mean + quantile(tail * upper_tail(-mean)))).max(0.0)
+    }
+}
+
+/// Probability of a normal variable above z.
+fn upper_tail(z: f64) -> f64 {
+    0.5 * erfc(z * std::f64::consts::FRAC_1_SQRT_2)
+}
+
+/// Where the probability of a normal variable above it is `tail`, at most 1/2.
+fn quantile(tail: f64) -> f64 {
+    let (mut low, mut high) = (0.0, 40.0);
+    for _ in 0..50 {
+        let middle = 0.5 * (low + high);
+        *(if upper_tail(middle) > tail {
+            &mut low
+        } else {
+            &mut high
+        }) = middle;
+    }
+    0.5 * (low + high)
+}
