@@ -475,7 +475,7 @@ impl<'a> Posterior<'a> {
                 .x
                 .iter()
                 .zip(&smooth.x)
-                .map(|(a, b)| 0.5 * (a - b))
+                .map(|(a, b)| 0.25 * (a - b))
                 .collect(),
             _ => vec![0.0; size],
         };

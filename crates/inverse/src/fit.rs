@@ -270,15 +270,23 @@ impl<'a> Fitting<'a> {
         let (peak, duration, start) = (values[0], values[1], values[2]);
         let first = start.max(0.0).floor() as usize;
         let last = (start + duration).max(first as f64).ceil() as usize;
-        let [mut level, mut wider, mut later] =
-            [(); 3].map(|()| Vec::with_capacity(last - first + 1));
-        for j in first..=last {
-            let fraction = (j as f64 - start) / duration;
-            let [value, slope] = self.problem.pulse.at(fraction);
-            level.push(value);
-            wider.push(-peak * slope * fraction / duration);
-            later.push(-peak * slope / duration);
-        }
+        // a line between samples lies inside a curve: the samples are moved out by a twelfth of the second difference
+        let sample = |j: usize| {
+            let parts = [(-1.0, -1.0), (0.0, 14.0), (1.0, -1.0)].map(|(offset, weight)| {
+                let fraction = (j as f64 + offset - start) / duration;
+                let [value, slope] = self.problem.pulse.at(fraction);
+                [value, fraction * slope, slope].map(|x| weight / 12.0 * x)
+            });
+            [0, 1, 2].map(|c| parts[0][c] + parts[1][c] + parts[2][c])
+        };
+        let samples: Vec<[f64; 3]> = (first..=last).map(sample).collect();
+        let scale = [1.0, -peak / duration, -peak / duration];
+        let forces = [0, 1, 2].map(|c| {
+            samples
+                .iter()
+                .map(|s| scale[c] * s[c])
+                .collect::<Vec<f64>>()
+        });
         let mut point = Point {
             values,
             chi_squared: 0.0,
@@ -291,8 +299,9 @@ impl<'a> Fitting<'a> {
                 Gain::Known(gain) => gain,
                 Gain::Unknown => at.map_or(1.0, |at| point.values[at]),
             };
-            let columns =
-                [&level, &wider, &later].map(|force| rows.predict(self.problem, first, force));
+            let columns = forces
+                .each_ref()
+                .map(|force| rows.predict(self.problem, first, force));
             let residual: Vec<f64> = rows
                 .data
                 .iter()

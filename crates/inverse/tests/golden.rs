@@ -1,0 +1,117 @@
+//! Six noisy traces of an independent program (`tests/golden/inverse_trace.csv`) at a signal-to-noise ratio of 100.
+
+use halfspace::{Field, Kernel, Medium, Profile};
+use inverse::{Gain, Noise, Problem, Pulse, Smoothing, Trace, infer};
+
+/// Force samples before the first sample.
+const LEAD: usize = 4;
+
+/// Response of a surface point at distance 1 to a hat; time in 1/c2, displacement in P/mu, nu = 1/4.
+fn response(velocity: bool, step: f64, count: usize) -> Vec<f64> {
+    let medium = Medium::new(0.25).expect("a Poisson ratio");
+    let kernel = Kernel::new(&medium, Profile::Point, 1e-10).expect("a tolerance");
+    let w = Field::DisplacementZ.index();
+    let rest = kernel.static_field(1.0, 0.0).expect("a place")[w];
+    let faster = 3.0_f64.sqrt();
+    let base = kernel.step_integral(1.0, 0.0, 0.0).expect("a time").value[w];
+    let integral = |t: f64| {
+        let t = t.max(0.0) * faster;
+        (rest * t + kernel.step_integral(1.0, 0.0, t).expect("a time").value[w] - base) / faster
+    };
+    let rise = |t: f64| {
+        let t = t.max(0.0) * faster;
+        rest + kernel.remainder(1.0, 0.0, t).expect("a time").value[w]
+    };
+    let bend = |f: &dyn Fn(f64) -> f64, t: f64| (f(t + step) - 2.0 * f(t) + f(t - step)) / step;
+    let at = |t: f64| {
+        if velocity {
+            bend(&rise, t)
+        } else {
+            bend(&integral, t)
+        }
+    };
+    (0..count).map(|k| at(k as f64 * step)).collect()
+}
+
+#[test]
+fn forces_of_independent_traces() {
+    let text = include_str!("../../../tests/golden/inverse_trace.csv");
+    let samples: Vec<f64> = (0..=400)
+        .map(|i| {
+            (std::f64::consts::PI * f64::from(i) / 400.0)
+                .sin()
+                .powf(1.5)
+        })
+        .collect();
+    let pulse = Pulse::sampled(&samples).expect("a pulse");
+    for case in ["u2.0", "u0.5", "u0.1", "v2.0", "v0.5", "v0.1"] {
+        let rows: Vec<Vec<f64>> = text
+            .lines()
+            .filter(|line| line.starts_with(case))
+            .map(|line| {
+                line.split(',')
+                    .skip(1)
+                    .map(|x| x.parse().expect("a number"))
+                    .collect()
+            })
+            .collect();
+        let (step, count) = (rows[0][0], rows.len());
+        let column = |c: usize| rows.iter().map(|row| row[c]).collect::<Vec<f64>>();
+        let (truth, samples) = (column(1), column(2));
+        let sigma = samples.iter().fold(0.0, |a: f64, b| a.max(b.abs())) / 100.0;
+        let response = response(case.starts_with('v'), step, count + LEAD);
+        let problem = Problem {
+            step_s: step,
+            oversampling: 1,
+            lead: LEAD,
+            traces: vec![Trace {
+                samples,
+                response,
+                noise: Noise::White(sigma),
+                gain: Gain::Known(1.0),
+                valid_until_s: None,
+            }],
+            pulse: &pulse,
+            window_s: None,
+            impulse_n_s: None,
+            smoothing: Smoothing::Likelihood,
+            confidence: 0.95,
+        };
+        let found = infer(&problem).expect("a force");
+        let (fit, history) = (&found.fit, &found.history);
+        let exact = truth.iter().fold(0.0, |a: f64, b| a.max(*b));
+        let duration = 25.0 * step;
+        println!(
+            "{case}: peak {:.4} of {exact:.4}, fit {:.4} {:.4} tc, start {:.4} tc, chi-squared {:.2}",
+            history.peak_n.value,
+            fit.peak_n.value,
+            fit.duration_s.value / duration,
+            (fit.start_s.value + step) / duration,
+            fit.chi_squared / fit.degrees_of_freedom as f64,
+        );
+        assert!(
+            (history.peak_n.value / exact - 1.0).abs() < 0.02,
+            "{case}: {:?}",
+            history.peak_n
+        );
+        assert!(
+            (fit.peak_n.value - 1.0).abs() < 0.02,
+            "{case}: {:?}",
+            fit.peak_n
+        );
+        assert!(
+            (fit.duration_s.value / duration - 1.0).abs() < 0.02,
+            "{case}: {:?}",
+            fit.duration_s
+        );
+        assert!(
+            (fit.start_s.value + step).abs() < 0.02 * duration,
+            "{case}: {:?}",
+            fit.start_s
+        );
+        assert!(
+            (0.5..1.5).contains(&(fit.chi_squared / fit.degrees_of_freedom as f64)),
+            "{case}"
+        );
+    }
+}
