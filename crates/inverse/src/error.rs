@@ -84,14 +84,11 @@ pub enum InverseError {
         /// Mean of the beginning over the standard deviation of the noise.
         ratio: f64,
     },
-    /// The wave of the start is not in a trace.
+    /// The wave of the start is not in a trace, or the response is another one.
     #[error(
-        "the traces do not show the start of the blow: the best start is at {} s, whose first wave is before the first sample used; begin the traces earlier, or pass a longer lead", rounded(*start_s)
+        "the traces do not show the start of the blow: no pulse whose first wave is in them explains them; begin the traces earlier, pass a longer lead, or check the response and its sign"
     )]
-    StartNotShown {
-        /// Best start in s.
-        start_s: f64,
-    },
+    StartNotShown,
     /// Part of the force is not in a trace.
     #[error(
         "the force until {} s is not in the traces: they are valid until {} s, which shows forces until {} s; shorten the window, or move the sensor closer", rounded(*wanted_s), rounded(*valid_s), rounded(*shown_s)
@@ -160,7 +157,7 @@ impl Fault for InverseError {
             Self::Length { what, found, .. } => culprit.key(what).number(*found as f64),
             Self::NoQuiet { found, .. } => culprit.key("noise").number(*found as f64),
             Self::UnderLoad { ratio, .. } => culprit.key("trace").number(*ratio),
-            Self::StartNotShown { start_s } => culprit.key("trace").number(*start_s),
+            Self::StartNotShown => culprit.key("trace"),
             Self::NotShown { wanted_s, .. } => culprit.key("window_s").number(*wanted_s),
             Self::QuietMoves { quiet_s, .. } => culprit.key("noise").number(*quiet_s),
             Self::Noisy { found, .. } => culprit.key("trace").number(*found),

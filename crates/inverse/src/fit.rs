@@ -41,6 +41,9 @@ pub struct PulseFit {
 /// signal-to-noise ratio of about 2 to 3 with 25 samples a duration. `tests/rejected.rs` has pure noise.
 pub(crate) const LEAST_DETECTION: f64 = 8.0;
 
+/// Mean square of whitened traces from which they certainly move.
+const MOVING: f64 = 2.0;
+
 /// Ratio of durations of the net and starts for each duration, coarse enough to be cheap and fine enough that the steps that
 /// follow converge.
 const DURATION_RATIO: f64 = 1.3;
@@ -48,6 +51,10 @@ const STARTS_EACH: f64 = 10.0;
 
 /// Durations of the net that are refined.
 const REFINED: usize = 4;
+
+/// Part of the largest squared response that a place must show: where the traces end before the main waves of a late blow,
+/// any force explains a little.
+const SHOWN: f64 = 0.1;
 
 /// Shortest duration in force steps.
 const SHORTEST: f64 = 3.0;
@@ -81,12 +88,14 @@ pub(crate) fn fit(problem: &Problem, rows: &[Rows]) -> Result<PulseFit, InverseE
     let found = best
         .as_ref()
         .map_or(0.0, |best| (noise - best.chi_squared).max(0.0).sqrt());
+    let count: usize = rows.iter().map(|rows| rows.data.len()).sum();
     match best.filter(|_| found >= LEAST_DETECTION) {
+        Some(best) => fitting.checked(&best, found),
+        None if noise > MOVING * count as f64 => Err(InverseError::StartNotShown),
         None => Err(InverseError::Noisy {
             found,
             least: LEAST_DETECTION,
         }),
-        Some(best) => fitting.checked(&best, found),
     }
 }
 
@@ -153,7 +162,7 @@ impl<'a> Fitting<'a> {
 
     /// The reduction of chi-squared by the best peak and gains of pulses that start at a force sample.
     fn explained(&self, start: usize, templates: &[Vec<f64>]) -> f64 {
-        let (mut known, mut free) = ([0.0; 2], 0.0);
+        let (mut known, mut free, mut shown) = ([0.0; 2], 0.0, false);
         for (rows, template) in self.rows.iter().zip(templates) {
             let place = rows.force_index(self.problem, 0);
             let rho = self.problem.oversampling;
@@ -169,6 +178,7 @@ impl<'a> Fitting<'a> {
                 &template[from..from + count],
             );
             let (product, square) = (dot(data, model), dot(model, model));
+            shown |= square > SHOWN * dot(template, template);
             match rows.gain {
                 Gain::Known(gain) => {
                     known[0] += gain * product;
@@ -178,10 +188,10 @@ impl<'a> Fitting<'a> {
                 Gain::Unknown => {}
             }
         }
-        if known[0] > 0.0 {
-            free + known[0] * known[0] / known[1]
-        } else {
-            free
+        match shown {
+            false => 0.0,
+            true if known[0] > 0.0 => free + known[0] * known[0] / known[1],
+            true => free,
         }
     }
 
@@ -405,7 +415,7 @@ impl<'a> Fitting<'a> {
             best.values[2] + rows.arrival as f64 >= rows.force_index(self.problem, 0) as f64
         };
         if best.values[2] < 0.0 || !self.rows.iter().any(seen) {
-            return Err(InverseError::StartNotShown { start_s });
+            return Err(InverseError::StartNotShown);
         }
         self.problem
             .shown(self.rows, best.values[2] + best.values[1])?;

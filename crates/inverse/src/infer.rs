@@ -39,7 +39,7 @@ pub struct Inferred {
 ///
 /// The first is the default. The others are tried in turn if no force in it explains the traces: a double blow, or a pulse
 /// of another shape. `tests/shapes.rs` (`a_double_blow_is_found_whole`) fails without them.
-const MARGINS: [f64; 5] = [0.15, 0.5, 1.2, 2.5, 5.0];
+const MARGINS: [f64; 3] = [0.15, 0.6, 1.5];
 
 /// The force behind traces of one blow.
 ///

@@ -232,7 +232,7 @@ impl Problem<'_> {
         let largest = response.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
         let arrival = response.iter().position(|x| x.abs() > ARRIVED * largest);
         let arrival = arrival.ok_or(InverseError::Few {
-            key: "the response within the trace",
+            key: "the response until the end of the trace",
             least: 1,
         })?;
         let first = whitening.order();

@@ -4,12 +4,10 @@
 
 use halfspace::random::Stream;
 use halfspace::{Field, Kernel, Medium, Profile};
-use inverse::{Gain, Noise, Problem, Pulse, Smoothing, Trace};
+use inverse::{ForceHistory, Gain, Noise, Problem, Pulse, Smoothing, Trace};
 
 /// Samples of the trace in a contact.
 pub const SAMPLES: usize = 25;
-/// Force samples in a sample of the trace.
-pub const OVERSAMPLING: usize = 4;
 /// Start of the blow in contact durations, which is no sample.
 pub const START: f64 = 0.313;
 const FINER: usize = 40;
@@ -69,12 +67,19 @@ pub fn hat(
 pub struct Place {
     pub quantity: Quantity,
     pub distance: f64,
+    /// Durations until the blow.
+    pub start: f64,
 }
 
 impl Place {
+    /// Force samples in a sample of the trace: near a sensor fronts are sharp.
+    pub fn oversampling(self) -> usize {
+        if self.distance < 1.0 { 8 } else { 4 }
+    }
+
     /// Samples until 1.7 durations after the Rayleigh wave of the start.
     pub fn samples(self) -> usize {
-        ((1.0877 * self.distance + 1.7 + START) * SAMPLES as f64) as usize
+        ((1.0877 * self.distance + 1.7 + self.start) * SAMPLES as f64) as usize
     }
 
     /// The trace of a force over time in contact durations.
@@ -111,12 +116,12 @@ impl Place {
             }
             false => 0.0,
         };
-        let width = 1.0 / (SAMPLES * OVERSAMPLING) as f64;
+        let width = 1.0 / (SAMPLES * self.oversampling()) as f64;
         hat(
             integral,
             self.quantity,
             width,
-            self.samples() * OVERSAMPLING,
+            self.samples() * self.oversampling(),
         )
     }
 }
@@ -151,10 +156,10 @@ pub fn noisy(clean: &[f64], response: &[f64], snr: f64, seed: u64) -> Trace {
     }
 }
 
-pub fn problem(pulse: &Pulse, traces: Vec<Trace>) -> Problem<'_> {
+pub fn problem(pulse: &Pulse, place: Place, traces: Vec<Trace>) -> Problem<'_> {
     Problem {
         step_s: 1.0 / SAMPLES as f64,
-        oversampling: OVERSAMPLING,
+        oversampling: place.oversampling(),
         lead: 0,
         traces,
         pulse,
@@ -163,6 +168,21 @@ pub fn problem(pulse: &Pulse, traces: Vec<Trace>) -> Problem<'_> {
         smoothing: Smoothing::Likelihood,
         confidence: 0.95,
     }
+}
+
+/// True samples within the band of a history, and all samples: those of the contact, and those of the window.
+pub fn held(history: &ForceHistory, force: &dyn Fn(f64) -> f64) -> [[f64; 2]; 2] {
+    let mut counts = [[0.0; 2]; 2];
+    for (j, (low, high)) in history.low_n.iter().zip(&history.high_n).enumerate() {
+        let exact = force(history.start_s + j as f64 * history.step_s);
+        let holds = f64::from(u8::from((low - 1e-12..=high + 1e-12).contains(&exact)));
+        for (count, counted) in counts.iter_mut().zip([exact > 0.0, true]) {
+            if counted {
+                *count = [count[0] + holds, count[1] + 1.0];
+            }
+        }
+    }
+    counts
 }
 
 /// The value below which a part of the values is.
