@@ -1,7 +1,7 @@
 //! Time of an inversion: traces of a thousand samples, contacts of 25 to 200 samples.
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use inverse::{Gain, Noise, Problem, Pulse, Smoothing, Trace, infer};
+use inverse::{Gain, Noise, Problem, Pulse, Trace, infer};
 use std::hint::black_box;
 
 fn inversions(criterion: &mut Criterion) {
@@ -49,7 +49,7 @@ fn inversions(criterion: &mut Criterion) {
             pulse: &pulse,
             window_s: None,
             impulse_n_s: None,
-            smoothing: Smoothing::Likelihood,
+            lambda: None,
             confidence: 0.95,
         };
         let found = infer(&problem).expect("a force");

@@ -7,7 +7,7 @@
 //! Hertz's law without waves (T38): both are powers of P and tc, and their errors follow from the covariance of the fit.
 //! A radius of unknown ball follows if its density or mass is known.
 
-use crate::error::{Estimate, InverseError, check};
+use crate::error::{Estimate, InverseError, check, positive};
 use crate::fit::PulseFit;
 use contact::law::hertz::CONTACT_TIME;
 use std::f64::consts::PI;
@@ -41,45 +41,53 @@ pub struct Ball {
 /// # Errors
 /// [`InverseError::Range`] for a modulus or property that is not positive.
 pub fn ball(fit: &PulseFit, effective_modulus_pa: f64, known: Known) -> Result<Ball, InverseError> {
-    let positive =
-        |key, value: f64| check(value > 0.0 && value.is_finite(), key, value, "(0, inf)");
     positive("the effective modulus in Pa", effective_modulus_pa)?;
-    // K = k sqrt(R), and m = c K^(2/3) P^(1/3) tc^2
     let k = 4.0 / 3.0 * effective_modulus_pa;
-    let c = 0.8 / (CONTACT_TIME * CONTACT_TIME);
-    let heavy = Power {
-        factor: c * k.powf(2.0 / 3.0),
-        powers: [1.0 / 3.0, 2.0],
+    // m over R^(1/3)
+    let heavy =
+        |peak: f64, duration: f64| 0.8 * peak.cbrt() * (duration / CONTACT_TIME * k.cbrt()).powi(2);
+    match known {
+        Known::Radius(radius_m) => positive("the radius in m", radius_m)?,
+        Known::Density(density) => positive("the density in kg/m^3", density)?,
+        Known::Mass(mass_kg) => positive("the mass in kg", mass_kg)?,
+    }
+    let of = |peak: f64, duration: f64| {
+        let radius = match known {
+            Known::Radius(radius_m) => radius_m,
+            Known::Density(density) => (heavy(peak, duration) * 0.75 / (PI * density)).powf(0.375),
+            Known::Mass(mass_kg) => (mass_kg / heavy(peak, duration)).powi(3),
+        };
+        let alpha = (peak / (k * radius.sqrt())).powf(2.0 / 3.0);
+        [
+            radius,
+            heavy(peak, duration) * radius.cbrt(),
+            CONTACT_TIME * alpha / duration,
+        ]
     };
-    let radius = match known {
-        Known::Radius(radius_m) => {
-            positive("the radius in m", radius_m)?;
-            Power {
-                factor: radius_m,
-                powers: [0.0; 2],
-            }
+    let (peak, duration) = (fit.peak_n.value, fit.duration_s.value);
+    // powers of both: the slopes are exact up to the square of the step
+    let step = 1e-4;
+    let [up, down] = [step, -step].map(|h| {
+        [
+            of(peak * (1.0 + h), duration),
+            of(peak, duration * (1.0 + h)),
+        ]
+    });
+    let found = of(peak, duration);
+    let [radius_m, mass_kg, velocity_m_s] = [0, 1, 2].map(|c| {
+        let slope = |i: usize, x: f64| (up[i][c] - down[i][c]) / (2.0 * step * x);
+        let slopes = [slope(0, peak), slope(1, duration)];
+        let terms = [(0, 0), (0, 1), (1, 0), (1, 1)]
+            .map(|(i, j)| slopes[i] * slopes[j] * fit.covariance[i][j]);
+        Estimate {
+            value: found[c],
+            sd: terms.iter().sum::<f64>().max(0.0).sqrt(),
         }
-        Known::Density(density) => {
-            positive("the density in kg/m^3", density)?;
-            // (4/3) pi rho R^3 = heavy R^(1/3)
-            heavy.times(3.0 / (4.0 * PI * density), 1.0).to(3.0 / 8.0)
-        }
-        Known::Mass(mass_kg) => {
-            positive("the mass in kg", mass_kg)?;
-            heavy.times(1.0 / mass_kg, 1.0).to(-3.0)
-        }
-    };
-    let mass = heavy.and(radius, 1.0 / 3.0);
-    // V = 2.943275 (P/K)^(2/3)/tc
-    let rate = Power {
-        factor: CONTACT_TIME * k.powf(-2.0 / 3.0),
-        powers: [2.0 / 3.0, -1.0],
-    };
-    let velocity = rate.and(radius, -1.0 / 3.0);
+    });
     Ok(Ball {
-        radius_m: radius.of(fit),
-        mass_kg: mass.of(fit),
-        velocity_m_s: velocity.of(fit),
+        radius_m,
+        mass_kg,
+        velocity_m_s,
     })
 }
 
@@ -100,51 +108,4 @@ pub fn momentum(fit: &PulseFit, restitution: f64) -> Result<Estimate, InverseErr
         value: scaled(value),
         sd: scaled(sd),
     })
-}
-
-/// A factor times powers of peak and duration.
-#[derive(Clone, Copy)]
-struct Power {
-    factor: f64,
-    powers: [f64; 2],
-}
-
-impl Power {
-    fn times(self, factor: f64, power: f64) -> Self {
-        Self {
-            factor: self.factor * factor,
-            ..self.to(power)
-        }
-    }
-
-    fn to(self, power: f64) -> Self {
-        Self {
-            factor: self.factor.powf(power),
-            powers: self.powers.map(|p| p * power),
-        }
-    }
-
-    fn and(self, other: Self, power: f64) -> Self {
-        let other = other.to(power);
-        Self {
-            factor: self.factor * other.factor,
-            powers: [0, 1].map(|i| self.powers[i] + other.powers[i]),
-        }
-    }
-
-    fn of(self, fit: &PulseFit) -> Estimate {
-        let values = [fit.peak_n.value, fit.duration_s.value];
-        let [p, t] = self.powers;
-        let value = self.factor * values[0].powf(p) * values[1].powf(t);
-        let slopes = [p / values[0], t / values[1]];
-        let pairs = [(0, 0), (0, 1), (1, 0), (1, 1)];
-        let relative: f64 = pairs
-            .iter()
-            .map(|&(i, j)| slopes[i] * slopes[j] * fit.covariance[i][j])
-            .sum();
-        Estimate {
-            value,
-            sd: value * relative.max(0.0).sqrt(),
-        }
-    }
 }

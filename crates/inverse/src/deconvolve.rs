@@ -13,7 +13,7 @@
 use crate::error::{Estimate, InverseError};
 use crate::fit::{PulseFit, variance};
 use crate::nnls::{Factor, Solution, Symmetric, dot, nnls};
-use crate::problem::{Gain, Problem, Rows, Smoothing};
+use crate::problem::{Gain, Problem, Rows};
 use libm::erfc;
 
 /// One point of the L-curve.
@@ -102,7 +102,7 @@ impl Normal {
     }
 
     /// Those of all traces but one, with the variance of the noise.
-    pub(crate) fn stacked(&self, gains: &[f64], but: Option<usize>, variance: f64) -> Stacked {
+    pub(crate) fn stacked(&self, gains: &[Estimate], but: Option<usize>, variance: f64) -> Stacked {
         let size = self.penalty.size();
         let matrix = Symmetric::from_fn(size, |_, _| 0.0);
         let mut all = Stacked {
@@ -111,7 +111,7 @@ impl Normal {
             square: 0.0,
             count: 0.0,
         };
-        for (k, (part, gain)) in self.parts.iter().zip(gains).enumerate() {
+        for (k, (part, &Estimate { value: gain, .. })) in self.parts.iter().zip(gains).enumerate() {
             if Some(k) == but {
                 continue;
             }
@@ -156,36 +156,37 @@ impl Normal {
         [residual.max(0.0), dot(&self.penalty.times(x), x)]
     }
 
-    fn point(
-        &self,
-        all: &Stacked,
-        lambda: f64,
-        start: &mut Vec<f64>,
-    ) -> Result<LCurvePoint, InverseError> {
-        *start = self.solve(all, lambda, start)?.x;
-        let [residual, roughness] = self.norms(all, start).map(f64::sqrt);
-        Ok(LCurvePoint {
-            lambda,
-            residual,
-            roughness,
-        })
-    }
-
-    /// The gains of a force where they are unknown, and the factor that the known ones ask of the force.
-    fn gains(&self, rows: &[Rows], x: &[f64]) -> (Vec<[f64; 2]>, [f64; 2]) {
+    /// The gains of a force, in the scale of the known ones or of the impulse; the error of the scale is relative.
+    fn gains(&self, problem: &Problem, rows: &[Rows], x: &[f64], noise: f64) -> Vec<Estimate> {
+        let sums = self
+            .parts
+            .iter()
+            .map(|part| [dot(&part.right, x), dot(&part.matrix.times(x), x)]);
+        let sums: Vec<[f64; 2]> = sums.collect();
         let mut known = [0.0; 2];
-        let gains = self.parts.iter().zip(rows).map(|(part, rows)| {
-            let (square, product) = (dot(&part.matrix.times(x), x), dot(&part.right, x));
-            match rows.gain {
-                Gain::Known(gain) => {
-                    known[0] += gain * product;
-                    known[1] += gain * gain * square;
-                    [gain, 0.0]
-                }
-                Gain::Unknown => [product / square, square],
+        for (rows, [product, square]) in rows.iter().zip(&sums) {
+            if let Gain::Known(gain) = rows.gain {
+                known = [known[0] + gain * product, known[1] + gain * gain * square];
             }
-        });
-        (gains.collect(), known)
+        }
+        let (scale, error) = match problem.impulse_n_s {
+            Some(impulse) if known[1] == 0.0 => {
+                let sum = x.iter().sum::<f64>() * problem.force_step_s();
+                (impulse.value / sum, (impulse.sd / impulse.value).powi(2))
+            }
+            Some(_) | None => (known[0] / known[1], noise / known[1]),
+        };
+        let gain = |(rows, [product, square]): (&Rows, &[f64; 2])| match rows.gain {
+            Gain::Known(value) => Estimate { value, sd: 0.0 },
+            Gain::Unknown => {
+                let value = product / square / scale;
+                Estimate {
+                    value,
+                    sd: (noise / square + value * value * error).sqrt(),
+                }
+            }
+        };
+        rows.iter().zip(&sums).map(gain).collect()
     }
 }
 
@@ -260,39 +261,41 @@ pub(crate) fn deconvolve(
     fit: &PulseFit,
     normal: &Normal,
 ) -> Result<ForceHistory, InverseError> {
-    let guess = guess(problem, fit, normal);
-    let mut gains: Vec<f64> = fit.gains.iter().map(|gain| gain.value).collect();
-    let mut noise = 1.0;
+    let pulse = pulse_samples(problem, fit, normal);
+    let mut lambda = problem.lambda.unwrap_or_else(|| {
+        let roughness = dot(&normal.penalty.times(&pulse), &pulse);
+        pulse.iter().filter(|p| **p > 0.0).count().max(1) as f64 / roughness
+    });
+    let chosen = |all: &Stacked, guess: f64| match problem.lambda {
+        Some(lambda) => lambda,
+        None => largest(|log| normal.likelihood(all, log.exp()), guess.ln()).exp(),
+    };
+    let (mut gains, mut noise) = (fit.gains.clone(), 1.0);
     loop {
         let mut all = normal.stacked(&gains, None, noise);
-        let mut lambda = chosen(problem.smoothing, normal, &all, guess)?;
-        let mut solution = normal.solve(&all, lambda, &pulse_samples(problem, fit, normal))?;
-        if rows.iter().any(|rows| rows.gain == Gain::Unknown) {
-            for _ in 0..GAIN_CHANGES {
-                let before = gains.clone();
-                gains = regained(problem, normal, rows, &solution.x);
-                all = normal.stacked(&gains, None, noise);
-                solution = normal.solve(&all, lambda, &solution.x)?;
-                if gains
-                    .iter()
-                    .zip(&before)
-                    .all(|(a, b)| (a - b).abs() <= GAIN_CHANGE * a.abs())
-                {
-                    break;
-                }
+        lambda = chosen(&all, lambda);
+        let mut solution = normal.solve(&all, lambda, &pulse)?;
+        for _ in 0..GAIN_CHANGES {
+            let before =
+                std::mem::replace(&mut gains, normal.gains(problem, rows, &solution.x, noise));
+            let changes = gains
+                .iter()
+                .zip(before)
+                .map(|(a, b)| (a.value / b.value - 1.0).abs());
+            if changes.fold(0.0, f64::max) <= GAIN_CHANGE {
+                break;
             }
-            lambda = chosen(problem.smoothing, normal, &all, lambda)?;
+            all = normal.stacked(&gains, None, noise);
             solution = normal.solve(&all, lambda, &solution.x)?;
         }
         let posterior = Posterior::new(normal, &all, lambda, solution);
         let [residual, _] = normal.norms(&all, &posterior.solution.x);
-        let degrees = (all.count - posterior.unknowns).max(1.0);
-        let found = variance(residual, degrees);
+        let found = variance(residual, (all.count - posterior.unknowns).max(1.0));
         if found > 1.0 && noise == 1.0 {
             noise = found;
             continue;
         }
-        return posterior.history(problem, rows, &all, noise, residual * noise);
+        return posterior.history(problem, &all, gains, noise, residual * noise);
     }
 }
 
@@ -303,72 +306,6 @@ fn pulse_samples(problem: &Problem, fit: &PulseFit, normal: &Normal) -> Vec<f64>
         fit.peak_n.value * problem.pulse.at(time_s / fit.duration_s.value)[0]
     };
     (0..normal.penalty.size()).map(sample).collect()
-}
-
-/// The weight that suits the fitted pulse.
-fn guess(problem: &Problem, fit: &PulseFit, normal: &Normal) -> f64 {
-    let pulse = pulse_samples(problem, fit, normal);
-    let roughness = dot(&normal.penalty.times(&pulse), &pulse);
-    pulse.iter().filter(|p| **p > 0.0).count().max(1) as f64 / roughness
-}
-
-/// The gains of a force where they are unknown, in the scale of the known ones or of the impulse.
-fn regained(problem: &Problem, normal: &Normal, rows: &[Rows], x: &[f64]) -> Vec<f64> {
-    let (gains, [product, square]) = normal.gains(rows, x);
-    let impulse = x.iter().sum::<f64>() * problem.force_step_s();
-    let scale = match problem.impulse_n_s {
-        Some(known) if square == 0.0 => known.value / impulse,
-        Some(_) | None => product / square,
-    };
-    let scaled = |(gain, rows): (&[f64; 2], &Rows)| match rows.gain {
-        Gain::Known(gain) => gain,
-        Gain::Unknown => gain[0] / scale,
-    };
-    gains.iter().zip(rows).map(scaled).collect()
-}
-
-/// The weight by the choice of the problem.
-fn chosen(
-    smoothing: Smoothing,
-    normal: &Normal,
-    all: &Stacked,
-    guess: f64,
-) -> Result<f64, InverseError> {
-    let mut start = Vec::new();
-    match smoothing {
-        Smoothing::Given(lambda) => Ok(lambda),
-        Smoothing::Likelihood => {
-            Ok(largest(|log| normal.likelihood(all, log.exp()), guess.ln()).exp())
-        }
-        Smoothing::Discrepancy => {
-            let (mut low, mut high) = ((guess * 1e-8).ln(), (guess * 1e8).ln());
-            for _ in 0..24 {
-                let middle = 0.5 * (low + high);
-                let point = normal.point(all, middle.exp(), &mut start)?;
-                *(if point.residual * point.residual > all.count {
-                    &mut high
-                } else {
-                    &mut low
-                }) = middle;
-            }
-            Ok(low.exp())
-        }
-        Smoothing::LCurve => {
-            let points = l_curve(normal, all, guess)?;
-            let logs: Vec<[f64; 2]> = points
-                .iter()
-                .map(|p| [p.residual.ln(), p.roughness.ln()])
-                .collect();
-            let bend = |i: usize| {
-                let [a, b] =
-                    [0, 1].map(|c| [logs[i][c] - logs[i - 1][c], logs[i + 1][c] - logs[i][c]]);
-                // sine of the angle between two chords
-                (a[0] * b[1] - a[1] * b[0]) / (a[0].hypot(b[0]) * a[1].hypot(b[1]))
-            };
-            let corner = (1..logs.len() - 1).max_by(|&i, &j| bend(i).total_cmp(&bend(j)));
-            Ok(corner.map_or(guess, |i| points[i].lambda))
-        }
-    }
 }
 
 /// Where a function with one maximum has it.
@@ -405,18 +342,24 @@ fn largest(of: impl Fn(f64) -> f64, guess: f64) -> f64 {
     0.5 * (low + high)
 }
 
-/// Residual and roughness for weights around one, ascending.
-fn l_curve(normal: &Normal, all: &Stacked, lambda: f64) -> Result<Vec<LCurvePoint>, InverseError> {
-    let mut start = Vec::new();
-    let weights = (-L_CURVE_SIDE..=L_CURVE_SIDE).rev();
-    let points = weights.map(|i| {
-        normal.point(
-            all,
-            lambda * 10_f64.powf(f64::from(i) / L_CURVE_DENSITY),
-            &mut start,
-        )
-    });
-    let mut points: Vec<LCurvePoint> = points.collect::<Result<_, _>>()?;
+/// Residual and roughness for weights around one, ascending, for noise of the variance one.
+fn l_curve(
+    normal: &Normal,
+    all: &Stacked,
+    lambda: f64,
+    noise: f64,
+) -> Result<Vec<LCurvePoint>, InverseError> {
+    let (mut x, mut points) = (Vec::new(), Vec::new());
+    for i in (-L_CURVE_SIDE..=L_CURVE_SIDE).rev() {
+        let lambda = lambda * 10_f64.powf(f64::from(i) / L_CURVE_DENSITY);
+        x = normal.solve(all, lambda, &x)?.x;
+        let [residual, roughness] = normal.norms(all, &x);
+        points.push(LCurvePoint {
+            lambda: lambda * noise,
+            residual: (residual * noise).sqrt(),
+            roughness: roughness.sqrt(),
+        });
+    }
     points.reverse();
     Ok(points)
 }
@@ -493,8 +436,8 @@ impl<'a> Posterior<'a> {
     fn history(
         &self,
         problem: &Problem,
-        rows: &[Rows],
         all: &Stacked,
+        gains: Vec<Estimate>,
         noise: f64,
         chi_squared: f64,
     ) -> Result<ForceHistory, InverseError> {
@@ -524,18 +467,6 @@ impl<'a> Posterior<'a> {
         let bias_of_sum: f64 = self.bias.iter().sum();
         let squares: f64 = self.normal.parts.iter().map(|part| part.data[2]).sum();
         let changed: f64 = self.normal.parts.iter().map(|part| part.data[0]).sum();
-        let (gains, [_, square]) = self.normal.gains(rows, x);
-        let scale = match problem.impulse_n_s {
-            Some(known) if square == 0.0 => (known.sd / known.value).powi(2),
-            Some(_) | None => noise / square,
-        };
-        let gains = gains.iter().map(|&[value, square]| match square {
-            0.0 => Estimate { value, sd: 0.0 },
-            square => Estimate {
-                value,
-                sd: (noise / square + value * value * scale).sqrt(),
-            },
-        });
         Ok(ForceHistory {
             start_s: problem.force_time_s(self.normal.start as f64),
             step_s: step,
@@ -549,9 +480,9 @@ impl<'a> Posterior<'a> {
                 value: step * x.iter().sum::<f64>(),
                 sd: step * self.variance_of_sum.sqrt().hypot(bias_of_sum),
             },
-            gains: gains.collect(),
-            lambda: self.lambda / noise,
-            l_curve: l_curve(self.normal, all, self.lambda)?,
+            gains,
+            lambda: self.lambda * noise,
+            l_curve: l_curve(self.normal, all, self.lambda, noise)?,
             chi_squared,
             degrees_of_freedom: (all.count - self.unknowns).max(1.0),
             error_factor: noise.sqrt(),

@@ -1,6 +1,6 @@
 //! Values with errors, and why traces do not determine a force.
 
-use fault::{Class, Culprit, Fault, rounded};
+use fault::{Class, Culprit, Fault, number, rounded};
 use thiserror::Error;
 
 /// A value with its standard deviation.
@@ -17,62 +17,16 @@ pub struct Estimate {
 #[non_exhaustive]
 pub enum InverseError {
     /// A number outside its range.
-    #[error("{key} = {} is outside {range}", fault::number(*value))]
+    #[error("{key} = {} is outside {range}{remedy}", number(*value))]
     Range {
         /// What it is.
-        key: &'static str,
+        key: String,
         /// Its value.
         value: f64,
         /// The allowed values.
-        range: &'static str,
-    },
-    /// There is nothing to work on.
-    #[error("{key} is empty: pass at least {least}")]
-    Few {
-        /// What is missing.
-        key: &'static str,
-        /// Fewest that are needed.
-        least: usize,
-    },
-    /// A sample that is not a number.
-    #[error(
-        "sample {sample} of {what} {index} is {value}: remove or interpolate samples that are not finite"
-    )]
-    NotFinite {
-        /// Trace, response or drop.
-        what: &'static str,
-        /// Index of the trace.
-        index: usize,
-        /// Index of the sample.
-        sample: usize,
-        /// Its value.
-        value: f64,
-    },
-    /// Two lengths that do not fit.
-    #[error(
-        "{what} {index} has {found} samples, but {needed} are needed: resample both to the same step and length"
-    )]
-    Length {
-        /// Response or drop.
-        what: &'static str,
-        /// Index of the trace.
-        index: usize,
-        /// Samples there.
-        found: usize,
-        /// Samples needed.
-        needed: usize,
-    },
-    /// No noise.
-    #[error(
-        "trace {index} has {found} quiet samples before the first arrival, fewer than the {least} from which noise can be measured: record more before the trigger, or pass the standard deviation of the noise"
-    )]
-    NoQuiet {
-        /// Index of the trace.
-        index: usize,
-        /// Quiet samples.
-        found: usize,
-        /// Fewest.
-        least: usize,
+        range: String,
+        /// What to do, after a colon, where the range does not say it.
+        remedy: &'static str,
     },
     /// A beginning that is not at rest.
     #[error(
@@ -113,33 +67,11 @@ pub enum InverseError {
         /// First arrival in s.
         arrival_s: f64,
     },
-    /// Nothing but noise.
-    #[error(
-        "no blow stands out of the noise: the best pulse is {} times its own uncertainty, fewer than {}; average repeated drops, or move the sensor closer", rounded(*found), rounded(*least)
-    )]
-    Noisy {
-        /// Peak of the best pulse over its standard deviation.
-        found: f64,
-        /// Least.
-        least: f64,
-    },
     /// No trace has a scale.
     #[error(
         "no gain is known, so only the shape of the force could be found: pass the gain of one trace or the impulse"
     )]
     NoScale,
-    /// Repeated drops that differ.
-    #[error(
-        "drop {index} resembles the others by a correlation of {}, below {}: remove it, or average drops of the same ball, height and place only", rounded(*found), rounded(*least)
-    )]
-    Unlike {
-        /// Index of the drop.
-        index: usize,
-        /// Correlation with the mean.
-        found: f64,
-        /// Least.
-        least: f64,
-    },
     /// Rounding prevents a solution.
     #[error(
         "the force could not be computed: the responses are too similar for double precision; shorten the window or use a coarser force step"
@@ -151,50 +83,58 @@ impl Fault for InverseError {
     fn culprit(&self) -> Culprit<'_> {
         let culprit = Culprit::of(Class::Scene);
         match self {
-            Self::Range { key, value, range } => culprit.key(key).number(*value).range(range),
-            Self::Few { key, .. } => culprit.key(key),
-            Self::NotFinite { what, value, .. } => culprit.key(what).number(*value),
-            Self::Length { what, found, .. } => culprit.key(what).number(*found as f64),
-            Self::NoQuiet { found, .. } => culprit.key("noise").number(*found as f64),
+            Self::Range {
+                key, value, range, ..
+            } => culprit.key(key).number(*value).range(range),
             Self::UnderLoad { ratio, .. } => culprit.key("trace").number(*ratio),
             Self::StartNotShown => culprit.key("trace"),
             Self::NotShown { wanted_s, .. } => culprit.key("window_s").number(*wanted_s),
             Self::QuietMoves { quiet_s, .. } => culprit.key("noise").number(*quiet_s),
-            Self::Noisy { found, .. } => culprit.key("trace").number(*found),
             Self::NoScale => culprit.key("gain"),
-            Self::Unlike { found, .. } => culprit.key("trace").number(*found),
             Self::NotSolved => Culprit::of(Class::Work),
         }
     }
 }
 
-/// Rejects a number outside a range.
-pub(crate) fn check(
-    good: bool,
-    key: &'static str,
+/// The error of a number outside a range.
+pub(crate) fn outside(
+    key: impl Into<String>,
     value: f64,
-    range: &'static str,
-) -> Result<(), InverseError> {
-    if good {
-        Ok(())
-    } else {
-        Err(InverseError::Range { key, value, range })
+    range: impl Into<String>,
+    remedy: &'static str,
+) -> InverseError {
+    InverseError::Range {
+        key: key.into(),
+        value,
+        range: range.into(),
+        remedy,
     }
 }
 
-/// Rejects samples that are not finite.
-pub(crate) fn check_finite(
-    what: &'static str,
-    index: usize,
-    samples: &[f64],
-) -> Result<(), InverseError> {
-    match samples.iter().position(|x| !x.is_finite()) {
-        None => Ok(()),
-        Some(sample) => Err(InverseError::NotFinite {
-            what,
-            index,
-            sample,
-            value: samples[sample],
-        }),
+/// Rejects a number outside a range.
+pub(crate) fn check(good: bool, key: &str, value: f64, range: &str) -> Result<(), InverseError> {
+    if good {
+        Ok(())
+    } else {
+        Err(outside(key, value, range, ""))
     }
+}
+
+/// Rejects a number that is not positive and finite.
+pub(crate) fn positive(key: &str, value: f64) -> Result<(), InverseError> {
+    check(value > 0.0 && value.is_finite(), key, value, "(0, inf)")
+}
+
+/// Rejects samples that are not finite.
+pub(crate) fn finite(what: &str, samples: &[f64]) -> Result<(), InverseError> {
+    let found = samples.iter().position(|x| !x.is_finite());
+    found.map_or(Ok(()), |i| {
+        let key = format!("sample {i} of {what}");
+        Err(outside(
+            key,
+            samples[i],
+            "(-inf, inf)",
+            ": remove or interpolate such samples",
+        ))
+    })
 }

@@ -10,7 +10,7 @@
 //!
 //! Theory: `docs/theory.md` (T73).
 
-use crate::error::{Estimate, InverseError};
+use crate::error::{Estimate, InverseError, outside};
 use crate::nnls::{Factor, Symmetric, dot};
 use crate::problem::{Gain, Noise, Problem, Rows};
 
@@ -56,6 +56,10 @@ const REFINED: usize = 4;
 /// any force explains a little.
 const SHOWN: f64 = 0.1;
 
+/// Steps at most, and the gain in chi-squared at which they end: a standard deviation is a gain of one.
+const MOST_STEPS: usize = 60;
+const CONVERGED: f64 = 1e-7;
+
 /// Shortest duration in force steps.
 const SHORTEST: f64 = 3.0;
 
@@ -78,9 +82,9 @@ pub(crate) fn fit(problem: &Problem, rows: &[Rows]) -> Result<PulseFit, InverseE
     let mut starts = fitting.net();
     starts.sort_by(|a, b| b.0.total_cmp(&a.0));
     let refined = starts
-        .iter()
+        .into_iter()
         .take(REFINED)
-        .map(|(_, start)| fitting.refine(*start));
+        .map(|(_, start)| fitting.refine(start));
     let best = refined
         .flatten()
         .min_by(|a, b| a.chi_squared.total_cmp(&b.chi_squared));
@@ -92,10 +96,12 @@ pub(crate) fn fit(problem: &Problem, rows: &[Rows]) -> Result<PulseFit, InverseE
     match best.filter(|_| found >= LEAST_DETECTION) {
         Some(best) => fitting.checked(&best, found),
         None if noise > MOVING * count as f64 => Err(InverseError::StartNotShown),
-        None => Err(InverseError::Noisy {
+        None => Err(outside(
+            "the peak of the best pulse over its uncertainty",
             found,
-            least: LEAST_DETECTION,
-        }),
+            format!("[{LEAST_DETECTION}, inf)"),
+            ": no blow stands out of the noise; average repeated drops, or move the sensor closer",
+        )),
     }
 }
 
@@ -125,8 +131,8 @@ impl<'a> Fitting<'a> {
         }
     }
 
-    /// The best start of each duration of the net (duration and start in force steps), with what it explains of chi-squared.
-    fn net(&self) -> Vec<(f64, [f64; 2])> {
+    /// For each duration of the net the best parameters, with the part of chi-squared that they explain.
+    fn net(&self) -> Vec<(f64, Vec<f64>)> {
         let rho = self.problem.oversampling;
         let longest = self
             .rows
@@ -134,74 +140,79 @@ impl<'a> Fitting<'a> {
             .map(|rows| rows.data.len() * rho)
             .max()
             .unwrap_or(0) as f64;
+        let ends = self
+            .rows
+            .iter()
+            .filter_map(|rows| rows.last_shown(self.problem))
+            .max();
         let mut duration = SHORTEST.max(rho as f64);
         let mut found = Vec::new();
         while duration < longest {
-            let stride = (duration / (STARTS_EACH * rho as f64)).ceil() as usize;
-            let pulse: Vec<f64> = (0..=duration as usize + 1)
-                .map(|j| self.problem.pulse.at(j as f64 / duration)[0])
-                .collect();
+            let stride = rho * (duration / (STARTS_EACH * rho as f64)).ceil() as usize;
+            let pulse =
+                (0..=duration as usize + 1).map(|j| self.problem.pulse.at(j as f64 / duration)[0]);
+            let pulse: Vec<f64> = pulse.collect();
             let templates: Vec<Vec<f64>> = self
                 .rows
                 .iter()
                 .map(|rows| rows.template(rho, &pulse))
                 .collect();
-            let ends = self
-                .rows
-                .iter()
-                .filter_map(|rows| rows.last_shown(self.problem))
-                .max();
-            let places = (0..=ends.unwrap_or(0)).step_by(stride * rho);
-            let scored =
-                places.map(|start| (self.explained(start, &templates), [duration, start as f64]));
-            found.extend(scored.max_by(|a, b| a.0.total_cmp(&b.0)));
+            let places = (0..=ends.unwrap_or(0)).step_by(stride);
+            let tried = places.map(|start| self.explained(duration, start, &templates));
+            found.extend(tried.max_by(|a, b| a.0.total_cmp(&b.0)));
             duration *= DURATION_RATIO;
         }
         found
     }
 
-    /// The reduction of chi-squared by the best peak and gains of pulses that start at a force sample.
-    fn explained(&self, start: usize, templates: &[Vec<f64>]) -> f64 {
-        let (mut known, mut free, mut shown) = ([0.0; 2], 0.0, false);
+    /// The best peak and gains of pulses that start at a force sample, and the part of chi-squared that they explain.
+    fn explained(&self, duration: f64, start: usize, templates: &[Vec<f64>]) -> (f64, Vec<f64>) {
+        let rho = self.problem.oversampling;
+        let (mut known, mut explained, mut gains, mut shown) = ([0.0; 2], 0.0, Vec::new(), false);
         for (rows, template) in self.rows.iter().zip(templates) {
-            let place = rows.force_index(self.problem, 0);
-            let rho = self.problem.oversampling;
             // row i shows the template at i + offset
-            let offset = place as isize / rho as isize - start as isize / rho as isize;
-            let (skipped, from) = ((-offset).max(0) as usize, offset.max(0) as usize);
-            if skipped >= rows.data.len() || from >= template.len() {
-                continue;
-            }
-            let count = (rows.data.len() - skipped).min(template.len() - from);
-            let (data, model) = (
-                &rows.data[skipped..skipped + count],
-                &template[from..from + count],
-            );
+            let offset =
+                (rows.force_index(self.problem, 0) / rho) as isize - (start / rho) as isize;
+            let data = rows
+                .data
+                .get((-offset).max(0) as usize..)
+                .unwrap_or_default();
+            let model = template.get(offset.max(0) as usize..).unwrap_or_default();
+            let count = data.len().min(model.len());
+            let (data, model) = (&data[..count], &model[..count]);
             let (product, square) = (dot(data, model), dot(model, model));
             shown |= square > SHOWN * dot(template, template);
             match rows.gain {
                 Gain::Known(gain) => {
-                    known[0] += gain * product;
-                    known[1] += gain * gain * square;
+                    known = [known[0] + gain * product, known[1] + gain * gain * square]
                 }
-                Gain::Unknown if square > 0.0 => free += product * product / square,
-                Gain::Unknown => {}
+                Gain::Unknown if square > 0.0 => {
+                    gains.push(product / square);
+                    explained += product * product / square;
+                }
+                Gain::Unknown => gains.push(0.0),
             }
         }
-        match shown {
-            false => 0.0,
-            true if known[0] > 0.0 => free + known[0] * known[0] / known[1],
-            true => free,
+        let peak = match self.problem.impulse_n_s {
+            Some(impulse) if known[1] == 0.0 => impulse.value / self.per_peak(duration),
+            Some(_) | None => known[0] / known[1],
+        };
+        if !shown || !(peak > 0.0 && peak.is_finite()) {
+            return (0.0, Vec::new());
         }
+        let values = [peak, duration, start as f64]
+            .into_iter()
+            .chain(gains.iter().map(|gain| gain / peak));
+        (explained + peak * known[0], values.collect())
     }
 
-    /// Steps of Gauss and Newton, damped by Marquardt, from a duration and a start.
-    fn refine(&self, [duration, start]: [f64; 2]) -> Option<Point> {
-        let mut values = vec![0.0, duration, start];
-        values.extend(vec![0.0; self.unknown.len()]);
-        let mut here = self.linear(values)?;
+    /// Steps of Gauss and Newton, damped by Marquardt, from the parameters of the net.
+    fn refine(&self, start: Vec<f64>) -> Option<Point> {
+        let mut here = Some(start)
+            .filter(|start| !start.is_empty())
+            .map(|start| self.point(start))?;
         let mut damping = 1e-3;
-        for _ in 0..60 {
+        for _ in 0..MOST_STEPS {
             let mut damped = here.matrix.clone();
             (0..damped.size())
                 .for_each(|i| damped.set(i, i, here.matrix.row(i)[i] * (1.0 + damping)));
@@ -214,15 +225,13 @@ impl<'a> Fitting<'a> {
                 .collect();
             let possible =
                 moved[0] > 0.0 && moved[1] >= SHORTEST && moved[1] < 4.0 * here.values[1];
-            let there = possible
-                .then(|| self.point(moved))
-                .filter(|there| there.chi_squared <= here.chi_squared);
-            match there {
+            let there = possible.then(|| self.point(moved));
+            match there.filter(|there| there.chi_squared <= here.chi_squared) {
                 Some(there) => {
                     let gained = here.chi_squared - there.chi_squared;
                     here = there;
                     damping = (0.2 * damping).max(1e-9);
-                    if gained < 1e-7 {
+                    if gained < CONVERGED {
                         break;
                     }
                 }
@@ -231,43 +240,6 @@ impl<'a> Fitting<'a> {
             }
         }
         Some(here)
-    }
-
-    /// The best peak and gains of a duration and a start.
-    fn linear(&self, mut values: Vec<f64>) -> Option<Point> {
-        let start = values[2].max(0.0) as usize;
-        let duration = values[1];
-        let pulse: Vec<f64> = (0..=duration as usize + 1)
-            .map(|j| {
-                self.problem
-                    .pulse
-                    .at((start + j) as f64 / duration - values[2] / duration)[0]
-            })
-            .collect();
-        let sums: Vec<[f64; 2]> = self
-            .rows
-            .iter()
-            .map(|rows| {
-                let model = rows.predict(self.problem, start, &pulse);
-                [dot(&rows.data, &model), dot(&model, &model)]
-            })
-            .collect();
-        let mut known = [0.0; 2];
-        for (rows, [product, square]) in self.rows.iter().zip(&sums) {
-            if let Gain::Known(gain) = rows.gain {
-                known[0] += gain * product;
-                known[1] += gain * gain * square;
-            }
-        }
-        values[0] = match self.problem.impulse_n_s {
-            Some(impulse) if known[1] == 0.0 => impulse.value / self.per_peak(duration),
-            _ => known[0] / known[1],
-        };
-        for (at, &k) in self.unknown.iter().enumerate() {
-            values[3 + at] = sums[k][0] / sums[k][1] / values[0];
-        }
-        let good = values[0] > 0.0 && values.iter().all(|x| x.is_finite());
-        good.then(|| self.point(values))
     }
 
     /// Impulse over peak in s of a duration in force steps.

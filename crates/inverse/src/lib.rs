@@ -9,7 +9,7 @@
 //! [`average`] aligns repeated drops and averages them; [`Whitening`] removes the colour of the noise of resonant sensors.
 //!
 //! ```
-//! use inverse::{Gain, Noise, Problem, Pulse, Smoothing, Trace, infer};
+//! use inverse::{Gain, Noise, Problem, Pulse, Trace, infer};
 //!
 //! // a sensor that shows the force itself 20 us later; a step of 1 us, a contact of 100 us
 //! let response: Vec<f64> = (0..300).map(|k| f64::from(u8::from(k == 20))).collect();
@@ -24,7 +24,7 @@
 //!     pulse: &pulse,
 //!     window_s: None,
 //!     impulse_n_s: None,
-//!     smoothing: Smoothing::Likelihood,
+//!     lambda: None,
 //!     confidence: 0.95,
 //! };
 //! let found = infer(&problem)?;
@@ -75,6 +75,6 @@ pub use fit::PulseFit;
 pub use infer::{Inferred, NoiseFound, infer};
 pub use nnls::{Solution, Symmetric, nnls};
 pub use noise::Whitening;
-pub use problem::{Gain, Noise, Problem, Smoothing, Trace};
+pub use problem::{Gain, Noise, Problem, Trace};
 pub use pulse::Pulse;
 pub use several::{Averaged, Jackknife, average};

@@ -1,6 +1,6 @@
 //! The force pulse of a contact law.
 
-use crate::error::{InverseError, check, check_finite};
+use crate::error::{InverseError, check, finite, positive};
 use contact::law::hertz::CONTACT_TIME;
 
 /// Intervals of the table of a pulse. Its error is 1e-5 of the peak, at the ends, where Hertz's pulse rises as t^1.5.
@@ -44,15 +44,16 @@ impl Pulse {
     /// # Errors
     /// [`InverseError`] for fewer than five samples, for one that is not finite, and for a force that is not positive.
     pub fn sampled(force: &[f64]) -> Result<Self, InverseError> {
-        if force.len() < 5 {
-            return Err(InverseError::Few {
-                key: "the pulse",
-                least: 5,
-            });
-        }
-        check_finite("pulse", 0, force)?;
+        let count = force.len();
+        check(
+            count >= 5,
+            "the number of samples of the pulse",
+            count as f64,
+            "[5, inf)",
+        )?;
+        finite("the pulse", force)?;
         let peak = force.iter().fold(0.0, |a: f64, b| a.max(*b));
-        check(peak > 0.0, "the peak of the pulse", peak, "(0, inf)")?;
+        positive("the peak of the pulse", peak)?;
         let (last, scale) = (force.len() - 1, (force.len() - 1) as f64 / peak);
         let slope = |i: usize| match i {
             0 => force[1] - force[0],

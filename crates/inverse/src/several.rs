@@ -1,7 +1,7 @@
 //! Several traces: the force without each of them, and the mean of repeated drops.
 
 use crate::deconvolve::{ForceHistory, Normal};
-use crate::error::{InverseError, check, check_finite};
+use crate::error::{InverseError, check, finite, outside, positive};
 use crate::nnls::dot;
 
 /// Results without each of the traces, with the gains and the smoothness of all.
@@ -22,12 +22,12 @@ pub(crate) fn jackknife(
     normal: &Normal,
     history: &ForceHistory,
 ) -> Result<Option<Jackknife>, InverseError> {
-    let gains: Vec<f64> = history.gains.iter().map(|gain| gain.value).collect();
+    let gains = &history.gains;
     if gains.len() < 2 {
         return Ok(None);
     }
     let without = |k| {
-        let stacked = normal.stacked(&gains, Some(k), 1.0);
+        let stacked = normal.stacked(gains, Some(k), 1.0);
         normal
             .solve(&stacked, history.lambda, &history.force_n)
             .map(|found| found.x)
@@ -77,43 +77,46 @@ const LEAST_CORRELATION: f64 = 0.5;
 /// [`InverseError`] for fewer than two drops, drops of different lengths, samples that are not finite, and a drop that does
 /// not resemble the others.
 pub fn average(drops: &[Vec<f64>], step_s: f64) -> Result<Averaged, InverseError> {
+    positive("step_s", step_s)?;
+    let (count, size) = (drops.len() as f64, drops.first().map_or(0, Vec::len));
+    check(drops.len() > 1, "the number of drops", count, "[2, inf)")?;
     check(
-        step_s > 0.0 && step_s.is_finite(),
-        "step_s",
-        step_s,
-        "(0, inf)",
+        size > 3,
+        "the number of samples of a drop",
+        size as f64,
+        "[4, inf)",
     )?;
-    let first = drops
-        .first()
-        .filter(|first| drops.len() > 1 && first.len() > 3);
-    let first = first.ok_or(InverseError::Few {
-        key: "the list of drops",
-        least: 2,
-    })?;
     for (index, drop) in drops.iter().enumerate() {
-        check_finite("drop", index, drop)?;
-        if drop.len() != first.len() {
-            return Err(InverseError::Length {
-                what: "drop",
-                index,
-                found: drop.len(),
-                needed: first.len(),
-            });
+        finite(&format!("drop {index}"), drop)?;
+        if drop.len() != size {
+            let key = format!("the number of samples of drop {index}");
+            let range = format!("[{size}, {size}]");
+            return Err(outside(
+                key,
+                drop.len() as f64,
+                range,
+                ": cut all drops to the same length",
+            ));
         }
     }
-    let count = drops.len() as f64;
-    let (mut mean, mut shifts) = (first.clone(), Vec::new());
+    let (mut mean, mut shifts) = (drops[0].clone(), Vec::new());
     let mut aligned = Vec::new();
     for _ in 0..2 {
         let found = drops
             .iter()
             .enumerate()
             .map(|(index, drop)| match delay(drop, &mean) {
-                (_, found) if found < LEAST_CORRELATION => Err(InverseError::Unlike {
-                    index,
-                    found,
-                    least: LEAST_CORRELATION,
-                }),
+                (_, found) if found < LEAST_CORRELATION => {
+                    let key = format!("the correlation of drop {index} with the others");
+                    let remedy =
+                        ": remove it, or average drops of the same ball, height and place only";
+                    Err(outside(
+                        key,
+                        found,
+                        format!("[{LEAST_CORRELATION}, 1]"),
+                        remedy,
+                    ))
+                }
                 (shift, _) => Ok(shift),
             });
         shifts = found.collect::<Result<Vec<f64>, _>>()?;
@@ -125,7 +128,7 @@ pub fn average(drops: &[Vec<f64>], step_s: f64) -> Result<Averaged, InverseError
                 .collect()
         });
         aligned = shifted.collect::<Vec<Vec<f64>>>();
-        mean = (0..first.len())
+        mean = (0..size)
             .map(|i| aligned.iter().map(|drop| drop[i]).sum::<f64>() / count)
             .collect();
     }

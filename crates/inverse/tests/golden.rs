@@ -1,7 +1,7 @@
 //! Six noisy traces of an independent program (`tests/golden/inverse_trace.csv`) at a signal-to-noise ratio of 100.
 
 use halfspace::{Field, Kernel, Medium, Profile};
-use inverse::{Gain, Noise, Problem, Pulse, Smoothing, Trace, infer};
+use inverse::{Gain, Noise, Problem, Pulse, Trace, infer};
 
 /// Force samples before the first sample.
 const LEAD: usize = 4;
@@ -74,7 +74,7 @@ fn forces_of_independent_traces() {
             pulse: &pulse,
             window_s: None,
             impulse_n_s: None,
-            smoothing: Smoothing::Likelihood,
+            lambda: None,
             confidence: 0.95,
         };
         let found = infer(&problem).expect("a force");

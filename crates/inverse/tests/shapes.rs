@@ -61,7 +61,7 @@ fn a_double_blow_is_found_whole() {
                         100.0 * window,
                         quantile(&spans, 0.1)
                     );
-                    if peak > most || contact < 0.9 || quantile(&spans, 0.0) < START + 1.0 {
+                    if peak > most || contact < 0.88 || quantile(&spans, 0.0) < START + 1.0 {
                         failed.push((name, quantity, distance, snr));
                     }
                 }

@@ -4,7 +4,7 @@
 
 use halfspace::random::Stream;
 use halfspace::{Field, Kernel, Medium, Profile};
-use inverse::{ForceHistory, Gain, Noise, Problem, Pulse, Smoothing, Trace};
+use inverse::{ForceHistory, Gain, Noise, Problem, Pulse, Trace};
 
 /// Samples of the trace in a contact.
 pub const SAMPLES: usize = 25;
@@ -165,7 +165,7 @@ pub fn problem(pulse: &Pulse, place: Place, traces: Vec<Trace>) -> Problem<'_> {
         pulse,
         window_s: None,
         impulse_n_s: None,
-        smoothing: Smoothing::Likelihood,
+        lambda: None,
         confidence: 0.95,
     }
 }
