@@ -369,14 +369,15 @@ struct Posterior<'a> {
     normal: &'a Normal,
     lambda: f64,
     solution: Solution,
-    /// Variance of each sample: of a free one the geometric mean of the posterior's, which has all of the prior in it, and
-    /// of the noise's, which has none; of a pinned one the posterior's if it were free.
+    /// Variance of each sample. Of a free one between that of the posterior, which has all of the prior in it and is too
+    /// wide where the traces determine the force, and that of the noise alone, which has none and is too narrow: the geometric
+    /// mean of the first and twice the second. `tests/back.rs` fails with either. Of a pinned one that of the posterior.
     variance: Vec<f64>,
     /// Variance of the sum of all samples.
     variance_of_sum: f64,
     /// Effective number of unknowns.
     unknowns: f64,
-    /// Half of the change of the force when the weight is doubled and halved.
+    /// Mean change of the force when the weight is doubled or halved.
     bias: Vec<f64>,
 }
 
@@ -403,7 +404,7 @@ impl<'a> Posterior<'a> {
             let prior: f64 = free.iter().map(|&i| column[i] * rough(i)).sum();
             unknowns -= lambda * rough(j);
             let sampling = (column[j] - lambda * prior).max(0.0);
-            variance[j] = (column[j] * sampling).sqrt();
+            variance[j] = (column[j] * sampling * sampling).cbrt();
         }
         for j in (0..size).filter(|&j| solution.x[j] == 0.0) {
             let entries: Vec<f64> = free.iter().map(|&i| matrix.row(j)[i]).collect();
@@ -418,7 +419,7 @@ impl<'a> Posterior<'a> {
                 .x
                 .iter()
                 .zip(&smooth.x)
-                .map(|(a, b)| 0.25 * (a - b))
+                .map(|(a, b)| 0.5 * (a - b))
                 .collect(),
             _ => vec![0.0; size],
         };

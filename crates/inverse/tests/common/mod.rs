@@ -72,7 +72,7 @@ pub struct Place {
 }
 
 impl Place {
-    /// Force samples in a sample of the trace: near a sensor fronts are sharp.
+    /// Force samples in a sample of the trace: near the blow fronts are sharp.
     pub fn oversampling(self) -> usize {
         if self.distance < 1.0 { 8 } else { 4 }
     }
