@@ -241,10 +241,11 @@ impl Part {
     }
 }
 
-/// Steps of the search in the logarithm of lambda: decades until it is bracketed, then golden sections down to a factor of
-/// 1.4, which changes the force by a tenth of its error.
-const DECADES: usize = 14;
-const SECTIONS: usize = 6;
+/// Steps of the search in the logarithm of lambda: the first, the one at which it ends, which changes the force by a tenth of
+/// its error, and how far it goes.
+const FIRST_STEP: f64 = 2.0;
+const LAST_STEP: f64 = 0.2;
+const FARTHEST: f64 = 30.0;
 
 /// Points of the L-curve on either side, and points in a decade.
 const L_CURVE_SIDE: i32 = 10;
@@ -262,10 +263,7 @@ pub(crate) fn deconvolve(
     normal: &Normal,
 ) -> Result<ForceHistory, InverseError> {
     let pulse = pulse_samples(problem, fit, normal);
-    let mut lambda = problem.lambda.unwrap_or_else(|| {
-        let roughness = dot(&normal.penalty.times(&pulse), &pulse);
-        pulse.iter().filter(|p| **p > 0.0).count().max(1) as f64 / roughness
-    });
+    let mut lambda = guess(problem, fit);
     let chosen = |all: &Stacked, guess: f64| match problem.lambda {
         Some(lambda) => lambda,
         None => largest(|log| normal.likelihood(all, log.exp()), guess.ln()).exp(),
@@ -299,6 +297,15 @@ pub(crate) fn deconvolve(
     }
 }
 
+/// The weight that suits the fitted pulse: the inverse mean square of its second differences.
+fn guess(problem: &Problem, fit: &PulseFit) -> f64 {
+    let count = fit.duration_s.value / problem.force_step_s();
+    let at = |j: f64| problem.pulse.at(j / count)[0];
+    let bends = (0..count as usize + 2).map(|j| j as f64);
+    let bends = bends.map(|j| (at(j - 1.0) - 2.0 * at(j) + at(j + 1.0)).powi(2));
+    count / (fit.peak_n.value * fit.peak_n.value * bends.sum::<f64>())
+}
+
 /// Samples of the fitted pulse in the window.
 fn pulse_samples(problem: &Problem, fit: &PulseFit, normal: &Normal) -> Vec<f64> {
     let sample = |j| {
@@ -308,38 +315,23 @@ fn pulse_samples(problem: &Problem, fit: &PulseFit, normal: &Normal) -> Vec<f64>
     (0..normal.penalty.size()).map(sample).collect()
 }
 
-/// Where a function with one maximum has it.
+/// The largest value of a function with one maximum, found by steps that are halved where neither leads up.
 fn largest(of: impl Fn(f64) -> f64, guess: f64) -> f64 {
-    let decade = std::f64::consts::LN_10;
-    let (mut middle, mut best) = (guess, of(guess));
-    let [mut below, mut above] = [-decade, decade].map(|d| of(guess + d));
-    for _ in 0..DECADES {
-        if above > best {
-            (below, best, middle) = (best, above, middle + decade);
-            above = of(middle + decade);
-        } else if below > best {
-            (above, best, middle) = (best, below, middle - decade);
-            below = of(middle - decade);
+    let (mut place, mut best, mut step) = (guess, of(guess), FIRST_STEP);
+    while step > LAST_STEP && (place - guess).abs() < FARTHEST {
+        let tried = [place + step, place - step].map(|x| (of(x), x));
+        let higher = if tried[0].0 > tried[1].0 {
+            tried[0]
         } else {
-            break;
+            tried[1]
+        };
+        if higher.0 > best {
+            (best, place) = higher;
+        } else {
+            step *= 0.4;
         }
     }
-    let (mut low, mut high) = (middle - decade, middle + decade);
-    let golden = 0.5 * (5.0_f64.sqrt() - 1.0);
-    let mut inner = [high - golden * (high - low), low + golden * (high - low)];
-    let mut values = inner.map(&of);
-    for _ in 0..SECTIONS {
-        if values[0] > values[1] {
-            (high, inner[1], values[1]) = (inner[1], inner[0], values[0]);
-            inner[0] = high - golden * (high - low);
-            values[0] = of(inner[0]);
-        } else {
-            (low, inner[0], values[0]) = (inner[0], inner[1], values[1]);
-            inner[1] = low + golden * (high - low);
-            values[1] = of(inner[1]);
-        }
-    }
-    0.5 * (low + high)
+    place
 }
 
 /// Residual and roughness for weights around one, ascending, for noise of the variance one.
@@ -446,21 +438,11 @@ impl<'a> Posterior<'a> {
         let tail = 0.5 * (1.0 - problem.confidence);
         let width = quantile(tail);
         let half = |j: usize| width * self.variance[j].sqrt() + self.bias[j].abs();
-        let free = |j: usize| x[j] > 0.0;
-        let high = (0..x.len()).map(|j| {
-            if free(j) {
-                x[j] + half(j)
-            } else {
-                self.pinned(j, 2.0 * tail) + self.bias[j].abs()
-            }
+        let high = (0..x.len()).map(|j| match x[j] > 0.0 {
+            true => x[j] + half(j),
+            false => self.pinned(j, 2.0 * tail) + self.bias[j].abs(),
         });
-        let low = (0..x.len()).map(|j| {
-            if free(j) {
-                (x[j] - half(j)).max(0.0)
-            } else {
-                0.0
-            }
-        });
+        let low = (0..x.len()).map(|j| (x[j] - half(j)).max(0.0));
         let top = (0..x.len())
             .max_by(|&i, &j| x[i].total_cmp(&x[j]))
             .unwrap_or(0);
@@ -511,11 +493,10 @@ fn quantile(tail: f64) -> f64 {
     let (mut low, mut high) = (0.0, 40.0);
     for _ in 0..50 {
         let middle = 0.5 * (low + high);
-        *(if upper_tail(middle) > tail {
-            &mut low
-        } else {
-            &mut high
-        }) = middle;
+        match upper_tail(middle) > tail {
+            true => low = middle,
+            false => high = middle,
+        }
     }
     0.5 * (low + high)
 }

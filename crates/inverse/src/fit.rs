@@ -184,7 +184,7 @@ impl<'a> Fitting<'a> {
             shown |= square > SHOWN * dot(template, template);
             match rows.gain {
                 Gain::Known(gain) => {
-                    known = [known[0] + gain * product, known[1] + gain * gain * square]
+                    known = [known[0] + gain * product, known[1] + gain * gain * square];
                 }
                 Gain::Unknown if square > 0.0 => {
                     gains.push(product / square);
@@ -197,7 +197,7 @@ impl<'a> Fitting<'a> {
             Some(impulse) if known[1] == 0.0 => impulse.value / self.per_peak(duration),
             Some(_) | None => known[0] / known[1],
         };
-        if !shown || !(peak > 0.0 && peak.is_finite()) {
+        if !(shown && peak > 0.0 && peak.is_finite()) {
             return (0.0, Vec::new());
         }
         let values = [peak, duration, start as f64]
@@ -309,11 +309,10 @@ impl<'a> Fitting<'a> {
             let slopes = [per_peak, peak * per_peak / duration];
             for i in 0..2 {
                 point.right[i] += slopes[i] * missing;
-                (0..=i).for_each(|j| {
-                    point
-                        .matrix
-                        .set(i, j, point.matrix.row(i)[j] + slopes[i] * slopes[j])
-                });
+                for j in 0..=i {
+                    let product = slopes[i] * slopes[j];
+                    point.matrix.set(i, j, point.matrix.row(i)[j] + product);
+                }
             }
             point.chi_squared += missing * missing;
         }

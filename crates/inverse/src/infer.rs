@@ -1,7 +1,7 @@
 //! From traces to the force: a fit, a force history, and what they rest on.
 
 use crate::deconvolve::{ForceHistory, Normal, deconvolve};
-use crate::error::{Estimate, InverseError};
+use crate::error::{Estimate, InverseError, outside};
 use crate::fit::{PulseFit, fit};
 use crate::problem::{Noise, Problem, Rows, Trace};
 use crate::several::{Jackknife, jackknife};
@@ -40,6 +40,9 @@ pub struct Inferred {
 /// The first is the default. The others are tried in turn if no force in it explains the traces: a double blow, or a pulse
 /// of another shape. `tests/shapes.rs` (`a_double_blow_is_found_whole`) fails without them.
 const MARGINS: [f64; 3] = [0.15, 0.6, 1.5];
+
+/// Force samples in a window at most: the solution takes half a minute.
+const MOST_SAMPLES: usize = 2000;
 
 /// The force behind traces of one blow.
 ///
@@ -94,12 +97,12 @@ fn default_window(
     let (start, duration) = (fit.start_s.value, fit.duration_s.value);
     let mut first = None;
     for margin in MARGINS {
-        let found = over(
-            problem,
-            rows,
-            fit,
-            [start - margin * duration, start + (1.0 + margin) * duration],
-        )?;
+        let window = [start - margin * duration, start + (1.0 + margin) * duration];
+        let samples = (window[1] - window[0]) / problem.force_step_s();
+        if first.is_some() && samples > MOST_SAMPLES as f64 {
+            break;
+        }
+        let found = over(problem, rows, fit, window)?;
         let history = &found.1;
         if history.error_factor == 1.0 {
             return Ok(found);
@@ -124,6 +127,18 @@ fn over(
         .unwrap_or(0);
     let start = start.ceil() as usize;
     let end = (end as usize).min(last).max(start + 2);
+    let size = end + 1 - start;
+    if size > MOST_SAMPLES {
+        let key = "the number of force samples in the window";
+        let remedy =
+            ": shorten the window, or resample the traces to about a hundred samples in a contact";
+        return Err(outside(
+            key,
+            size as f64,
+            format!("[3, {MOST_SAMPLES}]"),
+            remedy,
+        ));
+    }
     let normal = Normal::new(problem, rows, [start, end]);
     let history = deconvolve(problem, rows, fit, &normal)?;
     Ok((normal, history))

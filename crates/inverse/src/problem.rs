@@ -84,6 +84,9 @@ pub(crate) struct Rows {
 /// Response below which nothing has arrived, over the largest; instruments have tails.
 const ARRIVED: f64 = 1e-6;
 
+/// Force steps in a trace at most: the net of durations and starts takes a second.
+const MOST_FORCE_STEPS: usize = 40_000;
+
 /// Standard errors by which the mean of a quiet beginning may differ from zero.
 const OFFSET: f64 = 5.0;
 
@@ -95,7 +98,9 @@ impl Problem<'_> {
 
     /// Force sample at the time of a sample of the traces.
     pub(crate) fn force_index(&self, sample: usize) -> usize {
-        sample * self.oversampling + self.lead
+        sample
+            .saturating_mul(self.oversampling)
+            .saturating_add(self.lead)
     }
 
     /// Time of a force sample in s.
@@ -148,11 +153,13 @@ impl Problem<'_> {
                 from,
                 "(-inf, inf)",
             )?;
+            let least = from.max(self.force_time_s(0.0));
+            let range = "(its start and that of the traces, inf)";
             check(
-                to > from && to.is_finite(),
+                to > least && to.is_finite(),
                 "the end of window_s",
                 to,
-                "(its start, inf)",
+                range,
             )?;
         }
         check(
@@ -186,9 +193,12 @@ impl Problem<'_> {
         let mut used = trace.samples.len();
         if let Some(valid) = trace.valid_until_s {
             positive("valid_until_s", valid)?;
-            used = used.min((valid / self.step_s).floor() as usize + 1);
+            used = used.min(((valid / self.step_s) as usize).saturating_add(1));
         }
-        let (found, needed) = (trace.response.len(), self.force_index(used.max(1) - 1) + 1);
+        let (found, needed) = (
+            trace.response.len(),
+            self.force_index(used.max(1) - 1).saturating_add(1),
+        );
         let response = trace.response.get(..needed).ok_or_else(|| {
             let key = format!("the number of samples of response {index}");
             let remedy = ": compute it on the force step until the end of the trace";
@@ -205,10 +215,11 @@ impl Problem<'_> {
             outside(key, largest, "(0, inf)", remedy)
         })?;
         let first = whitening.order();
-        let least = first + FEWEST_QUIET;
-        if used < least {
+        let range = [first + FEWEST_QUIET, MOST_FORCE_STEPS / self.oversampling];
+        if !(range[0]..=range[1]).contains(&used) {
             let key = format!("the number of valid samples of trace {index}");
-            return Err(outside(key, used as f64, format!("[{least}, inf)"), ""));
+            let remedy = ": cut the trace around the blow, or resample it to about a hundred samples in a contact";
+            return Err(outside(key, used as f64, format!("{range:?}"), remedy));
         }
         let data = whitening.apply(&trace.samples[..used], 1).split_off(first);
         Ok(Rows {

@@ -46,17 +46,31 @@ fn numbers_and_lengths() {
         ("gain", |p| p.traces[0].gain = Gain::Known(0.0)),
         ("valid_until_s", |p| p.traces[0].valid_until_s = Some(-1.0)),
         ("the end of window_s", |p| p.window_s = Some([3.0, 2.0])),
-        ("sample 77 of trace 0", |p| {
-            p.traces[0].samples[77] = f64::INFINITY
+        ("the end of window_s", |p| p.window_s = Some([-9.0, -1.0])),
+        ("valid_until_s", |p| {
+            p.traces[0].valid_until_s = Some(f64::INFINITY)
         }),
-        ("sample 3 of response 0", |p| {
-            p.traces[0].response[3] = f64::NAN
+        ("the number of valid samples of trace 0", |p| {
+            p.traces[0].valid_until_s = Some(0.2);
+        }),
+        ("the number of valid samples of trace 0", |p| {
+            p.traces[0].samples.resize(20_000, 0.0);
+            p.traces[0].response.resize(80_001, 0.0);
         }),
         ("the number of samples of response 0", |p| {
-            p.traces[0].response.truncate(100)
+            p.lead = usize::MAX
+        }),
+        ("sample 77 of trace 0", |p| {
+            p.traces[0].samples[77] = f64::INFINITY;
+        }),
+        ("sample 3 of response 0", |p| {
+            p.traces[0].response[3] = f64::NAN;
+        }),
+        ("the number of samples of response 0", |p| {
+            p.traces[0].response.truncate(100);
         }),
         ("the largest value of response 0", |p| {
-            p.traces[0].response.fill(0.0)
+            p.traces[0].response.fill(0.0);
         }),
         ("gain", |p| p.traces[0].gain = Gain::Unknown),
     ] {
@@ -67,14 +81,14 @@ fn numbers_and_lengths() {
 #[test]
 fn noise_that_cannot_be_found() {
     let said = rejected("the number of quiet samples of trace 0", |p| {
-        p.traces[0].noise = Noise::Quiet(0..9)
+        p.traces[0].noise = Noise::Quiet(0..9);
     });
     assert!(
         said.contains("= 9 is outside [16, 149]") && said.contains("pass the standard deviation"),
         "{said}"
     );
     rejected("the number of quiet samples of trace 0", |p| {
-        p.traces[0].noise = Noise::Quiet(0..9999)
+        p.traces[0].noise = Noise::Quiet(0..9999);
     });
     rejected("the noise of the quiet part", |p| {
         p.traces[0].samples[..30].fill(0.0);
@@ -147,4 +161,53 @@ fn noise_alone_and_pulses_in_it() {
         found[0] == 0 && found[1] == 0 && found[3] > 25 && found[4] == 50,
         "{found:?}"
     );
+}
+
+/// What is allowed, however strange, gives numbers.
+#[test]
+fn strange_input_gives_numbers() {
+    let pulse = Pulse::hertz();
+    for change in [
+        (|p| p.window_s = Some([0.1, 0.9])) as fn(&mut Problem),
+        |p| p.window_s = Some([2.3, 2.31]),
+        |p| p.window_s = Some([-5.0, 4.7]),
+        |p| p.lambda = Some(1e-300),
+        |p| p.lambda = Some(1e200),
+        |p| p.traces[0].valid_until_s = Some(1e300),
+        |p| p.traces[0].noise = Noise::White(1e-9),
+        |p| p.traces[0].gain = Gain::Known(1e-12),
+        |p| p.traces[0].samples[100] = 1e6,
+        |p| {
+            let more = p.traces[0].clone();
+            p.traces.push(Trace {
+                gain: Gain::Unknown,
+                ..more
+            });
+            p.traces[1].samples.fill(0.0);
+        },
+    ] {
+        let mut problem = good(&pulse);
+        change(&mut problem);
+        match infer(&problem) {
+            Err(error) => println!("{error}"),
+            Ok(found) => {
+                let history = &found.history;
+                println!(
+                    "{:?} {:?} {:.1e}",
+                    found.fit.peak_n, history.peak_n, history.lambda
+                );
+                let values = history
+                    .force_n
+                    .iter()
+                    .chain(&history.low_n)
+                    .chain(&history.high_n);
+                let all = values.chain([
+                    &history.peak_n.sd,
+                    &history.impulse_n_s.sd,
+                    &history.chi_squared,
+                ]);
+                assert!(all.into_iter().all(|x| x.is_finite()));
+            }
+        }
+    }
 }
