@@ -35,22 +35,16 @@ fn inversions(criterion: &mut Criterion) {
             .iter()
             .map(|x| x + sigma * stream.within(-3.0_f64.sqrt(), 3.0_f64.sqrt()))
             .collect();
+        let trace = Trace {
+            samples,
+            response,
+            noise: Noise::Quiet(0..200),
+            gain: Gain::Known(1.0),
+            valid_until_s: None,
+        };
         let problem = Problem {
-            step_s: 1.0,
             oversampling,
-            lead: 0,
-            traces: vec![Trace {
-                samples,
-                response,
-                noise: Noise::Quiet(0..200),
-                gain: Gain::Known(1.0),
-                valid_until_s: None,
-            }],
-            pulse: &pulse,
-            window_s: None,
-            impulse_n_s: None,
-            lambda: None,
-            confidence: 0.95,
+            ..Problem::new(1.0, vec![trace], &pulse)
         };
         let found = infer(&problem).expect("a force");
         println!(

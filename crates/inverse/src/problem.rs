@@ -90,7 +90,22 @@ const MOST_FORCE_STEPS: usize = 40_000;
 /// Standard errors by which the mean of a quiet beginning may differ from zero.
 const OFFSET: f64 = 5.0;
 
-impl Problem<'_> {
+impl<'a> Problem<'a> {
+    /// The problem with the default of everything else: no oversampling, no lead, the default window, bands of 95 %.
+    pub fn new(step_s: f64, traces: Vec<Trace>, pulse: &'a Pulse) -> Self {
+        Self {
+            step_s,
+            oversampling: 1,
+            lead: 0,
+            traces,
+            pulse,
+            window_s: None,
+            impulse_n_s: None,
+            lambda: None,
+            confidence: 0.95,
+        }
+    }
+
     /// Time between force samples in s.
     pub fn force_step_s(&self) -> f64 {
         self.step_s / self.oversampling as f64

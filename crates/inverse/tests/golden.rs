@@ -60,22 +60,16 @@ fn forces_of_independent_traces() {
         let (truth, samples) = (column(1), column(2));
         let sigma = samples.iter().fold(0.0, |a: f64, b| a.max(b.abs())) / 100.0;
         let response = response(case.starts_with('v'), step, count + LEAD);
+        let trace = Trace {
+            samples,
+            response,
+            noise: Noise::White(sigma),
+            gain: Gain::Known(1.0),
+            valid_until_s: None,
+        };
         let problem = Problem {
-            step_s: step,
-            oversampling: 1,
             lead: LEAD,
-            traces: vec![Trace {
-                samples,
-                response,
-                noise: Noise::White(sigma),
-                gain: Gain::Known(1.0),
-                valid_until_s: None,
-            }],
-            pulse: &pulse,
-            window_s: None,
-            impulse_n_s: None,
-            lambda: None,
-            confidence: 0.95,
+            ..Problem::new(step, vec![trace], &pulse)
         };
         let found = infer(&problem).expect("a force");
         let (fit, history) = (&found.fit, &found.history);

@@ -48,7 +48,7 @@ fn numbers_and_lengths() {
         ("the end of window_s", |p| p.window_s = Some([3.0, 2.0])),
         ("the end of window_s", |p| p.window_s = Some([-9.0, -1.0])),
         ("valid_until_s", |p| {
-            p.traces[0].valid_until_s = Some(f64::INFINITY)
+            p.traces[0].valid_until_s = Some(f64::INFINITY);
         }),
         ("the number of valid samples of trace 0", |p| {
             p.traces[0].valid_until_s = Some(0.2);
@@ -58,7 +58,7 @@ fn numbers_and_lengths() {
             p.traces[0].response.resize(80_001, 0.0);
         }),
         ("the number of samples of response 0", |p| {
-            p.lead = usize::MAX
+            p.lead = usize::MAX;
         }),
         ("sample 77 of trace 0", |p| {
             p.traces[0].samples[77] = f64::INFINITY;

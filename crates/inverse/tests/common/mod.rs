@@ -158,15 +158,8 @@ pub fn noisy(clean: &[f64], response: &[f64], snr: f64, seed: u64) -> Trace {
 
 pub fn problem(pulse: &Pulse, place: Place, traces: Vec<Trace>) -> Problem<'_> {
     Problem {
-        step_s: 1.0 / SAMPLES as f64,
         oversampling: place.oversampling(),
-        lead: 0,
-        traces,
-        pulse,
-        window_s: None,
-        impulse_n_s: None,
-        lambda: None,
-        confidence: 0.95,
+        ..Problem::new(1.0 / SAMPLES as f64, traces, pulse)
     }
 }
 
