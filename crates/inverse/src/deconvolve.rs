@@ -192,51 +192,18 @@ impl Normal {
 
 impl Part {
     fn new(problem: &Problem, rows: &Rows, start: usize, size: usize) -> Self {
-        let rho = problem.oversampling as isize;
-        let count = rows.data.len();
-        let origin = rows.force_index(problem, 0) as isize - start as isize;
-        let response = |i: isize, a: usize| {
-            let place = origin + i * rho - a as isize;
-            usize::try_from(place)
-                .ok()
-                .and_then(|k| rows.kernel.get(k))
-                .copied()
-                .unwrap_or(0.0)
-        };
-        // one force sample later is a row earlier: along a diagonal two rows change
-        let mut matrix = Symmetric::from_fn(size, |_, _| 0.0);
-        for a in (0..size).rev() {
-            for b in 0..=a {
-                let entry = match a + problem.oversampling < size {
-                    true => {
-                        let [entering, leaving] =
-                            [count as isize - 1, -1].map(|i| response(i, a) * response(i, b));
-                        matrix.row(a + problem.oversampling)[b + problem.oversampling] + entering
-                            - leaving
-                    }
-                    false => (0..count as isize)
-                        .map(|i| response(i, a) * response(i, b))
-                        .sum(),
-                };
-                matrix.set(a, b, entry);
-            }
-        }
-        let right = (0..size).map(|a| {
-            (0..count)
-                .map(|i| response(i as isize, a) * rows.data[i])
-                .sum()
-        });
-        let first = (0..count).find(|&i| rows.force_index(problem, i) >= start + rows.arrival);
-        let changed = &rows.data[first.unwrap_or(count)..];
-        let data = [
-            dot(changed, changed),
-            changed.len() as f64,
-            dot(&rows.data, &rows.data),
-        ];
+        let column = |j| rows.predict(problem, start + j, &[1.0]);
+        let columns: Vec<Vec<f64>> = (0..size).map(column).collect();
+        let first = columns[0].iter().position(|x| *x != 0.0);
+        let changed = &rows.data[first.unwrap_or(rows.data.len())..];
+        let squares = [changed, &rows.data].map(|data| dot(data, data));
         Self {
-            right: right.collect(),
-            matrix,
-            data,
+            matrix: Symmetric::from_fn(size, |i, j| dot(&columns[i], &columns[j])),
+            right: columns
+                .iter()
+                .map(|column| dot(column, &rows.data))
+                .collect(),
+            data: [squares[0], changed.len() as f64, squares[1]],
         }
     }
 }

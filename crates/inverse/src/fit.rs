@@ -78,7 +78,7 @@ pub(crate) fn variance(chi_squared: f64, degrees: f64) -> f64 {
 
 /// Fits peak, duration and start, and the unknown gains.
 pub(crate) fn fit(problem: &Problem, rows: &[Rows]) -> Result<PulseFit, InverseError> {
-    let fitting = Fitting::new(problem, rows);
+    let fitting = Fitting { problem, rows };
     let mut starts = fitting.net();
     starts.sort_by(|a, b| b.0.total_cmp(&a.0));
     let refined = starts
@@ -108,8 +108,6 @@ pub(crate) fn fit(problem: &Problem, rows: &[Rows]) -> Result<PulseFit, InverseE
 struct Fitting<'a> {
     problem: &'a Problem<'a>,
     rows: &'a [Rows],
-    /// Traces of unknown gain.
-    unknown: Vec<usize>,
 }
 
 /// Parameters (peak, duration and start in force steps, unknown gains) with their normal equations.
@@ -120,15 +118,17 @@ struct Point {
     right: Vec<f64>,
 }
 
-impl<'a> Fitting<'a> {
-    fn new(problem: &'a Problem<'a>, rows: &'a [Rows]) -> Self {
-        let is_unknown = |k: &usize| rows[*k].gain == Gain::Unknown;
-        let unknown = (0..rows.len()).filter(is_unknown).collect();
-        Self {
-            problem,
-            rows,
-            unknown,
-        }
+impl Fitting<'_> {
+    /// The gain of each trace with its place among the parameters, where it has one.
+    fn gains<'a>(&'a self, values: &'a [f64]) -> impl Iterator<Item = (f64, Option<usize>)> + 'a {
+        let mut next = 2;
+        self.rows.iter().map(move |rows| match rows.gain {
+            Gain::Known(gain) => (gain, None),
+            Gain::Unknown => {
+                next += 1;
+                (values[next], Some(next))
+            }
+        })
     }
 
     /// For each duration of the net the best parameters, with the part of chi-squared that they explain.
@@ -152,11 +152,9 @@ impl<'a> Fitting<'a> {
             let pulse =
                 (0..=duration as usize + 1).map(|j| self.problem.pulse.at(j as f64 / duration)[0]);
             let pulse: Vec<f64> = pulse.collect();
-            let templates: Vec<Vec<f64>> = self
-                .rows
-                .iter()
-                .map(|rows| rows.template(rho, &pulse))
-                .collect();
+            let template =
+                |rows: &Rows| rows.respond((0..rows.kernel.len()).step_by(rho).map(Some), &pulse);
+            let templates: Vec<Vec<f64>> = self.rows.iter().map(template).collect();
             let places = (0..=ends.unwrap_or(0)).step_by(stride);
             let tried = places.map(|start| self.explained(duration, start, &templates));
             found.extend(tried.max_by(|a, b| a.0.total_cmp(&b.0)));
@@ -275,12 +273,8 @@ impl<'a> Fitting<'a> {
             matrix: Symmetric::from_fn(size, |_, _| 0.0),
             right: vec![0.0; size],
         };
-        for (k, rows) in self.rows.iter().enumerate() {
-            let at = self.unknown.iter().position(|&u| u == k).map(|at| 3 + at);
-            let gain = match rows.gain {
-                Gain::Known(gain) => gain,
-                Gain::Unknown => at.map_or(1.0, |at| point.values[at]),
-            };
+        let gains: Vec<_> = self.gains(&point.values).collect();
+        for (rows, (gain, at)) in self.rows.iter().zip(gains) {
             let columns = forces
                 .each_ref()
                 .map(|force| rows.predict(self.problem, first, force));
@@ -325,14 +319,10 @@ impl<'a> Fitting<'a> {
         let degrees_of_freedom = count.saturating_sub(best.values.len()).max(1);
         let factor = Factor::of(&best.matrix).ok_or(InverseError::NotSolved)?;
         let scale = variance(best.chi_squared, degrees_of_freedom as f64);
-        let unit = |i| {
-            (0..best.values.len())
-                .map(|j| f64::from(u8::from(i == j)))
-                .collect::<Vec<_>>()
-        };
-        let inverse: Vec<Vec<f64>> = (0..best.values.len())
-            .map(|i| factor.solve(&unit(i)))
-            .collect();
+        let count = best.values.len();
+        let unit = |i| (0..count).map(move |j| f64::from(u8::from(i == j)));
+        let column = |i| factor.solve(&unit(i).collect::<Vec<_>>());
+        let inverse: Vec<Vec<f64>> = (0..count).map(column).collect();
         let step = self.problem.force_step_s();
         let units = [1.0, step, step];
         let covariance: [[f64; 3]; 3] = std::array::from_fn(|i| {
@@ -348,20 +338,10 @@ impl<'a> Fitting<'a> {
         let relative = covariance[0][0] / (peak * peak)
             + covariance[1][1] / (duration * duration)
             + 2.0 * covariance[0][1] / (peak * duration);
-        let gains = self
-            .rows
-            .iter()
-            .enumerate()
-            .map(|(k, rows)| match rows.gain {
-                Gain::Known(value) => Estimate { value, sd: 0.0 },
-                Gain::Unknown => {
-                    let i = 3 + self.unknown.iter().position(|&u| u == k).unwrap_or(0);
-                    Estimate {
-                        value: best.values[i],
-                        sd: (inverse[i][i] * scale).sqrt(),
-                    }
-                }
-            });
+        let gains = self.gains(&best.values).map(|(value, at)| {
+            let sd = at.map_or(0.0, |i| (inverse[i][i] * scale).sqrt());
+            Estimate { value, sd }
+        });
         let fit = PulseFit {
             peak_n: of(peak, 0),
             duration_s: of(duration, 1),

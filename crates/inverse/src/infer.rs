@@ -147,12 +147,12 @@ fn over(
 /// The traces of a force history in their own units.
 fn predicted(problem: &Problem, history: &ForceHistory, start: usize) -> Vec<Vec<f64>> {
     let of = |(trace, gain): (&Trace, &Estimate)| {
+        let force = history.force_n.iter().enumerate();
         let value = |sample: usize| {
-            let forces = history.force_n.iter().enumerate();
-            let terms = forces.filter_map(|(j, force)| {
-                let lag = problem.force_index(sample).checked_sub(start + j)?;
-                Some(force * trace.response.get(lag)?)
-            });
+            let lag = |j| problem.force_index(sample).checked_sub(start + j);
+            let terms = force
+                .clone()
+                .filter_map(|(j, p)| Some(p * trace.response.get(lag(j)?)?));
             gain.value * terms.sum::<f64>()
         };
         (0..trace.samples.len()).map(value).collect()

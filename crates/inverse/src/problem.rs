@@ -281,19 +281,6 @@ impl<'a> Problem<'a> {
 }
 
 impl Rows {
-    /// The whitened response to a force whose first sample is that of a sample of the traces, from this time on.
-    pub(crate) fn template(&self, oversampling: usize, force: &[f64]) -> Vec<f64> {
-        let at = |k: usize| {
-            let count = force.len().min((k + 1).saturating_sub(self.arrival));
-            let kernel = self.kernel[..=k].iter().rev();
-            kernel.zip(&force[..count]).map(|(h, p)| h * p).sum()
-        };
-        (0..self.kernel.len())
-            .step_by(oversampling)
-            .map(at)
-            .collect()
-    }
-
     /// Force sample at the time of a row.
     pub(crate) fn force_index(&self, problem: &Problem, row: usize) -> usize {
         problem.force_index(self.first + row)
@@ -307,17 +294,25 @@ impl Rows {
 
     /// The whitened trace of a force whose first sample is `start`, for a gain of one.
     pub(crate) fn predict(&self, problem: &Problem, start: usize, force: &[f64]) -> Vec<f64> {
+        let place = |row| self.force_index(problem, row).checked_sub(start);
+        self.respond((0..self.data.len()).map(place), force)
+    }
+
+    /// The whitened response to a force at times in force steps after its first sample, if they are.
+    pub(crate) fn respond(
+        &self,
+        times: impl Iterator<Item = Option<usize>>,
+        force: &[f64],
+    ) -> Vec<f64> {
         let turned: Vec<f64> = force.iter().rev().copied().collect();
-        let row = |i| match self.force_index(problem, i).checked_sub(start) {
-            None => 0.0,
-            Some(latest) => {
-                let count = force.len().min((latest + 1).saturating_sub(self.arrival));
-                dot(
-                    &self.kernel[latest + 1 - count..=latest],
-                    &turned[force.len() - count..],
-                )
-            }
+        let at = |time: Option<usize>| {
+            let end = time.map_or(0, |time| time + 1);
+            let count = force.len().min(end.saturating_sub(self.arrival));
+            dot(
+                &self.kernel[end - count..end],
+                &turned[force.len() - count..],
+            )
         };
-        (0..self.data.len()).map(row).collect()
+        times.map(at).collect()
     }
 }
