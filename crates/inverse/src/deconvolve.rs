@@ -215,7 +215,7 @@ const LAST_STEP: f64 = 0.2;
 const FARTHEST: f64 = 30.0;
 
 /// Points of the L-curve on either side, and points in a decade.
-const L_CURVE_SIDE: i32 = 10;
+const L_CURVE_SIDE: i32 = 6;
 const L_CURVE_DENSITY: f64 = 2.0;
 
 /// Changes of gain and force, at most, and the change at which they end.
@@ -260,7 +260,7 @@ pub(crate) fn deconvolve(
             noise = found;
             continue;
         }
-        return posterior.history(problem, &all, gains, noise, residual * noise);
+        return Ok(posterior.history(problem, &all, gains, noise, residual * noise));
     }
 }
 
@@ -301,26 +301,24 @@ fn largest(of: impl Fn(f64) -> f64, guess: f64) -> f64 {
     place
 }
 
-/// Residual and roughness for weights around one, ascending, for noise of the variance one.
-fn l_curve(
-    normal: &Normal,
-    all: &Stacked,
-    lambda: f64,
-    noise: f64,
-) -> Result<Vec<LCurvePoint>, InverseError> {
+/// Residual and roughness for weights around one, ascending, for noise of the variance one; without those that rounding
+/// prevents.
+fn l_curve(normal: &Normal, all: &Stacked, lambda: f64, noise: f64) -> Vec<LCurvePoint> {
     let (mut x, mut points) = (Vec::new(), Vec::new());
     for i in (-L_CURVE_SIDE..=L_CURVE_SIDE).rev() {
         let lambda = lambda * 10_f64.powf(f64::from(i) / L_CURVE_DENSITY);
-        x = normal.solve(all, lambda, &x)?.x;
-        let [residual, roughness] = normal.norms(all, &x);
-        points.push(LCurvePoint {
-            lambda: lambda * noise,
-            residual: (residual * noise).sqrt(),
-            roughness: roughness.sqrt(),
-        });
+        if let Ok(found) = normal.solve(all, lambda, &x) {
+            x = found.x;
+            let [residual, roughness] = normal.norms(all, &x);
+            points.push(LCurvePoint {
+                lambda: lambda * noise,
+                residual: (residual * noise).sqrt(),
+                roughness: roughness.sqrt(),
+            });
+        }
     }
     points.reverse();
-    Ok(points)
+    points
 }
 
 /// The force of a weight with what it does not determine.
@@ -400,7 +398,7 @@ impl<'a> Posterior<'a> {
         gains: Vec<Estimate>,
         noise: f64,
         chi_squared: f64,
-    ) -> Result<ForceHistory, InverseError> {
+    ) -> ForceHistory {
         let x = &self.solution.x;
         let tail = 0.5 * (1.0 - problem.confidence);
         let width = quantile(tail);
@@ -417,7 +415,7 @@ impl<'a> Posterior<'a> {
         let bias_of_sum: f64 = self.bias.iter().sum();
         let squares: f64 = self.normal.parts.iter().map(|part| part.data[2]).sum();
         let changed: f64 = self.normal.parts.iter().map(|part| part.data[0]).sum();
-        Ok(ForceHistory {
+        ForceHistory {
             start_s: problem.force_time_s(self.normal.start as f64),
             step_s: step,
             low_n: low.collect(),
@@ -432,13 +430,13 @@ impl<'a> Posterior<'a> {
             },
             gains,
             lambda: self.lambda * noise,
-            l_curve: l_curve(self.normal, all, self.lambda, noise)?,
+            l_curve: l_curve(self.normal, all, self.lambda, noise),
             chi_squared,
             degrees_of_freedom: (all.count - self.unknowns).max(1.0),
             error_factor: noise.sqrt(),
             variance_reduction: 1.0 - (chi_squared + squares - changed) / squares,
             force_n: x.clone(),
-        })
+        }
     }
 
     /// The upper end of a pinned sample: its posterior is the tail of a normal law whose mean is negative.

@@ -83,6 +83,30 @@ fn forces_of_independent_traces() {
             (fit.start_s.value + step) / duration,
             fit.chi_squared / fit.degrees_of_freedom as f64,
         );
+        // more weight: a smoother force with a larger residual
+        assert!(history.l_curve.len() > 10, "{case}");
+        for pair in history.l_curve.windows(2) {
+            assert!(
+                pair[0].lambda < pair[1].lambda
+                    && pair[0].residual < pair[1].residual * (1.0 + 1e-9)
+            );
+            assert!(
+                pair[0].roughness > pair[1].roughness * (1.0 - 1e-9),
+                "{case}: {pair:?}"
+            );
+        }
+        let samples = &problem.traces[0].samples;
+        let left = samples
+            .iter()
+            .zip(&found.predicted[0])
+            .map(|(d, p)| (d - p).powi(2));
+        let rms = (left.sum::<f64>() / count as f64).sqrt() / sigma;
+        assert!((0.7..1.3).contains(&rms), "{case}: {rms}");
+        assert!(
+            history.variance_reduction > 0.98,
+            "{case}: {}",
+            history.variance_reduction
+        );
         assert!(
             (history.peak_n.value / exact - 1.0).abs() < 0.02,
             "{case}: {:?}",
