@@ -1,7 +1,7 @@
 //! Six noisy traces of an independent program (`tests/golden/inverse_trace.csv`) at a signal-to-noise ratio of 100.
 
 use halfspace::{Field, Kernel, Medium, Profile};
-use inverse::{Gain, Noise, Problem, Pulse, Trace, infer};
+use inverse::{Gain, Inferred, Noise, Problem, Pulse, Trace, infer};
 
 /// Force samples before the first sample.
 const LEAD: usize = 4;
@@ -33,47 +33,73 @@ fn response(velocity: bool, step: f64, count: usize) -> Vec<f64> {
     (0..count).map(|k| at(k as f64 * step)).collect()
 }
 
+/// Step, largest true force and trace of a case.
+fn read(case: &str) -> (f64, f64, Trace) {
+    let text = include_str!("../../../tests/golden/inverse_trace.csv");
+    let lines = text.lines().filter(|line| line.starts_with(case));
+    let numbers = |line: &str| {
+        line.split(',')
+            .skip(1)
+            .map(|x| x.parse().expect("a number"))
+            .collect()
+    };
+    let rows: Vec<Vec<f64>> = lines.map(numbers).collect();
+    let largest = |column: usize| {
+        rows.iter()
+            .fold(0.0, |a: f64, row| a.max(row[column].abs()))
+    };
+    let trace = Trace {
+        samples: rows.iter().map(|row| row[2]).collect(),
+        response: response(case.starts_with('v'), rows[0][0], rows.len() + LEAD),
+        noise: Noise::White(largest(2) / 100.0),
+        gain: Gain::Known(1.0),
+        valid_until_s: None,
+    };
+    (rows[0][0], largest(1), trace)
+}
+
+/// The L-curve in its order, and a residual of the size of the noise.
+fn check_consistency(case: &str, trace: &Trace, found: &Inferred) {
+    let history = &found.history;
+    assert!(history.l_curve.len() > 10, "{case}");
+    for pair in history.l_curve.windows(2) {
+        // more weight: a smoother force with a larger residual
+        assert!(
+            pair[0].lambda < pair[1].lambda && pair[0].residual < pair[1].residual * (1.0 + 1e-9)
+        );
+        assert!(
+            pair[0].roughness > pair[1].roughness * (1.0 - 1e-9),
+            "{case}: {pair:?}"
+        );
+    }
+    let left = trace
+        .samples
+        .iter()
+        .zip(&found.predicted[0])
+        .map(|(d, p)| (d - p).powi(2));
+    let rms = (left.sum::<f64>() / trace.samples.len() as f64).sqrt() / found.noise[0].sigma;
+    assert!((0.7..1.3).contains(&rms), "{case}: {rms}");
+    assert!(
+        history.variance_reduction > 0.98,
+        "{case}: {}",
+        history.variance_reduction
+    );
+}
+
 #[test]
 fn forces_of_independent_traces() {
-    let text = include_str!("../../../tests/golden/inverse_trace.csv");
-    let samples: Vec<f64> = (0..=400)
-        .map(|i| {
-            (std::f64::consts::PI * f64::from(i) / 400.0)
-                .sin()
-                .powf(1.5)
-        })
-        .collect();
+    let sine = |i: i32| (std::f64::consts::PI * f64::from(i) / 400.0).sin();
+    let samples: Vec<f64> = (0..=400).map(|i| sine(i).powf(1.5)).collect();
     let pulse = Pulse::sampled(&samples).expect("a pulse");
     for case in ["u2.0", "u0.5", "u0.1", "v2.0", "v0.5", "v0.1"] {
-        let rows: Vec<Vec<f64>> = text
-            .lines()
-            .filter(|line| line.starts_with(case))
-            .map(|line| {
-                line.split(',')
-                    .skip(1)
-                    .map(|x| x.parse().expect("a number"))
-                    .collect()
-            })
-            .collect();
-        let (step, count) = (rows[0][0], rows.len());
-        let column = |c: usize| rows.iter().map(|row| row[c]).collect::<Vec<f64>>();
-        let (truth, samples) = (column(1), column(2));
-        let sigma = samples.iter().fold(0.0, |a: f64, b| a.max(b.abs())) / 100.0;
-        let response = response(case.starts_with('v'), step, count + LEAD);
-        let trace = Trace {
-            samples,
-            response,
-            noise: Noise::White(sigma),
-            gain: Gain::Known(1.0),
-            valid_until_s: None,
-        };
+        let (step, exact, trace) = read(case);
         let problem = Problem {
             lead: LEAD,
             ..Problem::new(step, vec![trace], &pulse)
         };
         let found = infer(&problem).expect("a force");
+        check_consistency(case, &problem.traces[0], &found);
         let (fit, history) = (&found.fit, &found.history);
-        let exact = truth.iter().fold(0.0, |a: f64, b| a.max(*b));
         let duration = 25.0 * step;
         println!(
             "{case}: peak {:.4} of {exact:.4}, fit {:.4} {:.4} tc, start {:.4} tc, chi-squared {:.2}",
@@ -82,30 +108,6 @@ fn forces_of_independent_traces() {
             fit.duration_s.value / duration,
             (fit.start_s.value + step) / duration,
             fit.chi_squared / fit.degrees_of_freedom as f64,
-        );
-        // more weight: a smoother force with a larger residual
-        assert!(history.l_curve.len() > 10, "{case}");
-        for pair in history.l_curve.windows(2) {
-            assert!(
-                pair[0].lambda < pair[1].lambda
-                    && pair[0].residual < pair[1].residual * (1.0 + 1e-9)
-            );
-            assert!(
-                pair[0].roughness > pair[1].roughness * (1.0 - 1e-9),
-                "{case}: {pair:?}"
-            );
-        }
-        let samples = &problem.traces[0].samples;
-        let left = samples
-            .iter()
-            .zip(&found.predicted[0])
-            .map(|(d, p)| (d - p).powi(2));
-        let rms = (left.sum::<f64>() / count as f64).sqrt() / sigma;
-        assert!((0.7..1.3).contains(&rms), "{case}: {rms}");
-        assert!(
-            history.variance_reduction > 0.98,
-            "{case}: {}",
-            history.variance_reduction
         );
         assert!(
             (history.peak_n.value / exact - 1.0).abs() < 0.02,
