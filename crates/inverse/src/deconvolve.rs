@@ -156,8 +156,15 @@ impl Normal {
         [residual.max(0.0), dot(&self.penalty.times(x), x)]
     }
 
-    /// The gains of a force, in the scale of the known ones or of the impulse; the error of the scale is relative.
-    fn gains(&self, problem: &Problem, rows: &[Rows], x: &[f64], noise: f64) -> Vec<Estimate> {
+    /// The gains of a force, in the scale of the known ones or of the impulse, and the relative variance of that scale where
+    /// gains are unknown.
+    fn gains(
+        &self,
+        problem: &Problem,
+        rows: &[Rows],
+        x: &[f64],
+        noise: f64,
+    ) -> (Vec<Estimate>, f64) {
         let sums = self
             .parts
             .iter()
@@ -186,7 +193,9 @@ impl Normal {
                 }
             }
         };
-        rows.iter().zip(&sums).map(gain).collect()
+        let any = rows.iter().any(|rows| rows.gain == Gain::Unknown);
+        let gains = rows.iter().zip(&sums).map(gain).collect();
+        (gains, if any { error } else { 0.0 })
     }
 }
 
@@ -240,20 +249,21 @@ pub(crate) fn deconvolve(
         let mut all = normal.stacked(&gains, None, noise);
         lambda = chosen(&all, lambda);
         let mut solution = normal.solve(&all, lambda, &pulse)?;
+        let mut scale = 0.0;
         for _ in 0..GAIN_CHANGES {
-            let before =
-                std::mem::replace(&mut gains, normal.gains(problem, rows, &solution.x, noise));
-            let changes = gains
-                .iter()
-                .zip(before)
-                .map(|(a, b)| (a.value / b.value - 1.0).abs());
-            if changes.fold(0.0, f64::max) <= GAIN_CHANGE {
+            let before = gains;
+            (gains, scale) = normal.gains(problem, rows, &solution.x, noise);
+            let pairs = gains.iter().zip(&before);
+            let change = pairs
+                .map(|(a, b)| (a.value / b.value - 1.0).abs())
+                .fold(0.0, f64::max);
+            if change <= GAIN_CHANGE {
                 break;
             }
             all = normal.stacked(&gains, None, noise);
             solution = normal.solve(&all, lambda, &solution.x)?;
         }
-        let posterior = Posterior::new(normal, &all, lambda, solution);
+        let posterior = Posterior::new(normal, &all, lambda, solution, scale);
         let [residual, _] = normal.norms(&all, &posterior.solution.x);
         let found = variance(residual, (all.count - posterior.unknowns).max(1.0));
         if found > 1.0 && noise == 1.0 {
@@ -339,7 +349,7 @@ struct Posterior<'a> {
 }
 
 impl<'a> Posterior<'a> {
-    fn new(normal: &'a Normal, all: &Stacked, lambda: f64, solution: Solution) -> Self {
+    fn new(normal: &'a Normal, all: &Stacked, lambda: f64, solution: Solution, scale: f64) -> Self {
         let (free, factor) = (&solution.free, &solution.factor);
         let size = solution.x.len();
         let matrix = normal.weighted(all, lambda);
@@ -361,7 +371,7 @@ impl<'a> Posterior<'a> {
             let prior: f64 = free.iter().map(|&i| column[i] * rough(i)).sum();
             unknowns -= lambda * rough(j);
             let sampling = (column[j] - lambda * prior).max(0.0);
-            variance[j] = (column[j] * sampling * sampling).cbrt();
+            variance[j] = (column[j] * sampling * sampling).cbrt() + scale * solution.x[j].powi(2);
         }
         for j in (0..size).filter(|&j| solution.x[j] == 0.0) {
             let entries: Vec<f64> = free.iter().map(|&i| matrix.row(j)[i]).collect();
@@ -369,7 +379,7 @@ impl<'a> Posterior<'a> {
             variance[j] = 1.0 / (matrix.row(j)[j] - dot(&known, &known));
         }
         let sum = factor.forward(&vec![1.0; free.len()]);
-        let variance_of_sum = dot(&sum, &sum);
+        let variance_of_sum = dot(&sum, &sum) + scale * solution.x.iter().sum::<f64>().powi(2);
         let changed = [0.5, 2.0].map(|factor| normal.solve(all, factor * lambda, &solution.x));
         let bias = match changed {
             [Ok(rough), Ok(smooth)] => rough

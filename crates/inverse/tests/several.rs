@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{Place, Quantity, START, noisy, normal, peak, problem};
+use common::{Place, Quantity, START, held, noisy, normal, peak, problem};
 use contact::CollisionUnits;
 use inverse::{Estimate, Gain, InverseError, Known, Pulse, average, ball, infer, momentum};
 
@@ -23,21 +23,7 @@ fn traces(pulse: &Pulse, snr: f64, seed: u64) -> (Place, Vec<inverse::Trace>) {
             .map(|(k, (&distance, gain))| {
                 let place = Place { distance, ..far };
                 let clean: Vec<f64> = place.clean(&|t| pulse.at(t - START)[0]);
-                // responses on the force step of the farthest sensor
-                let step = place.oversampling() / far.oversampling();
-                let response: Vec<f64> = match step {
-                    1 => place.response(),
-                    _ => Place {
-                        distance: 1.0,
-                        ..place
-                    }
-                    .response(),
-                };
-                let response = if step == 1 {
-                    response
-                } else {
-                    coarse(place, far)
-                };
+                let response = coarse(place, far);
                 let mut trace = noisy(&clean, &response, snr, 100 * seed + k as u64);
                 trace.samples.iter_mut().for_each(|x| *x *= gain);
                 if let inverse::Noise::White(sigma) = &mut trace.noise {
@@ -53,7 +39,7 @@ fn traces(pulse: &Pulse, snr: f64, seed: u64) -> (Place, Vec<inverse::Trace>) {
     (far, traces.collect())
 }
 
-/// The response of a near place on the force step of a far one.
+/// The response of a place on the force step of the farthest one.
 fn coarse(place: Place, far: Place) -> Vec<f64> {
     let width = 1.0 / (common::SAMPLES * far.oversampling()) as f64;
     let integral = |t: f64| common::pekeris(t / place.distance);
@@ -69,7 +55,7 @@ fn coarse(place: Place, far: Place) -> Vec<f64> {
 fn unknown_gains() {
     let pulse = Pulse::hertz();
     let (mut within, mut all) = (0, 0);
-    let (mut errors, mut jack) = (0.0, 0.0);
+    let (mut errors, mut jack, mut counts) = (0.0, 0.0, [[0.0; 2]; 2]);
     for seed in 0..20 {
         let (place, traces) = traces(&pulse, 50.0, seed);
         let found = infer(&problem(&pulse, place, traces)).expect("a force");
@@ -91,10 +77,15 @@ fn unknown_gains() {
             }
         }
         errors += (found.history.peak_n.value - 1.0).powi(2) / 20.0;
+        let more = held(&found.history, &|t| pulse.at(t - START)[0]);
+        (0..4).for_each(|i| counts[i / 2][i % 2] += more[i / 2][i % 2]);
         let jackknife = found.jackknife.expect("four traces");
         assert_eq!(jackknife.peak_n.len(), 4);
         jack += jackknife.peak_sd_n / 20.0;
     }
+    let [contact, window] = counts.map(|[holds, all]| holds / all);
+    println!("band: contact {contact:.3}, window {window:.3}");
+    assert!((0.9..0.99).contains(&contact) && (0.9..0.99).contains(&window));
     println!(
         "gains within two standard deviations: {within} of {all}; peak {:.4}, jackknife {jack:.4}",
         errors.sqrt()
