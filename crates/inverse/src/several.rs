@@ -172,22 +172,11 @@ fn delay(trace: &[f64], other: &[f64]) -> (f64, f64) {
     (best as f64 - most as f64 + between, correlation)
 }
 
-/// A trace between its samples, by the cubic through four.
+/// A trace between its samples, by the cubic of Catmull and Rom through four; zero outside.
 fn at(trace: &[f64], place: f64) -> f64 {
-    let (floor, s) = (place.floor(), place - place.floor());
-    let sample = |offset: isize| {
-        usize::try_from(floor as isize + offset)
-            .ok()
-            .and_then(|i| trace.get(i))
-            .copied()
-            .unwrap_or(0.0)
-    };
-    let [a, b, c, d] = [-1, 0, 1, 2].map(sample);
-    let weights = [
-        -s * (s - 1.0) * (s - 2.0) / 6.0,
-        (s + 1.0) * (s - 1.0) * (s - 2.0) / 2.0,
-        -(s + 1.0) * s * (s - 2.0) / 2.0,
-        (s + 1.0) * s * (s - 1.0) / 6.0,
-    ];
-    weights[0] * a + weights[1] * b + weights[2] * c + weights[3] * d
+    let (first, s) = (place.floor() as isize - 1, place - place.floor());
+    let sample = |i: isize| usize::try_from(i).ok().and_then(|i| trace.get(i));
+    let [a, b, c, d] = [0, 1, 2, 3].map(|i| sample(first + i).copied().unwrap_or(0.0));
+    let bend = 2.0 * a - 5.0 * b + 4.0 * c - d;
+    b + 0.5 * s * (c - a + s * (bend + s * (3.0 * (b - c) + d - a)))
 }
