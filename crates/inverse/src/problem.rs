@@ -268,7 +268,12 @@ impl<'a> Problem<'a> {
                 })?;
                 let mean = quiet.iter().sum::<f64>() / found as f64;
                 let sigma = (mean_square(quiet) - mean * mean).max(0.0).sqrt();
-                positive("the noise of the quiet part", sigma)?;
+                if sigma <= 0.0 {
+                    let key = format!("the noise of the quiet part of trace {index}");
+                    let remedy =
+                        ": pass a standard deviation, at least 0.29 of a digit of the recorder";
+                    return Err(outside(key, sigma, "(0, inf)", remedy));
+                }
                 let centred: Vec<f64> = quiet.iter().map(|x| x - mean).collect();
                 let error = Whitening::of_quiet(&centred).error_of_mean(found);
                 if mean.abs() > (OFFSET * error).max(0.5 * sigma) {

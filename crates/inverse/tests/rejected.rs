@@ -90,7 +90,7 @@ fn noise_that_cannot_be_found() {
     rejected("the number of quiet samples of trace 0", |p| {
         p.traces[0].noise = Noise::Quiet(0..9999);
     });
-    rejected("the noise of the quiet part", |p| {
+    rejected("the noise of the quiet part of trace 0", |p| {
         p.traces[0].samples[..30].fill(0.0);
         p.traces[0].noise = Noise::Quiet(0..30);
     });
