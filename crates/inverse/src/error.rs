@@ -30,7 +30,7 @@ pub enum InverseError {
     },
     /// A beginning that is not at rest.
     #[error(
-        "trace {index} begins under load: its first samples are at {} of the noise; begin before the blow, or subtract the offset of the quiet part", rounded(*ratio)
+        "trace {index} begins under load: its first samples are {} times the noise; begin before the blow, or subtract the offset of the quiet part", rounded(*ratio)
     )]
     UnderLoad {
         /// Index of the trace.
