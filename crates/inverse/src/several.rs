@@ -1,0 +1,182 @@
+//! Several traces: the force without each of them, and the mean of repeated drops.
+
+use crate::deconvolve::{ForceHistory, Normal};
+use crate::error::{InverseError, check, finite, outside, positive};
+use crate::nnls::dot;
+
+/// Results without each of the traces, with the gains and the smoothness of all.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Jackknife {
+    /// Peak in N without each trace.
+    pub peak_n: Vec<f64>,
+    /// Impulse in N s without each trace.
+    pub impulse_n_s: Vec<f64>,
+    /// Standard deviation of the peak in N by the jackknife.
+    pub peak_sd_n: f64,
+    /// Standard deviation of the impulse in N s by the jackknife.
+    pub impulse_sd_n_s: f64,
+}
+
+/// The force without each trace; none of a single trace.
+pub(crate) fn jackknife(
+    normal: &Normal,
+    history: &ForceHistory,
+) -> Result<Option<Jackknife>, InverseError> {
+    let gains = &history.gains;
+    if gains.len() < 2 {
+        return Ok(None);
+    }
+    let without = |k| {
+        let stacked = normal.stacked(gains, Some(k), 1.0);
+        normal
+            .solve(&stacked, history.lambda, &history.force_n)
+            .map(|found| found.x)
+    };
+    let forces: Vec<Vec<f64>> = (0..gains.len()).map(without).collect::<Result<_, _>>()?;
+    let peak_n: Vec<f64> = forces
+        .iter()
+        .map(|x| x.iter().fold(0.0, |a: f64, b| a.max(*b)))
+        .collect();
+    let impulse_n_s: Vec<f64> = forces
+        .iter()
+        .map(|x| history.step_s * x.iter().sum::<f64>())
+        .collect();
+    let [peak_sd_n, impulse_sd_n_s] = [&peak_n, &impulse_n_s].map(|values| {
+        let count = values.len() as f64;
+        let mean = values.iter().sum::<f64>() / count;
+        ((count - 1.0) / count * values.iter().map(|x| (x - mean).powi(2)).sum::<f64>()).sqrt()
+    });
+    Ok(Some(Jackknife {
+        peak_n,
+        impulse_n_s,
+        peak_sd_n,
+        impulse_sd_n_s,
+    }))
+}
+
+/// The mean of repeated drops.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Averaged {
+    /// Mean of the aligned traces.
+    pub mean: Vec<f64>,
+    /// Standard deviation of the mean, from the scatter of the drops.
+    pub sd: Vec<f64>,
+    /// Time in s by which each drop is later than the first.
+    pub shifts_s: Vec<f64>,
+}
+
+/// Correlation below which a drop is another event.
+const LEAST_CORRELATION: f64 = 0.5;
+
+/// The mean of repeated drops of the same ball from the same height, aligned by correlation.
+///
+/// Each trace is shifted to the largest correlation with the first, and again with the mean; between samples it is read by
+/// cubic interpolation. Samples that a shift brings in from outside a trace are zero.
+///
+/// # Errors
+/// [`InverseError`] for fewer than two drops, drops of different lengths, samples that are not finite, and a drop that does
+/// not resemble the others.
+pub fn average(drops: &[Vec<f64>], step_s: f64) -> Result<Averaged, InverseError> {
+    positive("step_s", step_s)?;
+    let (count, size) = (drops.len() as f64, drops.first().map_or(0, Vec::len));
+    check(drops.len() > 1, "the number of drops", count, "[2, inf)")?;
+    check(
+        size > 3,
+        "the number of samples of a drop",
+        size as f64,
+        "[4, inf)",
+    )?;
+    for (index, drop) in drops.iter().enumerate() {
+        finite(&format!("drop {index}"), drop)?;
+        if drop.len() != size {
+            let key = format!("the number of samples of drop {index}");
+            let range = format!("[{size}, {size}]");
+            return Err(outside(
+                key,
+                drop.len() as f64,
+                range,
+                ": cut all drops to the same length",
+            ));
+        }
+    }
+    let (mut mean, mut shifts) = (drops[0].clone(), Vec::new());
+    let mut aligned = Vec::new();
+    for _ in 0..2 {
+        let found = drops
+            .iter()
+            .enumerate()
+            .map(|(index, drop)| match delay(drop, &mean) {
+                (_, found) if found < LEAST_CORRELATION => {
+                    let key = format!("the correlation of drop {index} with the others");
+                    let remedy =
+                        ": remove it, or average drops of the same ball, height and place only";
+                    Err(outside(
+                        key,
+                        found,
+                        format!("[{LEAST_CORRELATION}, 1]"),
+                        remedy,
+                    ))
+                }
+                (shift, _) => Ok(shift),
+            });
+        shifts = found.collect::<Result<Vec<f64>, _>>()?;
+        let origin = shifts[0];
+        shifts.iter_mut().for_each(|shift| *shift -= origin);
+        let shifted = drops.iter().zip(&shifts).map(|(drop, shift)| {
+            (0..drop.len())
+                .map(|i| at(drop, i as f64 + shift))
+                .collect()
+        });
+        aligned = shifted.collect::<Vec<Vec<f64>>>();
+        mean = (0..size)
+            .map(|i| aligned.iter().map(|drop| drop[i]).sum::<f64>() / count)
+            .collect();
+    }
+    let scatter = |i: usize| {
+        aligned
+            .iter()
+            .map(|drop| (drop[i] - mean[i]).powi(2))
+            .sum::<f64>()
+    };
+    let sd = (0..mean.len())
+        .map(|i| (scatter(i) / (count * (count - 1.0))).sqrt())
+        .collect();
+    let shifts_s = shifts.iter().map(|shift| shift * step_s).collect();
+    Ok(Averaged { mean, sd, shifts_s })
+}
+
+/// Samples by which a trace is later than another, with the correlation there.
+fn delay(trace: &[f64], other: &[f64]) -> (f64, f64) {
+    let count = trace.len();
+    let product = |lag: isize| match usize::try_from(lag) {
+        Ok(lag) => dot(&trace[lag..], &other[..count - lag]),
+        Err(_) => dot(
+            &trace[..count - lag.unsigned_abs()],
+            &other[lag.unsigned_abs()..],
+        ),
+    };
+    let most = count as isize / 2;
+    let products: Vec<f64> = (-most..=most).map(product).collect();
+    let best = (1..products.len() - 1)
+        .max_by(|&i, &j| products[i].total_cmp(&products[j]))
+        .unwrap_or(0);
+    let [a, b, c] = [products[best - 1], products[best], products[best + 1]];
+    let curvature = a - 2.0 * b + c;
+    let between = if curvature < 0.0 {
+        (0.5 * (a - c) / curvature).clamp(-0.5, 0.5)
+    } else {
+        0.0
+    };
+    let size = (dot(trace, trace) * dot(other, other)).sqrt();
+    let correlation = if size > 0.0 { b / size } else { 0.0 };
+    (best as f64 - most as f64 + between, correlation)
+}
+
+/// A trace between its samples, by the cubic of Catmull and Rom through four; zero outside.
+fn at(trace: &[f64], place: f64) -> f64 {
+    let (first, s) = (place.floor() as isize - 1, place - place.floor());
+    let sample = |i: isize| usize::try_from(i).ok().and_then(|i| trace.get(i));
+    let [a, b, c, d] = [0, 1, 2, 3].map(|i| sample(first + i).copied().unwrap_or(0.0));
+    let bend = 2.0 * a - 5.0 * b + 4.0 * c - d;
+    b + 0.5 * s * (c - a + s * (bend + s * (3.0 * (b - c) + d - a)))
+}
