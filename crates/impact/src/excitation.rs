@@ -347,6 +347,21 @@ impl Excitation {
         self.contact().map_or(&[], |contact| &contact.kinks_s)
     }
 
+    /// Time in s from the begin or end of a contact at which its edge is as far as a Rayleigh wave: until then the edge is faster.
+    pub(crate) fn slow_edge_s(&self, end_s: f64) -> f64 {
+        /// Halvings of the logarithm of a part of the contact.
+        const LEAST: f64 = 1e-9;
+        let inside = if end_s > 0.5 * self.end_s() { -1.0 } else { 1.0 };
+        let crossing_s = self.units.time_s() / self.medium.rayleigh_speed();
+        let is_ahead = |since_s: f64| {
+            let [one, other] = self.pressures(end_s + inside * since_s);
+            one.square.max(other.square).sqrt() * crossing_s > since_s
+        };
+        let whole_s = self.end_s();
+        let part = bisected(LEAST.ln(), 0.0, |part| is_ahead(part.exp() * whole_s));
+        part.exp() * whole_s
+    }
+
     /// The force without its jumps in N long before a run.
     pub(crate) fn continuous_base_n(&self, run: &Run) -> f64 {
         let earlier = self

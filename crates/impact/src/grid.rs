@@ -249,6 +249,24 @@ impl<'a> Grid<'a> {
             .flat_map(|run| (0..run.count).map(|i| run.start_s + i as f64 * self.step_s))
     }
 
+    /// The grid of one run moved so that a sample is at an instant in s inside that run, and ending there; the number of this
+    /// sample.
+    pub(crate) fn ending_at(&self, time_s: f64) -> (Self, usize) {
+        let after = self.runs.partition_point(|run| run.start_s <= time_s);
+        let run = self.runs[after.saturating_sub(1)];
+        let last = ((time_s - run.start_s) / self.step_s).ceil().max(0.0) as usize;
+        let moved = Run {
+            start_s: time_s - last as f64 * self.step_s,
+            count: last + 1,
+            ..run
+        };
+        let own = Self {
+            runs: vec![moved],
+            ..self.clone()
+        };
+        (own, last)
+    }
+
     /// Deflection of the disc in m at all samples of the force, with a share of its static part.
     pub(crate) fn deflection_m(
         &self,

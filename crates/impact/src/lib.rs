@@ -47,6 +47,7 @@ pub use cost::{Allowance, Forecast, Road};
 pub use energy::EnergySeries;
 pub use error::ImpactError;
 pub use excitation::{Excitation, Motion, PressureRadius};
+pub use fields::peaks::Peak;
 pub use fields::probes::{EchoArrivals, Peaks, ProbeFields, ProbePeaks, SectionFields};
 pub use fields::{FieldHistory, Fields};
 pub use halfspace::Field;

@@ -35,7 +35,7 @@ mod tests {
         let mut solver = Solver::new(&responses);
         let observed = observe(&mut solver, &scene, &KernelChoice::Direct).unwrap();
         let peaks = observed.peaks.unwrap().unwrap().peaks;
-        let rows = [1, 4, 6, 8, 11, 13].map(|i| peaks[i]);
+        let rows = [1, 4, 6, 8, 11, 13].map(|i| [peaks[i].value, peaks[i].time_s, peaks[i].error]);
         rows.to_vec()
     }
 

@@ -6,7 +6,7 @@ use impact::{EnergySeries, ProbeFields, Series};
 /// Value of the attribute `file_type`.
 pub const FILE_TYPE: &str = "hertzlamb results";
 /// Version of the format. The first number changes when older readers would fail.
-pub const FORMAT_VERSION: &str = "1.10";
+pub const FORMAT_VERSION: &str = "1.11";
 /// Minor version since which files have a checksum trailer.
 pub(crate) const SEALED_FROM: u32 = 8;
 /// Datasets in the root, with unit and description.
@@ -54,8 +54,8 @@ pub const PLACES: [(&str, &str, &str); 2] = labels! {
 };
 /// Suffix of a field: the estimate of its error.
 pub const ERROR_SUFFIX: &str = "_error";
-/// Suffixes of a quantity: its largest value over time, and the time of it.
-pub const PEAK_SUFFIXES: [&str; 2] = ["_peak", "_peak_time"];
+/// Suffixes of a quantity: its largest value over time, the time of it, and the error of it.
+pub const PEAK_SUFFIXES: [&str; 3] = ["_peak", "_peak_time", "_peak_error"];
 /// Arrivals of the first P, S and Rayleigh wave.
 pub const ARRIVALS: (&str, &str, &str) = (
     "arrival",
@@ -103,13 +103,18 @@ pub const WHOLE: (&str, &str, &str) = ("whole", "1", "all samples in time togeth
 /// Group with the offsets of the steps of a field.
 pub const VTK_OFFSETS: &str = "PointDataOffsets";
 
-/// Datasets that accompany a quantity: the estimate of its error, its largest value over time, and the time of it; `at`
-/// is the place, if any.
-pub(crate) fn beside(name: &str, (_, unit, meaning): Labels<'_>, at: &str) -> [Described; 3] {
+/// Datasets that accompany a quantity: the estimate of its error, its largest value over time, the time of it, and the
+/// error of it; `at` is the place, if any.
+pub(crate) fn beside(name: &str, (_, unit, meaning): Labels<'_>, at: &str) -> [Described; 4] {
     [
         (ERROR_SUFFIX, unit, "estimated absolute error"),
         (PEAK_SUFFIXES[0], unit, "largest in magnitude over time"),
         (PEAK_SUFFIXES[1], "s", "when it is largest in magnitude"),
+        (
+            PEAK_SUFFIXES[2],
+            unit,
+            "estimated absolute error of the largest in magnitude over time",
+        ),
     ]
     .map(|(suffix, unit, what)| Described {
         name: format!("{name}{suffix}"),

@@ -1,9 +1,10 @@
 //! Fields of an excitation at points of the half-space.
 //!
-//! `probes` has those at the probes of a scene and on its section; `faces` warns of the faces of a block that a half-space does
+//! `probes` has those at the probes of a scene and on its section, `peaks` their largest values over time; `faces` warns of the faces of a block that a half-space does
 //! not have.
 
 pub(crate) mod faces;
+pub(crate) mod peaks;
 pub(crate) mod probes;
 
 use crate::convolution::{Convolution, Past, Trace};
