@@ -74,11 +74,7 @@ fn write_energy(file: &File, energy: &EnergySeries, time_s: &[f64]) -> Result<()
     Ok(())
 }
 
-fn write_probes(
-    file: &File,
-    fields: &ProbeFields,
-    time_s: &[f64],
-) -> Result<(), hdf5::Error> {
+fn write_probes(file: &File, fields: &ProbeFields, time_s: &[f64]) -> Result<(), hdf5::Error> {
     let group = file.create_group(schema::PROBES)?;
     let rows = fields.r_m.len();
     let numbered: Vec<i64> = (1..=rows as i64).collect();

@@ -46,9 +46,12 @@ fn echoes_by_few_discs_are_within_their_estimates() {
         let z = [0.0, thickness, thickness * random.next()][(3.0 * random.next()) as usize];
         let place = [1.5 * thickness * random.next(), z];
         let own = |convolution: &Convolution<'_>| -> Vec<[Trace; 6]> {
-            convolution
-                .of_echoes(convolution.echoes.as_ref().unwrap(), place)
-                .unwrap()
+            let echoes = convolution.echoes.as_ref().unwrap();
+            let (set, kernels) = convolution.echo_kernels(echoes, place).unwrap();
+            let forcings = convolution.forcings.iter();
+            forcings
+                .map(|forcing| convolution.of_echoes(forcing, set, &kernels).unwrap())
+                .collect()
         };
         let few = own(&convolution());
         let mut exact = convolution();

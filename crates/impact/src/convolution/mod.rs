@@ -250,6 +250,15 @@ impl<'a> Convolution<'a> {
         Ok(found)
     }
 
+    /// Forcings of the same derivatives for samples of another grid.
+    pub(crate) fn forcings_at<'g>(&self, grid: &Grid<'g>, wanted: &[usize]) -> Vec<Forcing<'g>> {
+        let of = |own: &Forcing<'_>| {
+            let sets = (self.sets.count(), own.parts);
+            Forcing::new(grid, wanted, own.derivative, sets)
+        };
+        self.forcings.iter().map(of).collect()
+    }
+
     /// The same outputs at one instant in s, between two samples of one run: all that [`Self::at`] has at a sample, since a sum over
     /// cells that end at the instant is that at a sample of a grid which begins a part of a step earlier.
     pub(crate) fn at_instant(
@@ -258,12 +267,7 @@ impl<'a> Convolution<'a> {
         time_s: f64,
     ) -> Result<Vec<[f64; 2]>, ImpactError> {
         let (grid, last) = self.grid.ending_at(time_s);
-        let wanted = [last];
-        let of = |own: &Forcing<'_>| {
-            let sets = (self.sets.count(), own.parts);
-            Forcing::new(&grid, &wanted, own.derivative, sets)
-        };
-        let forcings: Vec<Forcing<'_>> = self.forcings.iter().map(of).collect();
+        let forcings = self.forcings_at(&grid, &[last]);
         let found = self.traces_at(&forcings, point)?;
         Ok(found
             .iter()

@@ -37,6 +37,19 @@ const ROUNDING: f64 = 1e-10;
 /// How much an uncertain crest may be larger than it seems, in its uncertainty: higher ones are looked at.
 const MAY_RISE: f64 = 2.0;
 
+/// Instants around a fold, in times of it: the velocity of the surface grows there as a logarithm.
+const BESIDE_FOLD: [f64; 4] = [-0.64, -0.16, 0.16, 0.64];
+
+/// The same of the front from an edge.
+const AT_EDGE: [f64; 4] = [0.0; 4];
+
+/// Instants at fronts, at most.
+const MOST_AT_FRONTS: usize = 24;
+
+/// Part of a step from a crest over which an output may fall: that much the error of a peak includes. Samples of an output thirty
+/// times finer are not farther from it.
+const SEEN: f64 = 1.0 / 60.0;
+
 /// The time that the fronts from a fixed disc take to pass, over that which a Rayleigh wave takes over its radius, and of a kink.
 const WIDTH_OF_EDGE: f64 = 0.1;
 const WIDTH_OF_KINK: f64 = 0.01;
@@ -53,9 +66,12 @@ pub(crate) fn peaks(
         time_s: time_s.to_vec(),
         values: traces.iter().map(|trace| trace.samples.clone()).collect(),
         errors: traces.iter().map(|trace| trace.error).collect(),
+        folds: Vec::new(),
     };
     let mut left = MOST_INSTANTS;
-    let mut wanted_s = history.at_fronts(&fronts(convolution.grid.excitation, point.place_m()));
+    let fronts = fronts(convolution.grid.excitation, point.place_m());
+    let mut wanted_s = history.at_fronts(&fronts);
+    history.folds = fronts.into_iter().filter(|front| front.is_fold).collect();
     for _ in 0..MOST_ROUNDS {
         for j in 0..traces.len() {
             history.ask(j, &mut wanted_s);
@@ -75,38 +91,68 @@ pub(crate) fn peaks(
     Ok((0..traces.len()).map(|j| history.peak(j)).collect())
 }
 
-/// Fronts that may be narrower than a step: when each passes a point in m, and in how many s.
-fn fronts(excitation: &Excitation, [r_m, z_m]: [f64; 2]) -> Vec<[f64; 2]> {
+/// A front that may be narrower than a step.
+struct Front {
+    /// When it passes, in s.
+    at_s: f64,
+    /// In how many s.
+    width_s: f64,
+    /// Whether it is a fold, where an output may grow without limit.
+    is_fold: bool,
+    /// Instants in s that show it.
+    instants_s: [f64; 4],
+}
+
+/// The fronts that pass a point in m.
+fn fronts(excitation: &Excitation, [r_m, z_m]: [f64; 2]) -> Vec<Front> {
     let (units, speeds) = (excitation.units(), excitation.speeds());
     let crossing_s = units.disc_radius_m / speeds.rayleigh;
+    let around = |at_s: f64, width_s: f64, parts: [f64; 4]| Front {
+        at_s,
+        width_s,
+        is_fold: parts == BESIDE_FOLD,
+        instants_s: parts.map(|part| at_s + part * width_s),
+    };
     let of_edges = |event_s: f64, radius_m: f64, width_s: f64| {
         let distances_m = [(r_m - radius_m).abs(), r_m, r_m + radius_m];
         let arrivals = distances_m.map(|distance_m| speeds.arrivals_s(distance_m, z_m, 0.0));
-        arrivals.into_iter().flatten().map(move |t| [event_s + t, width_s])
+        let arrivals = arrivals.into_iter().flatten();
+        arrivals.map(move |t| around(event_s + t, width_s, AT_EDGE))
     };
     let ends_s = excitation.contacts_s().iter().flatten().copied();
     let kinks_s = excitation.kinks_s().iter().copied();
-    let mut found: Vec<[f64; 2]> = match excitation.radius() {
+    let mut found: Vec<Front> = match excitation.radius() {
         PressureRadius::Fixed(radius_m) => {
             let jumps_s = excitation.jumps().iter().map(|jump| jump.time_s);
             let events_s = ends_s.chain(kinks_s).chain(jumps_s);
             let width_s = WIDTH_OF_EDGE * crossing_s;
-            events_s.flat_map(|event_s| of_edges(event_s, radius_m, width_s)).collect()
+            let of = |event_s| of_edges(event_s, radius_m, width_s);
+            events_s.flat_map(of).collect()
         }
         PressureRadius::Following { largest_m, .. } => {
             let of_ends = ends_s.flat_map(|end_s| {
-                let width_s = excitation.slow_edge_s(end_s);
                 let arrivals = speeds.arrivals_s(r_m, z_m, 0.0);
-                arrivals.map(|t| [end_s + t, width_s])
+                let waves = [speeds.p, speeds.s, speeds.rayleigh];
+                let of = move |(t, speed): (f64, f64)| {
+                    let fold_s = excitation.fold_s(end_s, speed);
+                    let sign = if end_s > 0.5 * excitation.end_s() {
+                        1.0
+                    } else {
+                        -1.0
+                    };
+                    around(end_s + t + sign * fold_s, fold_s, BESIDE_FOLD)
+                };
+                arrivals.into_iter().zip(waves).map(of)
             });
             let of_kinks = kinks_s.flat_map(|kink_s| {
                 let [pressed, _] = excitation.pressures(kink_s);
-                of_edges(kink_s, pressed.square.sqrt() * largest_m, WIDTH_OF_KINK * crossing_s)
+                let radius_m = pressed.square.sqrt() * largest_m;
+                of_edges(kink_s, radius_m, WIDTH_OF_KINK * crossing_s)
             });
             of_ends.chain(of_kinks).collect()
         }
     };
-    found.retain(|[at_s, _]| at_s.is_finite());
+    found.retain(|front| front.at_s.is_finite() && front.width_s > 0.0);
     found
 }
 
@@ -117,6 +163,8 @@ struct History {
     /// Of each output.
     values: Vec<Vec<f64>>,
     errors: Vec<f64>,
+    /// Fronts that are not followed further than by their instants.
+    folds: Vec<Front>,
 }
 
 /// A local crest of an output.
@@ -130,30 +178,50 @@ struct Crest {
 impl History {
     /// The instants at fronts where an output may have a needle above its largest sample: it grows toward the front no faster than
     /// as the root of the time to it, and already shows in the bends of the samples.
-    fn at_fronts(&self, fronts: &[[f64; 2]]) -> Vec<f64> {
+    fn at_fronts(&self, fronts: &[Front]) -> Vec<f64> {
         let largest: Vec<f64> = self.values.iter().map(|own| largest(own)).collect();
-        let mut found = Vec::new();
-        for &[at_s, width_s] in fronts {
-            let after = self.time_s.partition_point(|&t| t <= at_s);
+        let mut found: Vec<(f64, [f64; 4])> = Vec::new();
+        for front in fronts {
+            let after = self.time_s.partition_point(|&t| t <= front.at_s);
             let Some(before) = after.checked_sub(1).filter(|i| self.joins(*i)) else {
                 continue;
             };
             let gap_s = self.time_s[after] - self.time_s[before];
-            if width_s >= gap_s {
+            if front.width_s >= gap_s {
                 continue;
             }
-            let grows = (gap_s / width_s).sqrt();
-            let is_open = |j: usize| {
+            let grows = (gap_s / front.width_s).sqrt();
+            let may_be = |j: usize| {
                 let own = &self.values[j];
                 let bends = (before.saturating_sub(1)..=after + 1).filter_map(|i| self.bend(j, i));
                 let most = own[before].abs().max(own[after].abs());
-                most + grows * bends.fold(0.0, f64::max) > largest[j]
+                let may_be = most + grows * bends.fold(0.0, f64::max);
+                may_be / largest[j].max(f64::MIN_POSITIVE)
             };
-            if (0..self.values.len()).any(is_open) {
-                found.extend([at_s - width_s, at_s, at_s + width_s]);
+            let highest = (0..self.values.len()).map(may_be).fold(0.0, f64::max);
+            if highest > 1.0 {
+                let mut instants_s = front.instants_s;
+                if front.is_fold {
+                    let seen_s = SEEN * self.step_s;
+                    instants_s[0] = instants_s[0].min(front.at_s - seen_s);
+                    instants_s[3] = instants_s[3].max(front.at_s + seen_s);
+                }
+                found.push((highest, instants_s));
             }
         }
-        found
+        // those that may be highest first
+        found.sort_by(|one, other| other.0.total_cmp(&one.0));
+        let mut wanted_s = Vec::new();
+        for (_, instants_s) in found {
+            let before = wanted_s.len();
+            wanted_s.extend(instants_s);
+            wanted_s[before..].sort_by(f64::total_cmp);
+            wanted_s.dedup();
+            if wanted_s.len() >= MOST_AT_FRONTS {
+                break;
+            }
+        }
+        wanted_s
     }
 
     /// Whether a place and the next one are in one run of samples.
@@ -180,18 +248,43 @@ impl History {
     }
 
     fn insert(&mut self, at_s: f64, found: &[[f64; 2]]) {
+        /// Ratio of an error to that of the samples above which a value says nothing.
+        const USELESS: f64 = 10.0;
         let place = self.time_s.partition_point(|&t| t < at_s);
-        self.time_s.insert(place, at_s);
         for (j, [value, error]) in found.iter().enumerate() {
-            self.values[j].insert(place, *value);
-            self.errors[j] = self.errors[j].max(*error);
+            let is_useless = *error > USELESS * self.errors[j] && *error > 0.1 * value.abs();
+            let value = if is_useless { self.at(j, at_s) } else { *value };
+            self.values[j].insert(place, value);
+            if !is_useless {
+                self.errors[j] = self.errors[j].max(*error);
+            }
         }
+        self.time_s.insert(place, at_s);
+    }
+
+    /// An output between known instants, by a straight line.
+    fn at(&self, j: usize, at_s: f64) -> f64 {
+        let (own, last) = (&self.values[j], self.time_s.len() - 1);
+        let after = self
+            .time_s
+            .partition_point(|&t| t < at_s)
+            .clamp(1, last.max(1));
+        let before = after - 1;
+        if last == 0 {
+            return own[0];
+        }
+        let length_s = self.time_s[after] - self.time_s[before];
+        let x = ((at_s - self.time_s[before]) / length_s).clamp(0.0, 1.0);
+        own[before] + x * (own[after] - own[before])
     }
 
     /// Adds the instants at which an output should be known better.
     fn ask(&self, j: usize, wanted_s: &mut Vec<f64>) {
         let crests = self.crests(j);
-        let highest = crests.iter().map(|crest| crest.peak.value.abs()).fold(0.0, f64::max);
+        let highest = crests
+            .iter()
+            .map(|crest| crest.peak.value.abs())
+            .fold(0.0, f64::max);
         let enough = self.enough(j, highest);
         for crest in crests {
             let may_be = crest.peak.value.abs() + MAY_RISE * crest.peak.error;
@@ -207,15 +300,31 @@ impl History {
     }
 
     fn peak(&self, j: usize) -> Peak {
+        // a straight line between samples has no crest
+        let falls = |peak: &Peak| {
+            let sides = [-SEEN, SEEN].map(|part| {
+                let at_s = peak.time_s + part * self.step_s;
+                let place = self.time_s.partition_point(|&t| t < at_s).max(1) - 1;
+                let next = self.time_s.get(place + 1);
+                let gap_s = next.map_or(f64::INFINITY, |next| next - self.time_s[place]);
+                match gap_s < 0.5 * self.step_s {
+                    true => peak.value.abs() - self.at(j, at_s).abs(),
+                    false => 0.0,
+                }
+            });
+            sides[0].max(sides[1]).max(0.0)
+        };
         let higher = |most: Peak, crest: &Crest| {
             let is_higher = crest.peak.value.abs() > most.value.abs();
             if is_higher { crest.peak } else { most }
         };
         let crests = self.crests(j);
         let mut found = crests.iter().fold(Peak::default(), higher);
-        let others = crests.iter().map(|one| one.peak.value.abs() + one.peak.error);
+        let others = crests
+            .iter()
+            .map(|one| one.peak.value.abs() + one.peak.error);
         let may_be = others.fold(0.0, f64::max);
-        found.error = found.error.max(may_be - found.value.abs()) + self.errors[j];
+        found.error = found.error.max(may_be - found.value.abs()) + falls(&found) + self.errors[j];
         if found.value == 0.0 {
             found.time_s = self.time_s.first().copied().unwrap_or_default();
         }
@@ -243,10 +352,17 @@ impl History {
     /// The crest around a place: by polynomials through three and five values; their difference is its uncertainty.
     fn crest(&self, j: usize, i: usize) -> Crest {
         let own = &self.values[j];
-        let known = Peak { value: own[i], time_s: self.time_s[i], error: 0.0 };
+        let known = Peak {
+            value: own[i],
+            time_s: self.time_s[i],
+            error: 0.0,
+        };
         let has_both = i > 0 && self.joins(i - 1) && self.joins(i);
         if !has_both {
-            return Crest { peak: known, next_s: known.time_s };
+            return Crest {
+                peak: known,
+                next_s: known.time_s,
+            };
         }
         let mut span = [i - 1, i + 1];
         if span[0] > 0 && self.joins(span[0] - 1) {
@@ -256,22 +372,44 @@ impl History {
             span[1] += 1;
         }
         let of = |from: usize, to: usize| {
-            top(&self.time_s[from..=to], &own[from..=to], [self.time_s[i - 1], self.time_s[i + 1]])
+            top(
+                &self.time_s[from..=to],
+                &own[from..=to],
+                [self.time_s[i - 1], self.time_s[i + 1]],
+            )
         };
         let (low, high) = (of(i - 1, i + 1), of(span[0], span[1]));
         let spread = (high[1] - low[1]).abs();
         let [before_s, after_s] = [1, 0].map(|k| self.time_s[i + 1 - k] - self.time_s[i - k]);
+        let is_finest = self.folds.iter().any(|fold| {
+            let off_s = (self.time_s[i] - fold.at_s).abs();
+            off_s < 1.01 * BESIDE_FOLD[2] * fold.width_s
+        });
         // the crest of the better polynomial, unless it is as good as known: then the middle of the longer side
-        let nearest = (high[0] - self.time_s[i]).abs().min((high[0] - self.time_s[i - 1]).abs());
+        let nearest = (high[0] - self.time_s[i])
+            .abs()
+            .min((high[0] - self.time_s[i - 1]).abs());
         let nearest = nearest.min((high[0] - self.time_s[i + 1]).abs());
         let next_s = match nearest > 0.1 * before_s.min(after_s) {
             true => high[0],
             false if before_s > after_s => self.time_s[i] - 0.5 * before_s,
             false => self.time_s[i] + 0.5 * after_s,
         };
+        if is_finest || spread > 0.5 * own[i].abs() {
+            // no polynomial: the known value, and its rise above those around it
+            let error = (own[i].abs() - own[i - 1].abs().min(own[i + 1].abs())).max(0.0);
+            return Crest {
+                peak: Peak { error, ..known },
+                next_s: if is_finest { known.time_s } else { next_s },
+            };
+        }
         let value = own[i].signum() * high[1];
         Crest {
-            peak: Peak { value, time_s: high[0], error: spread },
+            peak: Peak {
+                value,
+                time_s: high[0],
+                error: spread,
+            },
             next_s,
         }
     }
@@ -299,7 +437,10 @@ fn top(time_s: &[f64], values: &[f64], [from_s, to_s]: [f64; 2]) -> [f64; 2] {
         pairs.fold(0.0, |sum, (own, at)| own + (x - at) * sum)
     };
     let read_at = |k: usize| read(k as f64 / TRIALS as f64);
-    let best = (1..TRIALS).fold(1, |most, k| if read_at(k) > read_at(most) { k } else { most });
+    let best = (1..TRIALS).fold(
+        1,
+        |most, k| if read_at(k) > read_at(most) { k } else { most },
+    );
     let [a, b, c] = [best - 1, best, best + 1].map(read_at);
     let bend = a - 2.0 * b + c;
     let shift = match bend < 0.0 {
