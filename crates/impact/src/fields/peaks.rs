@@ -34,6 +34,10 @@ const ENOUGH: f64 = 0.25;
 /// Part of the largest sample below which a difference is rounding.
 const ROUNDING: f64 = 1e-10;
 
+/// Uncertainty of a crest over the difference of neighbouring parabolas within a gap: a corner between samples is not seen by
+/// polynomials through them. `peaks_of_records_are_those_of_a_finer_output` fails at 0.
+const ROUGH: f64 = 0.2;
+
 /// How much an uncertain crest may be larger than it seems, in its uncertainty: higher ones are looked at.
 const MAY_RISE: f64 = 2.0;
 
@@ -331,6 +335,23 @@ impl History {
         found
     }
 
+    /// By how much the parabolas through three values differ within the gaps next to a place, from those next to it.
+    fn roughness(&self, j: usize, i: usize) -> f64 {
+        let (own, t) = (&self.values[j], &self.time_s);
+        let bend = |k: usize| {
+            let slope = |k: usize| (own[k + 1] - own[k]) / (t[k + 1] - t[k]);
+            let inside = k > 0 && self.joins(k - 1) && self.joins(k);
+            inside.then(|| (slope(k) - slope(k - 1)) / (t[k + 1] - t[k - 1]))
+        };
+        let Some(here) = bend(i) else {
+            return 0.0;
+        };
+        let sides = [i.checked_sub(1).and_then(bend), bend(i + 1)];
+        let gap_s = (t[i] - t[i - 1]).max(t[i + 1] - t[i]);
+        let differences = sides.into_iter().flatten().map(|side| (side - here).abs());
+        gap_s * gap_s * differences.fold(0.0, f64::max)
+    }
+
     /// The local crests of an output that may be its highest.
     fn crests(&self, j: usize) -> Vec<Crest> {
         let own = &self.values[j];
@@ -379,7 +400,7 @@ impl History {
             )
         };
         let (low, high) = (of(i - 1, i + 1), of(span[0], span[1]));
-        let spread = (high[1] - low[1]).abs();
+        let spread = (high[1] - low[1]).abs().max(ROUGH * self.roughness(j, i));
         let [before_s, after_s] = [1, 0].map(|k| self.time_s[i + 1 - k] - self.time_s[i - k]);
         let is_finest = self.folds.iter().any(|fold| {
             let off_s = (self.time_s[i] - fold.at_s).abs();
