@@ -30,6 +30,7 @@ mod tests {
             quantities: vec![Quantity::VelocityZ],
             peaks: false,
             duration_s: None,
+            low_pass_hz: None,
         };
         let responses = Tabulated::default();
         let mut solver = Solver::new(&responses);

@@ -24,6 +24,7 @@ fn scene(target: &str, load: Load, places: &[[f64; 2]]) -> Scene {
         quantities: Vec::new(),
         peaks: true,
         duration_s: None,
+        low_pass_hz: None,
     }
 }
 

@@ -124,6 +124,9 @@ fn write_attributes(file: &File, scene: &Scene, outcome: &Outcome) -> Result<(),
         text(file, name, value)?;
     }
     text(file, schema::WARNINGS, &outcome.warnings.join("\n"))?;
+    if let Some(cutoff_hz) = scene.low_pass_hz {
+        scalar(file, schema::LOW_PASS, cutoff_hz)?;
+    }
     text(file, schema::SCENE, &resolved(scene))?;
     text(file, schema::SCENE_SHA256, &scene_sha256(scene))?;
     for quantity in &QUANTITIES {

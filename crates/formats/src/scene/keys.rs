@@ -162,6 +162,7 @@ const KEYS: &[Key] = keys! {
     map.frames = |s, _| s.section.as_ref().filter(|section| section.times_s.is_empty())?.frames as i64;
     map.times_s = |s, _| s.section.as_ref().filter(|section| !section.times_s.is_empty())?.times_s.clone();
     output.duration_s: POSITIVE = |s, _| s.duration_s?;
+    output.low_pass_hz: POSITIVE = |s, _| s.low_pass_hz?;
     output.quantities = |s, _| Some(&s.quantities).filter(|q| !q.is_empty())?.iter().map(|q| q.name()).collect::<Vec<_>>();
     output.peaks = |s, _| Some(s.peaks).filter(|&peaks| peaks)?;
     materials.file;

@@ -100,6 +100,7 @@ pub(crate) fn scene_with(
         probes,
         section,
         duration_s: output.number("duration_s")?,
+        low_pass_hz: output.number("low_pass_hz")?,
         quantities: output.choices("quantities")?,
         peaks: output.flag("peaks")?,
     })

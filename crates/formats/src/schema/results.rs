@@ -82,6 +82,8 @@ pub const ECHO_ARRIVALS: (&str, &str, &str) = (
 );
 /// Text attribute of the root: warnings about the results, one per line.
 pub const WARNINGS: &str = "warnings";
+/// Attribute of the root: cutoff in Hz of the low pass through which the fields are seen; in files of such scenes only.
+pub const LOW_PASS: &str = "output_low_pass_hz";
 /// Text attribute with the resolved scene.
 pub const SCENE: &str = "scene";
 /// Text attribute with the hash of the scene, which does not depend on the kernels.

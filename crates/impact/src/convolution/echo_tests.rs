@@ -38,6 +38,7 @@ fn echoes_by_few_discs_are_within_their_estimates() {
             frames: None,
             farthest_m: None,
             plate_s: None,
+            low_pass_hz: None,
         };
         let grid = Grid::new(&wanted, &excitation, Some(&source)).unwrap();
         let all: Vec<usize> = (0..grid.count()).collect();

@@ -8,7 +8,7 @@
 //! load, [`loads`] the functions of time that are convolved, [`fronts`] the windows in which short waves pass, and [`plan`]
 //! decides the road of a point. Then [`sums`] convolves over cells, [`ends`] integrates the first and last instants over the
 //! traces of the discs, and [`exact`] integrates the past over the radii of the contact; [`at`](Convolution::at) puts these
-//! together. Nothing is decided there but whether a cell follows a kernel.
+//! together, and [`low_passed`] is the low pass through which they may be seen. Nothing is decided there but whether a cell follows a kernel.
 //!
 //! Theory: `docs/theory.md` (T24, T55, T60, T61).
 
@@ -22,6 +22,7 @@ mod ends;
 mod exact;
 pub(crate) mod fronts;
 mod loads;
+mod low_passed;
 pub(crate) mod plan;
 #[cfg(test)]
 mod rate_tests;
@@ -44,6 +45,7 @@ use echoes::PlateEchoes;
 use halfspace::Six;
 use loads::{Forcing, Loads, Reading};
 use lookup::BEYOND;
+use low_passed::LowPassed;
 use plan::{Integrated, PointPlan, Sets};
 use std::ops::Range;
 use sums::{PointKernels, Sums, by_cells, by_zones, components};
@@ -115,17 +117,23 @@ impl<'a> Convolution<'a> {
         let (excitation, tolerance) = (grid.excitation, grid.tolerance);
         let reach = source.table_reach();
         let mut derivatives = vec![Derivative::Field];
-        for (derivative, _) in quantities.iter().filter_map(|one| one.rate()) {
+        // rates of a low pass are those of the fields that it shows
+        let rates = quantities.iter().filter(|_| grid.low_pass_hz.is_none());
+        for (derivative, _) in rates.filter_map(|one| one.rate()) {
             if !derivatives.contains(&derivative) {
                 derivatives.push(derivative);
             }
         }
-        let asked = (grid.count(), derivatives.len() > 1);
+        let asked = (grid.all(), derivatives.len() > 1);
         let sets = Sets::new(excitation, tolerance, reach, asked);
         let unit_s = excitation.units().time_s();
         let ratio = excitation.medium().poisson_ratio();
         let parts = source.parts(ratio, grid.step_s / unit_s).min(tuning::PARTS);
-        let forcing = |derivative| Forcing::new(grid, wanted, derivative, (sets.count(), parts));
+        let all: Vec<usize> = match grid.low_pass_hz {
+            Some(_) => (0..grid.all()).collect(),
+            None => wanted.to_vec(),
+        };
+        let forcing = |derivative| Forcing::new(grid, &all, derivative, (sets.count(), parts));
         let past = match (excitation.radius(), reach) {
             (PressureRadius::Following { .. }, None) => {
                 Some(Past::new(excitation, PART_OF_PAST * tolerance)?)
@@ -238,14 +246,30 @@ impl<'a> Convolution<'a> {
                 add_traces(all, own);
             }
         }
+        let rate = |derivative: Derivative| {
+            let mut derivatives = forcings.iter().map(|own| own.derivative);
+            derivatives.position(|own| own == derivative)
+        };
+        let low_passed = match self.grid.low_pass_hz {
+            Some(cutoff_hz) => {
+                let seen = LowPassed::new(self.grid, self.wanted, cutoff_hz);
+                let fields = sums[0].each_ref();
+                Some((seen, fields.map(Trace::clone)))
+            }
+            None => None,
+        };
+        if let Some((seen, fields)) = &low_passed {
+            sums[0] = fields.each_ref().map(|own| seen.of(own, Derivative::Field));
+        }
         let mut found = sums[0].to_vec();
         found.extend(self.quantities.iter().map(|&quantity| {
             let Some((derivative, component)) = quantity.rate() else {
                 return self.of_stresses(quantity, &sums[0]);
             };
-            let mut derivatives = forcings.iter().map(|own| own.derivative);
-            let place = derivatives.position(|own| own == derivative);
-            sums[place.unwrap_or(0)][component].clone()
+            match &low_passed {
+                Some((seen, fields)) => seen.of(&fields[component], derivative),
+                None => sums[rate(derivative).unwrap_or(0)][component].clone(),
+            }
         }));
         Ok(found)
     }

@@ -93,6 +93,7 @@ impl Fields<'_> {
             frames: None,
             farthest_m: Some(r_m.hypot(z_m)),
             plate_s: None,
+            low_pass_hz: None,
         };
         let grid = Grid::new(&wanted, self.excitation, Some(&self.source))?;
         let time_s: Vec<f64> = grid.times_s().collect();

@@ -47,6 +47,9 @@ const BESIDE_FOLD: [f64; 4] = [-0.64, -0.16, 0.16, 0.64];
 /// The same of the front from an edge.
 const AT_EDGE: [f64; 4] = [0.0; 4];
 
+/// Time in which the front of a small contact passes, over that in which it crosses the depth of a point.
+const IN_DEPTH: f64 = 0.3;
+
 /// Instants at fronts, at most.
 const MOST_AT_FRONTS: usize = 24;
 
@@ -76,7 +79,12 @@ pub(crate) fn peaks(
     let fronts = fronts(convolution.grid.excitation, point.place_m());
     let mut wanted_s = history.at_fronts(&fronts);
     history.folds = fronts.into_iter().filter(|front| front.is_fold).collect();
-    for _ in 0..MOST_ROUNDS {
+    // through a low pass the samples show all there is
+    let rounds = match convolution.grid.low_pass_hz {
+        Some(_) => 0,
+        None => MOST_ROUNDS,
+    };
+    for _ in 0..rounds {
         for j in 0..traces.len() {
             history.ask(j, &mut wanted_s);
         }
@@ -111,6 +119,8 @@ struct Front {
 fn fronts(excitation: &Excitation, [r_m, z_m]: [f64; 2]) -> Vec<Front> {
     let (units, speeds) = (excitation.units(), excitation.speeds());
     let crossing_s = units.disc_radius_m / speeds.rayleigh;
+    let kappa = speeds.s / speeds.p;
+    let critical = kappa / (1.0 - kappa * kappa).sqrt();
     let around = |at_s: f64, width_s: f64, parts: [f64; 4]| Front {
         at_s,
         width_s,
@@ -137,16 +147,21 @@ fn fronts(excitation: &Excitation, [r_m, z_m]: [f64; 2]) -> Vec<Front> {
             let of_ends = ends_s.flat_map(|end_s| {
                 let arrivals = speeds.arrivals_s(r_m, z_m, 0.0);
                 let waves = [speeds.p, speeds.s, speeds.rayleigh];
-                let of = move |(t, speed): (f64, f64)| {
+                let of = move |(wave, (t, speed)): (usize, (f64, f64))| {
                     let fold_s = excitation.fold_s(end_s, speed);
                     let sign = if end_s > 0.5 * excitation.end_s() {
                         1.0
                     } else {
                         -1.0
                     };
-                    around(end_s + t + sign * fold_s, fold_s, BESIDE_FOLD)
+                    let front = around(end_s + t + sign * fold_s, fold_s, BESIDE_FOLD);
+                    // shear waves beyond the critical angle are sharp at any depth
+                    let is_sharp = wave == 1 && r_m > critical * z_m;
+                    let depth_m = if is_sharp { 0.0 } else { z_m };
+                    let width_s = fold_s.max(IN_DEPTH * depth_m / speed);
+                    Front { width_s, ..front }
                 };
-                arrivals.into_iter().zip(waves).map(of)
+                arrivals.into_iter().zip(waves).enumerate().map(of)
             });
             let of_kinks = kinks_s.flat_map(|kink_s| {
                 let [pressed, _] = excitation.pressures(kink_s);

@@ -6,7 +6,7 @@
 pub(crate) mod blow;
 pub(crate) mod condition;
 pub(crate) mod jump;
-mod low_pass;
+pub(crate) mod low_pass;
 pub(crate) mod stretch;
 
 use crate::record::jump::{Jump, MOST_JUMPS, follows, jumps, rounded_up};
