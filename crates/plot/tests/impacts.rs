@@ -207,19 +207,14 @@ fn an_option_that_a_kind_does_not_use_is_refused_with_the_kinds_that_do() {
     let scale: Change = |r| r.scale = Some(figure::Scale::Linear);
     for (kind, change, said) in [
         (
-            PictureKind::Spectrum,
-            one,
-            "the picture spectrum does not use quantity: impact, probes, waves, peak, x-t, depth-t and axis do",
-        ),
-        (
             PictureKind::Waves,
             two,
-            "the picture waves does not use several quantities: impact and probes do",
+            "the picture waves does not use several quantities: impact, probes and spectrum do",
         ),
         (
             PictureKind::Axis,
             two,
-            "the picture axis does not use several quantities: impact and probes do",
+            "the picture axis does not use several quantities: impact, probes and spectrum do",
         ),
         (
             PictureKind::Impact,
