@@ -169,7 +169,7 @@ const MOST_RECORD: f64 = 262_144.0;
 /// Time for which the fields are computed before they count as static, relative to the passing of the waves.
 const SETTLED: f64 = 20.0;
 
-/// Cutoff periods after the output whose samples a low pass sees: its response has fallen to 1e-5 then.
+/// Cutoff periods after the output whose samples a low pass sees: 1e-5 of a step is seen 4 periods before it.
 const BEYOND_PERIODS: f64 = 5.0;
 
 /// Rejects a cutoff that the output does not resolve.
