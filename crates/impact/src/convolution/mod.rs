@@ -8,7 +8,7 @@
 //! load, [`loads`] the functions of time that are convolved, [`fronts`] the windows in which short waves pass, and [`plan`]
 //! decides the road of a point. Then [`sums`] convolves over cells, [`ends`] integrates the first and last instants over the
 //! traces of the discs, and [`exact`] integrates the past over the radii of the contact; [`at`](Convolution::at) puts these
-//! together, and [`low_passed`] is the low pass through which they may be seen. Nothing is decided there but whether a cell follows a kernel.
+//! together. Nothing is decided there but whether a cell follows a kernel.
 //!
 //! Theory: `docs/theory.md` (T24, T55, T60, T61).
 
@@ -22,7 +22,6 @@ mod ends;
 mod exact;
 pub(crate) mod fronts;
 mod loads;
-mod low_passed;
 pub(crate) mod plan;
 #[cfg(test)]
 mod rate_tests;
@@ -39,13 +38,13 @@ use crate::grid::Grid;
 use crate::kernels::{CellPlan, Cells, KernelSource};
 use crate::quantity::{Derivative, Quantity};
 use crate::sampled::convolve::Method;
+use crate::sampled::low_passed::LowPassed;
 use crate::sampled::projection::largest;
 use contact::HalfSpace;
 use echoes::PlateEchoes;
 use halfspace::Six;
 use loads::{Forcing, Loads, Reading};
 use lookup::BEYOND;
-use low_passed::LowPassed;
 use plan::{Integrated, PointPlan, Sets};
 use std::ops::Range;
 use sums::{PointKernels, Sums, by_cells, by_zones, components};
@@ -250,26 +249,32 @@ impl<'a> Convolution<'a> {
             let mut derivatives = forcings.iter().map(|own| own.derivative);
             derivatives.position(|own| own == derivative)
         };
-        let low_passed = match self.grid.low_pass_hz {
-            Some(cutoff_hz) => {
-                let seen = LowPassed::new(self.grid, self.wanted, cutoff_hz);
-                let fields = sums[0].each_ref();
-                Some((seen, fields.map(Trace::clone)))
-            }
-            None => None,
+        let filter = self.grid.low_pass_hz;
+        let filter = filter.map(|cutoff_hz| LowPassed::new(self.grid.all_s().collect(), cutoff_hz));
+        let fields = sums[0].clone();
+        let seen = |component: usize, derivative: Derivative| {
+            let Trace { samples, error } = &fields[component];
+            let order = match derivative {
+                Derivative::Field => 0,
+                Derivative::First => 1,
+                Derivative::Second => 2,
+            };
+            let found = |filter: &LowPassed| filter.of((samples, *error), order, self.wanted);
+            let found = filter.as_ref().map(found);
+            found.map(|(samples, error)| Trace { samples, error })
         };
-        if let Some((seen, fields)) = &low_passed {
-            sums[0] = fields.each_ref().map(|own| seen.of(own, Derivative::Field));
+        for component in 0..fields.len() {
+            if let Some(own) = seen(component, Derivative::Field) {
+                sums[0][component] = own;
+            }
         }
         let mut found = sums[0].to_vec();
         found.extend(self.quantities.iter().map(|&quantity| {
             let Some((derivative, component)) = quantity.rate() else {
                 return self.of_stresses(quantity, &sums[0]);
             };
-            match &low_passed {
-                Some((seen, fields)) => seen.of(&fields[component], derivative),
-                None => sums[rate(derivative).unwrap_or(0)][component].clone(),
-            }
+            let computed = || sums[rate(derivative).unwrap_or(0)][component].clone();
+            seen(component, derivative).unwrap_or_else(computed)
         }));
         Ok(found)
     }

@@ -78,7 +78,8 @@ pub(crate) fn peaks(
     let mut left = MOST_INSTANTS;
     let fronts = fronts(convolution.grid.excitation, point.place_m());
     let mut wanted_s = history.at_fronts(&fronts);
-    history.folds = fronts.into_iter().filter(|front| front.is_fold).collect();
+    let is_narrow = |front: &Front| front.is_fold && front.width_s < history.step_s;
+    history.folds = fronts.into_iter().filter(is_narrow).collect();
     // through a low pass the samples show all there is
     let rounds = match convolution.grid.low_pass_hz {
         Some(_) => 0,
@@ -182,7 +183,7 @@ struct History {
     /// Of each output.
     values: Vec<Vec<f64>>,
     errors: Vec<f64>,
-    /// Fronts that are not followed further than by their instants.
+    /// Those narrower than a step, which are not followed further than by their instants.
     folds: Vec<Front>,
 }
 
@@ -343,7 +344,11 @@ impl History {
             .iter()
             .map(|one| one.peak.value.abs() + one.peak.error);
         let may_be = others.fold(0.0, f64::max);
-        found.error = found.error.max(may_be - found.value.abs()) + falls(&found) + self.errors[j];
+        let left = found
+            .error
+            .max(may_be - found.value.abs())
+            .max(falls(&found));
+        found.error = left + self.errors[j];
         if found.value == 0.0 {
             found.time_s = self.time_s.first().copied().unwrap_or_default();
         }

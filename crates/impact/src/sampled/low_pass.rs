@@ -1,4 +1,4 @@
-//! A low pass of zero phase, exact for a force that is linear between uneven rows.
+//! A low pass of zero phase, exact for a force or another history that is linear between uneven rows.
 //!
 //! It is Butterworth's filter of fourth order run forwards and backwards, in closed form: a gain of
 //!
@@ -9,7 +9,7 @@
 //! with no delay: 1 to 1e-3 up to 0.42 fc, 1/2 at fc, 1e-3 at 2.4 fc. h has the integral one, so that the impulse stays.
 //! The convolution of h with straight lines is one recursion in each direction, without any error of sampling.
 
-use crate::sampled::projection::largest;
+use super::projection::largest;
 use num_complex::Complex64;
 use std::f64::consts::PI;
 use std::ops::Range;
