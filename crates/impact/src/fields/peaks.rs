@@ -1,10 +1,14 @@
 //! Largest values of the outputs over continuous time, found between their samples.
 //!
 //! Away from wave fronts a sampled output is smooth, and the polynomial through the samples next to its crest has the peak. Where a
-//! front of the first or last instants of a contact passes, an output may have a needle that is far narrower than a step: the
-//! velocity of a surface point at the Rayleigh front rises toward it as the root of 1/|t|, and is finite only because the contact
-//! has a radius when its edge becomes slower than the waves. The times of these fronts are known beforehand. There, and wherever
-//! polynomials of two degrees through the samples differ, the outputs are computed at further instants, until they agree.
+//! front of the first or last instants of a contact passes, an output may have a needle far narrower than a step. The times of these
+//! fronts are known beforehand. There, and wherever polynomials through the samples differ, the outputs are computed at further
+//! instants, until they agree.
+//!
+//! Under a contact whose radius follows the load, velocities and stresses of a surface point have no finite peak: the edge of the
+//! contact is faster than waves in its first and last instants, and where it becomes slower its fronts meet in a fold, toward which
+//! the velocity grows as the logarithm of the time. It is shown at a fixed part of the time by which the fold is ahead of the front
+//! from the centre: the same for any step, with an error that covers its fall over a sixtieth of a step.
 //!
 //! Theory: `docs/theory.md` (T75).
 
@@ -23,12 +27,13 @@ pub struct Peak {
     pub error: f64,
 }
 
-/// Rounds of further instants, and instants, at most: a needle is halved in each. Fewer leave larger errors.
+/// Rounds of further instants, and instants, at most: the surroundings of a crest are halved in each. Fewer leave larger errors, more
+/// take time at points where an output has many crests. No test fails.
 const MOST_ROUNDS: usize = 24;
 const MOST_INSTANTS: usize = 48;
 
-/// Part of the error of an output up to which its crest may be uncertain without further instants. From 0.05 to 1 only time and
-/// the width of the estimate change.
+/// Part of the error of an output up to which its crest may be uncertain without further instants: smaller takes time, larger widens
+/// the estimate, which includes the uncertainty. No test fails.
 const ENOUGH: f64 = 0.25;
 
 /// Part of the largest sample below which a difference is rounding.
@@ -38,26 +43,30 @@ const ROUNDING: f64 = 1e-10;
 /// polynomials through them. `peaks_of_records_are_those_of_a_finer_output` fails at 0.
 const ROUGH: f64 = 0.2;
 
-/// How much an uncertain crest may be larger than it seems, in its uncertainty: higher ones are looked at.
+/// How much an uncertain crest may be larger than it seems, in its uncertainty: it is looked at if it may be the highest. No test
+/// fails.
 const MAY_RISE: f64 = 2.0;
 
-/// Instants around a fold, in times of it: the velocity of the surface grows there as a logarithm.
+/// Instants around a fold, in times of it. The velocity of the surface grows there as a logarithm, so that the inner ones are a
+/// convention: at 0.04 a velocity is a fifth larger.
 const BESIDE_FOLD: [f64; 4] = [-0.64, -0.16, 0.16, 0.64];
 
 /// The same of the front from an edge.
 const AT_EDGE: [f64; 4] = [0.0; 4];
 
-/// Time in which the front of a small contact passes, over that in which it crosses the depth of a point.
+/// Time in which the front of a small contact passes, over that in which it crosses the depth of a point; shear waves beyond the
+/// critical angle are sharp at any depth. At 0 peaks on the axis take ten times as long (`hertzlamb sweep scenes/sweep-probes.toml`).
 const IN_DEPTH: f64 = 0.3;
 
-/// Instants at fronts, at most.
+/// Instants at fronts, at most, of those that may be highest: a record with many jumps has hundreds.
 const MOST_AT_FRONTS: usize = 24;
 
 /// Part of a step from a crest over which an output may fall: that much the error of a peak includes. Samples of an output thirty
-/// times finer are not farther from it.
+/// times finer are not farther from it. `peaks_of_growing_contacts_are_those_of_a_finer_output` fails at 0.
 const SEEN: f64 = 1.0 / 60.0;
 
-/// The time that the fronts from a fixed disc take to pass, over that which a Rayleigh wave takes over its radius, and of a kink.
+/// The time that the fronts from the edges of a fixed disc take to pass, over that which a Rayleigh wave takes over its radius, and
+/// that of a kink of a growing contact: a front narrower than a step is looked at. No test fails.
 const WIDTH_OF_EDGE: f64 = 0.1;
 const WIDTH_OF_KINK: f64 = 0.01;
 
