@@ -207,6 +207,11 @@ fn an_option_that_a_kind_does_not_use_is_refused_with_the_kinds_that_do() {
     let scale: Change = |r| r.scale = Some(figure::Scale::Linear);
     for (kind, change, said) in [
         (
+            PictureKind::Loop,
+            one,
+            "the picture loop does not use quantity: impact, probes, spectrum, waves, peak, x-t, depth-t and axis do",
+        ),
+        (
             PictureKind::Waves,
             two,
             "the picture waves does not use several quantities: impact, probes and spectrum do",

@@ -263,9 +263,9 @@ impl<'a> Convolution<'a> {
             let found = filter.as_ref().map(found);
             found.map(|(samples, error)| Trace { samples, error })
         };
-        for component in 0..fields.len() {
+        for (component, shown) in sums[0].iter_mut().enumerate() {
             if let Some(own) = seen(component, Derivative::Field) {
-                sums[0][component] = own;
+                *shown = own;
             }
         }
         let mut found = sums[0].to_vec();
