@@ -228,6 +228,10 @@ fn the_needle_of_a_bead_on_pmma_is_smooth_over_distance_and_the_same_for_any_ste
     let mut one = scene("pmma", ball("soda-lime-glass", 0.004, 1.0), &places);
     one.settings.tolerance = 1e-4;
     one.quantities = RATES.to_vec();
+    let mut tally = Tally::default();
+    tally.compare(&one, 100.0);
+    println!("{} of {} outside", tally.missed, tally.all);
+    assert_eq!(tally.missed, 0);
     let peaks = |scene: &Scene| run(scene).0.peaks.unwrap();
     let found = peaks(&one);
     one.settings.step_s = Some(2.3e-8);
