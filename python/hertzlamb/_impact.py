@@ -199,8 +199,9 @@ class Probes(_Group, OfProbes):
         Stresses in Pa, negative in compression.
     NAME_error : ndarray (probe,)
         Estimated absolute error of the field or quantity NAME, in its unit; also ``error[NAME]``.
-    NAME_peak, NAME_peak_time : ndarray (probe,)
-        Value of largest magnitude over time, with its sign, and its time in s; only with ``output.peaks`` in the scene.
+    NAME_peak, NAME_peak_time, NAME_peak_error : ndarray (probe,)
+        Value of largest magnitude over continuous time, with its sign, its time in s, and its estimated absolute error;
+        only with ``output.peaks`` in the scene.
     """
 
     _more = _ASK
@@ -252,8 +253,9 @@ class Section(_Group, OfSection):
         Stresses in Pa, negative in compression.
     NAME_error : ndarray (z, r)
         Estimated absolute error of the field or quantity NAME, in its unit.
-    NAME_peak, NAME_peak_time : ndarray (z, r)
-        Value of largest magnitude over time, with its sign, and its time in s; only with ``output.peaks`` in the scene.
+    NAME_peak, NAME_peak_time, NAME_peak_error : ndarray (z, r)
+        Value of largest magnitude over continuous time, with its sign, its time in s, and its estimated absolute error;
+        only with ``output.peaks`` in the scene.
     """
 
     _more = _ASK

@@ -28,6 +28,7 @@ _SUFFIXES = {
     "_error": "estimated absolute error: ",
     "_peak": "largest in magnitude over time: ",
     "_peak_time": "when it is largest in magnitude: ",
+    "_peak_error": "estimated absolute error of the largest in magnitude over time: ",
 }
 
 

@@ -172,6 +172,7 @@ pub fn json_report(scene: &Scene, outcome: &Outcome, wall_s: f64) -> Value {
         "table_id": table.map(|[id, _]| id),
         "steps": outcome.series.time_s.len().saturating_sub(1),
         "step_s": outcome.step_s(),
+        "output_low_pass_hz": scene.low_pass_hz,
     });
     for quantity in &QUANTITIES {
         report[quantity.name] = match (quantity.of(outcome), quantity.kind) {

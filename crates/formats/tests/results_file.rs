@@ -127,12 +127,16 @@ fn every_dataset_is_described_and_every_description_is_written() {
     written.extend(yielding);
     let plate = text
         .replace("[force]", "thickness_m = 0.02\nechoes = 2\n[force]")
-        .replace("[output]", "[[probe]]\nr_m = 0.0\nz_m = 0.02\n[output]");
+        .replace(
+            "[output]",
+            "[[probe]]\nr_m = 0.0\nz_m = 0.02\n[output]\nlow_pass_hz = 2e5",
+        );
     let of_plate = other.with_file_name("plate.h5");
     write(&plate, &of_plate);
-    written.extend(described_datasets(&hdf5::File::open(&of_plate).unwrap()));
+    let of_plate = hdf5::File::open(&of_plate).unwrap();
+    written.extend(described_datasets(&of_plate));
     assert_eq!(written, listed("## Datasets", "## Attributes"));
-    let names = [&file, &dented, &fitted].map(|file| file.attr_names().unwrap());
+    let names = [&file, &dented, &fitted, &of_plate].map(|file| file.attr_names().unwrap());
     let attributes: BTreeSet<String> = names.into_iter().flatten().collect();
     assert_eq!(attributes, listed("## Attributes", ""));
     for quantity in &QUANTITIES {

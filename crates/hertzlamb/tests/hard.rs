@@ -45,6 +45,7 @@ fn attempt(hard: &Hard, settings: Settings) -> Result<f64, String> {
         quantities: Vec::new(),
         peaks: false,
         duration_s: None,
+        low_pass_hz: None,
     };
     match simulate(&scene, &KernelChoice::Direct) {
         Ok(found) => {

@@ -111,6 +111,19 @@ pub enum ImpactError {
         /// The longest in s.
         latest_s: f64,
     },
+    /// A low pass that the output does not resolve.
+    #[error(
+        "output.low_pass_hz = {} is outside ({}, {}), from one over the duration of the output to half of its sampling rate: use a smaller contact.step_s for a higher cutoff, a larger output.duration_s for a lower one",
+        fault::number(*cutoff_hz),
+        fault::rounded(limits[0]),
+        fault::rounded(limits[1])
+    )]
+    LowPass {
+        /// Cutoff in Hz.
+        cutoff_hz: f64,
+        /// The lowest and the highest in Hz.
+        limits: [f64; 2],
+    },
     /// The caller has cancelled the scene after its forecast.
     #[error("the scene was cancelled before it began: it would take about {seconds:.1e} s")]
     GivenUp {
@@ -186,6 +199,10 @@ impl Fault for ImpactError {
             } => Culprit {
                 limits: Some([0.0, *latest_s]),
                 ..culprit.key("output.duration_s").number(*duration_s)
+            },
+            Self::LowPass { cutoff_hz, limits } => Culprit {
+                limits: Some(*limits),
+                ..culprit.key("output.low_pass_hz").number(*cutoff_hz)
             },
             Self::TooWide {
                 radius_m,

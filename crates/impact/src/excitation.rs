@@ -347,6 +347,28 @@ impl Excitation {
         self.contact().map_or(&[], |contact| &contact.kinks_s)
     }
 
+    /// Fold of the fronts from the edge of a contact next to its begin or end: by how much in s they are ahead of that from the
+    /// centre, at most.
+    ///
+    /// The edge is faster than a wave of this speed until then, and its fronts meet where it becomes slower.
+    pub(crate) fn fold_s(&self, end_s: f64, speed_m_s: f64) -> f64 {
+        /// Logarithms of parts of the contact among which it lies, and their step.
+        const PARTS: i32 = 160;
+        const RATIO: f64 = 0.87;
+        let inside = if end_s > 0.5 * self.end_s() {
+            -1.0
+        } else {
+            1.0
+        };
+        let crossing_s = self.units.disc_radius_m / speed_m_s;
+        let ahead_s = |k: i32| {
+            let since_s = self.end_s() * RATIO.powi(k);
+            let [one, other] = self.pressures(end_s + inside * since_s);
+            one.square.max(other.square).sqrt() * crossing_s - since_s
+        };
+        (1..PARTS).map(ahead_s).fold(0.0, f64::max)
+    }
+
     /// The force without its jumps in N long before a run.
     pub(crate) fn continuous_base_n(&self, run: &Run) -> f64 {
         let earlier = self

@@ -27,6 +27,8 @@ pub(crate) struct Wanted {
     /// When the echoes of a plate stop being exact at a point, and when they cannot be computed any longer, in s after the load
     /// begins; where fields of a plate are asked for.
     pub(crate) plate_s: Option<[f64; 2]>,
+    /// Cutoff in Hz of the low pass of the fields, if there is one.
+    pub(crate) low_pass_hz: Option<f64>,
 }
 
 impl Wanted {
@@ -39,6 +41,7 @@ impl Wanted {
             frames: scene.section.as_ref().map(|section| section.frames),
             farthest_m: (scene.points() > 0).then(|| scene.farthest_m()),
             plate_s: (scene.points() > 0).then(|| scene.plate_s()).flatten(),
+            low_pass_hz: scene.low_pass_hz,
         }
     }
 
@@ -166,6 +169,18 @@ const MOST_RECORD: f64 = 262_144.0;
 /// Time for which the fields are computed before they count as static, relative to the passing of the waves.
 const SETTLED: f64 = 20.0;
 
+/// Cutoff periods after the output whose samples a low pass sees: 1e-5 of a step is seen 4 periods before it.
+const BEYOND_PERIODS: f64 = 5.0;
+
+/// Rejects a cutoff that the output does not resolve.
+fn check_low_pass(cutoff_hz: f64, [duration_s, step_s]: [f64; 2]) -> Result<(), ImpactError> {
+    let limits = [1.0 / duration_s, 0.5 / step_s];
+    match limits[0] < cutoff_hz && cutoff_hz < limits[1] {
+        true => Ok(()),
+        false => Err(ImpactError::LowPass { cutoff_hz, limits }),
+    }
+}
+
 /// Times of the output: equidistant samples, in one run from 0, or in several for a record with long constant parts.
 #[derive(Debug, Clone)]
 pub(crate) struct Grid<'a> {
@@ -181,6 +196,9 @@ pub(crate) struct Grid<'a> {
     pub(crate) wanted_s: f64,
     /// Time in s after which fields are taken as static between runs.
     settling_s: f64,
+    /// Cutoff in Hz of the low pass of the fields, if there is one, and samples at the end that it alone needs.
+    pub(crate) low_pass_hz: Option<f64>,
+    beyond: usize,
 }
 
 impl<'a> Grid<'a> {
@@ -205,7 +223,19 @@ impl<'a> Grid<'a> {
         let step_s = source.map_or(wanted_s, |source| {
             source.step(ratio, wanted_s / unit_s) * unit_s
         });
-        let runs = wanted.runs(excitation, duration_s, step_s);
+        let mut runs = wanted.runs(excitation, duration_s, step_s);
+        let beyond = match wanted.low_pass_hz {
+            None => 0,
+            Some(cutoff_hz) => {
+                check_low_pass(cutoff_hz, [duration_s, step_s])?;
+                let limit_s = latest_s.map_or(f64::INFINITY, |latest_s| latest_s - duration_s);
+                let beyond_s = (BEYOND_PERIODS / cutoff_hz).min(limit_s.max(0.0));
+                (beyond_s / step_s) as usize
+            }
+        };
+        if let Some(last) = runs.last_mut() {
+            last.count += beyond;
+        }
         let samples: f64 = runs.iter().map(|run| run.count as f64).sum();
         if samples > MOST_SAMPLES as f64 {
             return Err(ImpactError::TooManySamples {
@@ -221,11 +251,18 @@ impl<'a> Grid<'a> {
             runs,
             wanted_s,
             settling_s: wanted.settling_s(excitation),
+            low_pass_hz: wanted.low_pass_hz,
+            beyond,
         })
     }
 
-    /// Number of samples.
+    /// Number of samples of the output.
     pub(crate) fn count(&self) -> usize {
+        self.all() - self.beyond
+    }
+
+    /// Number of all samples: of a low pass also those after the output.
+    pub(crate) fn all(&self) -> usize {
         self.runs.iter().map(|run| run.count).sum()
     }
 
@@ -242,11 +279,34 @@ impl<'a> Grid<'a> {
         self.runs.iter().map(|run| run.count).max().unwrap_or(0)
     }
 
-    /// Times of all samples in s.
+    /// Times of the samples of the output in s.
     pub(crate) fn times_s(&self) -> impl Iterator<Item = f64> + '_ {
+        self.all_s().take(self.count())
+    }
+
+    /// Times of all samples in s.
+    pub(crate) fn all_s(&self) -> impl Iterator<Item = f64> + '_ {
         self.runs
             .iter()
             .flat_map(|run| (0..run.count).map(|i| run.start_s + i as f64 * self.step_s))
+    }
+
+    /// The grid of one run moved so that a sample is at an instant in s inside that run, and ending there; the number of this
+    /// sample.
+    pub(crate) fn ending_at(&self, time_s: f64) -> (Self, usize) {
+        let after = self.runs.partition_point(|run| run.start_s <= time_s);
+        let run = self.runs[after.saturating_sub(1)];
+        let last = ((time_s - run.start_s) / self.step_s).ceil().max(0.0) as usize;
+        let moved = Run {
+            start_s: time_s - last as f64 * self.step_s,
+            count: last + 1,
+            ..run
+        };
+        let own = Self {
+            runs: vec![moved],
+            ..self.clone()
+        };
+        (own, last)
     }
 
     /// Deflection of the disc in m at all samples of the force, with a share of its static part.
@@ -290,9 +350,10 @@ impl<'a> Grid<'a> {
     /// The samples of each run, out of all samples.
     pub(crate) fn split<'s>(&self, mut samples: &'s [f64]) -> Vec<(Run, &'s [f64])> {
         let cut = |&run: &Run| {
-            let (own, rest) = samples.split_at(run.count);
+            let (own, rest) = samples.split_at(run.count.min(samples.len()));
             samples = rest;
-            (run, own)
+            let count = own.len();
+            (Run { count, ..run }, own)
         };
         self.runs.iter().map(cut).collect()
     }

@@ -49,6 +49,7 @@ pub use cost::{Allowance, Forecast, Place, Road};
 pub use energy::EnergySeries;
 pub use error::ImpactError;
 pub use excitation::{Excitation, Motion, PressureRadius};
+pub use fields::peaks::Peak;
 pub use fields::probes::{EchoArrivals, Peaks, ProbeFields, ProbePeaks, SectionFields};
 pub use fields::sensors::{FaceMean, SensorHistory};
 pub use fields::{FieldHistory, Fields};

@@ -180,6 +180,8 @@ pub struct Scene {
     pub peaks: bool,
     /// Duration of the output in s, if the scene sets it.
     pub duration_s: Option<f64>,
+    /// Cutoff in Hz of the low pass through which fields and quantities are seen, if the scene asks for one.
+    pub low_pass_hz: Option<f64>,
 }
 
 impl Scene {

@@ -257,7 +257,7 @@ fn add_fields(
     let end_s = outcome.series.time_s.last().copied().unwrap_or(0.0);
     if !scene.probes.is_empty() {
         let fields = of(&all)?;
-        let found = at_probes(&fields, &scene.target, &scene.probes)?;
+        let found = at_probes(&fields, &scene.target, (&scene.probes, scene.peaks))?;
         (outcome.warnings).extend(faces::of_probes(scene, &found, end_s));
         outcome.probes = Some(found);
         method = fields.method();

@@ -22,6 +22,7 @@ fn scene(load: Load, target: Material, settings: Settings) -> Scene {
         quantities: Vec::new(),
         peaks: false,
         duration_s: None,
+        low_pass_hz: None,
         probes: Vec::new(),
         section: None,
         sensors: Vec::new(),

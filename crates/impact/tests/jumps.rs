@@ -40,6 +40,7 @@ fn scene(record: ForceRecord, places: &[[f64; 2]], tolerance: f64) -> Scene {
         quantities: Vec::new(),
         peaks: false,
         duration_s: None,
+        low_pass_hz: None,
     }
 }
 

@@ -32,6 +32,7 @@ fn scene(target: HalfSpace, load: Load, places_m: &[[f64; 2]], duration_s: Optio
         quantities: vec![Quantity::VelocityZ],
         peaks: false,
         duration_s,
+        low_pass_hz: None,
         probes: places_m.iter().map(place).collect(),
         section: None,
         sensors: Vec::new(),

@@ -27,6 +27,7 @@ fn scene(load: Load, disc_radius_m: Option<f64>, tolerance: f64) -> Scene {
         ],
         peaks: false,
         duration_s: Some(1.2e-5),
+        low_pass_hz: None,
     }
 }
 

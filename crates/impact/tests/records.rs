@@ -47,6 +47,7 @@ fn scene(record: ForceRecord, duration_s: Option<f64>) -> Scene {
         quantities: Vec::new(),
         peaks: false,
         duration_s,
+        low_pass_hz: None,
     }
 }
 

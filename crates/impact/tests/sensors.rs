@@ -33,6 +33,7 @@ fn scene(target: HalfSpace, load: Load, tolerance: f64) -> Scene {
         },
         quantities: vec![Quantity::VelocityZ, Quantity::VelocityR],
         peaks: false,
+        low_pass_hz: None,
         duration_s: None,
         probes: vec![],
         sensors: vec![],

@@ -207,19 +207,19 @@ fn an_option_that_a_kind_does_not_use_is_refused_with_the_kinds_that_do() {
     let scale: Change = |r| r.scale = Some(figure::Scale::Linear);
     for (kind, change, said) in [
         (
-            PictureKind::Spectrum,
+            PictureKind::Loop,
             one,
-            "the picture spectrum does not use quantity: impact, probes, waves, peak, x-t, depth-t and axis do",
+            "the picture loop does not use quantity: impact, probes, spectrum, waves, peak, x-t, depth-t and axis do",
         ),
         (
             PictureKind::Waves,
             two,
-            "the picture waves does not use several quantities: impact and probes do",
+            "the picture waves does not use several quantities: impact, probes and spectrum do",
         ),
         (
             PictureKind::Axis,
             two,
-            "the picture axis does not use several quantities: impact and probes do",
+            "the picture axis does not use several quantities: impact, probes and spectrum do",
         ),
         (
             PictureKind::Impact,
@@ -254,6 +254,75 @@ fn an_option_that_a_kind_does_not_use_is_refused_with_the_kinds_that_do() {
     ] {
         assert_eq!(of(kind, change), said);
     }
+}
+
+/// Hertz's pulse is closed: -3 dB and its zeros in products of frequency and contact time (states of the pulse by quadrature).
+#[test]
+fn spectra_have_the_corner_and_the_zeros_of_hertz_and_follow_the_pulse() {
+    let folder = tempfile::tempdir().unwrap();
+    let closed = PROBES.replacen("[[probe]]", "model = \"hertz\"\n[[probe]]", 1);
+    let long = format!("{closed}[output]\nduration_s = 4e-4\nquantities = [\"velocity_z\"]\n");
+    let paths = [("h.h5", &closed), ("long.h5", &long)];
+    let paths = paths.map(|(name, rest)| impact(folder.path(), name, 0.4, rest));
+    let marks = |figure: &Figure, panel: usize| -> Vec<f64> {
+        let layers = figure.panels[panel].layers.iter();
+        let of = |layer: &figure::Layer| match layer {
+            figure::Layer::Mark { x, .. } => Some(*x),
+            _ => None,
+        };
+        layers.filter_map(of).collect()
+    };
+    let mut spans = Vec::new();
+    for path in &paths {
+        let (figure, _) = picture(std::slice::from_ref(path), Some(PictureKind::Spectrum)).unwrap();
+        // the force and both probes
+        assert_eq!(figure.panels.len(), 3);
+        let stored = formats::stored::StoredImpact::open(path).unwrap();
+        let contact_s = stored.number("contact_time_s").unwrap();
+        let zeros: Vec<f64> = marks(&figure, 0).iter().map(|f| f * contact_s).collect();
+        for (zero, exact) in zeros
+            .iter()
+            .zip([1.8040285, 2.7613640, 3.7550097, 4.7527230])
+        {
+            assert!((zero / exact - 1.0).abs() < 2e-3, "{zeros:?}");
+        }
+        assert_eq!(zeros.len(), 4);
+        let at_probe = marks(&figure, 1);
+        assert!((at_probe[0] * contact_s / 0.669_616_41 - 1.0).abs() < 1e-3);
+        assert_eq!(at_probe.len(), 5);
+        assert!(texts(&figure).iter().any(|text| text.contains("corner")));
+        // the displacement has no more than the pulse: it falls in the zeros as the force does
+        let curve = curves(&figure, 1)[0];
+        let near = |f: f64| {
+            let distance = |p: &&(f64, f64)| (p.0 * contact_s / f - 1.0).abs();
+            let by = |a: &&(f64, f64), b: &&(f64, f64)| distance(a).total_cmp(&distance(b));
+            curve.points.iter().min_by(by).unwrap().1
+        };
+        assert!(
+            near(zeros[0]) < 0.2 * near(2.2),
+            "{} {}",
+            near(zeros[0]),
+            near(2.2)
+        );
+        let last = curve.points.last().unwrap().0 * contact_s;
+        spans.push(last);
+    }
+    assert!(
+        (spans[0] / spans[1] - 1.0).abs() < 0.01 && (spans[0] - 6.0).abs() < 0.3,
+        "{spans:?}"
+    );
+    let asked = Request {
+        kind: Some(PictureKind::Spectrum),
+        quantities: vec!["velocity_z".to_owned()],
+        ..Request::default()
+    };
+    let (figure, _) = compose(&paths[1..], &asked).unwrap();
+    assert_eq!(curves(&figure, 2).len(), 1);
+    assert!(
+        texts(&figure)
+            .iter()
+            .any(|text| text.contains("axial velocity"))
+    );
 }
 
 #[test]

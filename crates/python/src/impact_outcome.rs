@@ -7,7 +7,7 @@ use crate::values::{from_json, frozen, vector};
 use crate::work::{Threads, run};
 use contact::{Choice, Unknown};
 use formats::quantities::{Described, Kind, Labels, QUANTITIES, labels_of};
-use formats::results::{beside, mean_name, peaks_of};
+use formats::results::{beside, mean_name};
 use formats::schema::results as schema;
 use formats::{Existing, Output, json_report, stage_results, stage_results_csv};
 use impact::{Allowance, KernelChoice, Outcome as Computed, Scene, SensorHistory, simulate_within};
@@ -138,8 +138,7 @@ impl Outcome {
 
     /// Fields at the probes by name, each (probe, time), with places, errors and requested peaks, each (probe,).
     fn probes<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {
-        let (scene, computed) = &*self.found;
-        let Some(fields) = &computed.probes else {
+        let Some(fields) = &self.found.1.probes else {
             return Ok(None);
         };
         let places = [&fields.r_m[..], &fields.z_m];
@@ -160,11 +159,11 @@ impl Outcome {
             let arrivals = frozen(py, echoes.time_s.concat(), &shape)?;
             found.set_item(schema::ECHO_ARRIVALS.0, arrivals)?;
         }
-        for (row, values, errors) in schema::histories(fields) {
+        for (i, (row, values, errors)) in schema::histories(fields).enumerate() {
             let shape = [values.len(), values.first().map_or(0, Vec::len)];
             found.set_item(row.0, frozen(py, values.concat(), &shape)?)?;
-            let peaks = peaks_of(scene, &computed.series.time_s, values);
-            put_beside(&found, beside(row, errors, peaks.as_ref()), &shape[..1])?;
+            let peaks = fields.peaks.as_ref().map(|peaks| &peaks[i]);
+            put_beside(&found, beside(row, errors, peaks), &shape[..1])?;
         }
         Ok(Some(found))
     }

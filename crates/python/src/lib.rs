@@ -36,8 +36,8 @@ mod _core {
     use crate::{
         impact_outcome::{Outcome, infer, run_impact},
         kernels::{arrivals, kernel, medium, static_field, surface, surface_centre},
-        response::Response,
         library::{describe, materials},
+        response::Response,
         scene::{resolved, sections_of},
         sweep::{Plan, check_at_once, plan, plan_of_columns},
         table::Table,

@@ -100,7 +100,10 @@ impl Response {
         band_hz: Vec<f64>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let Ok(band_hz) = <[f64; 4]>::try_from(band_hz) else {
-            return Err(plain("DomainError", "band_hz needs four frequencies in ascending order"));
+            return Err(plain(
+                "DomainError",
+                "band_hz needs four frequencies in ascending order",
+            ));
         };
         let found = self.0.remove(step_s, &numbers(&samples), band_hz);
         Ok(vector(py, found.map_err(raise)?)?.into_any())

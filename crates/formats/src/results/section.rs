@@ -64,13 +64,13 @@ pub(super) fn write_section(file: &File, map: &SectionFields) -> Result<(), hdf5
 }
 
 /// Datasets of a quantity with one number per place: the estimate of its error and, if recorded, its largest value over
-/// time and the time of it.
+/// time, the time of it, and the error of it.
 pub fn beside<'v>(
     row: Labels<'_>,
     errors: &'v [f64],
     peaks: Option<&'v Peaks>,
 ) -> Vec<(Described, &'v [f64])> {
-    let peaks = peaks.map(|peaks| [&peaks.values, &peaks.time_s]);
+    let peaks = peaks.map(|peaks| [&peaks.values, &peaks.time_s, &peaks.errors]);
     let columns = [errors].into_iter();
     let columns = columns.chain(peaks.into_iter().flatten().map(Vec::as_slice));
     let described = schema::beside(row.0, row, "").into_iter();

@@ -13,7 +13,7 @@ use crate::scene::resolved;
 use crate::schema::results as schema;
 use contact::Choice;
 use hdf5::{Dataset, File};
-use impact::{EchoArrivals, EnergySeries, Outcome, Peaks, ProbeFields, Scene};
+use impact::{EchoArrivals, EnergySeries, Outcome, ProbeFields, Scene};
 use output::{Existing, Output, OutputError, OutputFault, Staged};
 use std::io::{BufWriter, Write};
 use std::path::Path;
@@ -59,7 +59,7 @@ fn fill(file: &File, scene: &Scene, outcome: &Outcome) -> Result<(), hdf5::Error
         write_energy(file, energy, &series.time_s)?;
     }
     if let Some(fields) = &outcome.probes {
-        write_probes(file, fields, &series.time_s, scene)?;
+        write_probes(file, fields, &series.time_s)?;
     }
     if !outcome.sensors.is_empty() {
         write_sensors(file, &outcome.sensors, &series.time_s)?;
@@ -79,12 +79,7 @@ fn write_energy(file: &File, energy: &EnergySeries, time_s: &[f64]) -> Result<()
     Ok(())
 }
 
-fn write_probes(
-    file: &File,
-    fields: &ProbeFields,
-    time_s: &[f64],
-    scene: &Scene,
-) -> Result<(), hdf5::Error> {
+fn write_probes(file: &File, fields: &ProbeFields, time_s: &[f64]) -> Result<(), hdf5::Error> {
     let group = file.create_group(schema::PROBES)?;
     let rows = fields.r_m.len();
     let numbered: Vec<i64> = (1..=rows as i64).collect();
@@ -116,26 +111,17 @@ fn write_probes(
         let dataset = numbers(&group, &schema::ECHO_ARRIVALS, &shape, &arrivals_s.concat())?;
         placed(&dataset, &[&probe, &echo])?;
     }
-    for (row, values, errors) in schema::histories(fields) {
+    for (i, (row, values, errors)) in schema::histories(fields).enumerate() {
         let columns = values.first().map_or(0, Vec::len);
         let samples: Vec<f64> = values.iter().flatten().copied().collect();
         let dataset = numbers(&group, &row, &[rows, columns], &samples)?;
         placed(&dataset, &[&probe, &time])?;
-        let peaks = peaks_of(scene, time_s, values);
-        for (row, numbers) in beside(row, errors, peaks.as_ref()) {
+        let peaks = fields.peaks.as_ref().map(|peaks| &peaks[i]);
+        for (row, numbers) in beside(row, errors, peaks) {
             placed(&vector(&group, &row.labels(), numbers)?, &[&probe])?;
         }
     }
     Ok(())
-}
-
-/// The largest values over time at each probe, if the scene requests them.
-pub fn peaks_of(scene: &Scene, time_s: &[f64], values: &[Vec<f64>]) -> Option<Peaks> {
-    scene.peaks.then(|| {
-        let mut found = Peaks::default();
-        (values.iter()).for_each(|samples| found.push(time_s, samples));
-        found
-    })
 }
 
 fn write_attributes(file: &File, scene: &Scene, outcome: &Outcome) -> Result<(), hdf5::Error> {
@@ -143,6 +129,9 @@ fn write_attributes(file: &File, scene: &Scene, outcome: &Outcome) -> Result<(),
         text(file, name, value)?;
     }
     text(file, schema::WARNINGS, &outcome.warnings.join("\n"))?;
+    if let Some(cutoff_hz) = scene.low_pass_hz {
+        scalar(file, schema::LOW_PASS, cutoff_hz)?;
+    }
     text(file, schema::SCENE, &resolved(scene))?;
     text(file, schema::SCENE_SHA256, &scene_sha256(scene))?;
     for quantity in &QUANTITIES {

@@ -176,6 +176,7 @@ const KEYS: &[Key] = keys! {
     map.frames = |s, _| s.section.as_ref().filter(|section| section.times_s.is_empty())?.frames as i64;
     map.times_s = |s, _| s.section.as_ref().filter(|section| !section.times_s.is_empty())?.times_s.clone();
     output.duration_s: POSITIVE = |s, _| s.duration_s?;
+    output.low_pass_hz: POSITIVE = |s, _| s.low_pass_hz?;
     output.quantities = |s, _| Some(&s.quantities).filter(|q| !q.is_empty())?.iter().map(|q| q.name()).collect::<Vec<_>>();
     output.peaks = |s, _| Some(s.peaks).filter(|&peaks| peaks)?;
     materials.file;
@@ -397,7 +398,8 @@ mod tests {
                 let heading = part.lines().next().unwrap_or_default();
                 // the striker shares the elastic keys of the target
                 let bodies = section == "striker" && heading.contains("[target]");
-                heading.contains(&format!("[{section}]")) || bodies
+                let names = ["[", "."].map(|before| format!("{before}{section}]"));
+                names.iter().any(|name| heading.contains(name)) || bodies
             });
             let rows: Vec<&str> = own.flat_map(str::lines).collect();
             for key in keys_of(section) {

@@ -109,6 +109,7 @@ pub(crate) fn scene_with(
         sensors,
         section,
         duration_s: output.number("duration_s")?,
+        low_pass_hz: output.number("low_pass_hz")?,
         quantities: output.choices("quantities")?,
         peaks: output.flag("peaks")?,
     })

@@ -54,8 +54,8 @@ pub const PLACES: [(&str, &str, &str); 2] = labels! {
 };
 /// Suffix of a field: the estimate of its error.
 pub const ERROR_SUFFIX: &str = "_error";
-/// Suffixes of a quantity: its largest value over time, and the time of it.
-pub const PEAK_SUFFIXES: [&str; 2] = ["_peak", "_peak_time"];
+/// Suffixes of a quantity: its largest value over time, the time of it, and the error of it.
+pub const PEAK_SUFFIXES: [&str; 3] = ["_peak", "_peak_time", "_peak_error"];
 /// Arrivals of the first P, S and Rayleigh wave.
 pub const ARRIVALS: (&str, &str, &str) = (
     "arrival",
@@ -106,6 +106,8 @@ pub const OUTPUTS: [(&str, &str, &str); 4] = labels! {
 };
 /// Text attribute of the root: warnings about the results, one per line.
 pub const WARNINGS: &str = "warnings";
+/// Attribute of the root: cutoff in Hz of the low pass through which the fields are seen; in files of such scenes only.
+pub const LOW_PASS: &str = "output_low_pass_hz";
 /// Text attribute with the resolved scene.
 pub const SCENE: &str = "scene";
 /// Text attribute with the hash of the scene, which does not depend on the kernels.
@@ -127,13 +129,18 @@ pub const WHOLE: (&str, &str, &str) = ("whole", "1", "all samples in time togeth
 /// Group with the offsets of the steps of a field.
 pub const VTK_OFFSETS: &str = "PointDataOffsets";
 
-/// Datasets that accompany a quantity: the estimate of its error, its largest value over time, and the time of it; `at`
-/// is the place, if any.
-pub(crate) fn beside(name: &str, (_, unit, meaning): Labels<'_>, at: &str) -> [Described; 3] {
+/// Datasets that accompany a quantity: the estimate of its error, its largest value over time, the time of it, and the
+/// error of it; `at` is the place, if any.
+pub(crate) fn beside(name: &str, (_, unit, meaning): Labels<'_>, at: &str) -> [Described; 4] {
     [
         (ERROR_SUFFIX, unit, "estimated absolute error"),
         (PEAK_SUFFIXES[0], unit, "largest in magnitude over time"),
         (PEAK_SUFFIXES[1], "s", "when it is largest in magnitude"),
+        (
+            PEAK_SUFFIXES[2],
+            unit,
+            "estimated absolute error of the largest in magnitude over time",
+        ),
     ]
     .map(|(suffix, unit, what)| Described {
         name: format!("{name}{suffix}"),

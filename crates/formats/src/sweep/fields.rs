@@ -3,7 +3,7 @@
 use crate::error::SceneError;
 use crate::quantities::{Described, Labels, QUANTITIES, labels_of};
 use crate::scene::section::TomlSection;
-use crate::schema::results::beside;
+use crate::schema::results::{ERROR_SUFFIX, beside};
 use crate::schema::sweep::FIELDS as SECTION;
 use impact::{ProbePeaks, Quantity};
 use std::sync::Arc;
@@ -133,12 +133,14 @@ fn of_field(probe: usize, field: Labels<'_>) -> [Described; 3] {
         format!("probe_{probe}_{}", field.0),
         format!(" at probe {probe}"),
     );
-    let [error, peak, time] = beside(&name, field, &at);
-    [peak, time, error]
+    let [_, peak, time, error] = beside(&name, field, &at);
+    let name = format!("{name}{ERROR_SUFFIX}");
+    [peak, time, Described { name, ..error }]
 }
 
 /// The numbers of a row, in the order of the columns.
 pub(super) fn probed_numbers(found: &ProbePeaks) -> impl Iterator<Item = f64> + '_ {
-    let peaks = found.peaks.iter().flatten().copied();
+    let peaks = found.peaks.iter();
+    let peaks = peaks.flat_map(|one| [one.value, one.time_s, one.error]);
     std::iter::once(f64::from(u8::from(found.looked_up))).chain(peaks)
 }

@@ -38,6 +38,7 @@ fn echoes_by_few_discs_are_within_their_estimates() {
             frames: None,
             farthest_m: None,
             plate_s: None,
+            low_pass_hz: None,
         };
         let grid = Grid::new(&wanted, &excitation, Some(&source)).unwrap();
         let all: Vec<usize> = (0..grid.count()).collect();
@@ -46,9 +47,12 @@ fn echoes_by_few_discs_are_within_their_estimates() {
         let z = [0.0, thickness, thickness * random.next()][(3.0 * random.next()) as usize];
         let place = [1.5 * thickness * random.next(), z];
         let own = |convolution: &Convolution<'_>| -> Vec<[Trace; 6]> {
-            convolution
-                .of_echoes(convolution.echoes.as_ref().unwrap(), place)
-                .unwrap()
+            let echoes = convolution.echoes.as_ref().unwrap();
+            let (set, kernels) = convolution.echo_kernels(echoes, place).unwrap();
+            let forcings = convolution.forcings.iter();
+            forcings
+                .map(|forcing| convolution.of_echoes(forcing, set, &kernels).unwrap())
+                .collect()
         };
         let few = own(&convolution());
         let mut exact = convolution();

@@ -146,7 +146,7 @@ impl Convolution<'_> {
         };
         let sums = self.forcings.iter().map(of);
         let sums: Vec<[Trace; 6]> = sums.collect::<Result<_, ImpactError>>()?;
-        Ok(self.with_quantities(&sums))
+        Ok(self.with_quantities(sums))
     }
 
     /// By the mean of the kernel of a disc of fixed radius.

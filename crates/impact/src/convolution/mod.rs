@@ -39,6 +39,7 @@ use crate::grid::Grid;
 use crate::kernels::{CellPlan, Cells, KernelSource};
 use crate::quantity::{Derivative, Quantity};
 use crate::sampled::convolve::Method;
+use crate::sampled::low_passed::LowPassed;
 use crate::sampled::projection::largest;
 use contact::HalfSpace;
 use echoes::PlateEchoes;
@@ -85,6 +86,22 @@ pub(crate) struct Convolution<'a> {
     echoes: Option<PlateEchoes>,
 }
 
+/// The kernels of a point, for sums at any instants.
+pub(crate) struct Point<'a> {
+    /// Number of the set of discs.
+    set: usize,
+    kernels: PointKernels<'a>,
+    /// Of the echoes of a plate.
+    echoes: Option<(usize, PointKernels<'a>)>,
+}
+
+impl Point<'_> {
+    /// Its place in m.
+    pub(crate) fn place_m(&self) -> [f64; 2] {
+        self.kernels.place_m
+    }
+}
+
 /// Ratio of the tolerance of an integral over a part of the past, which brings a part of the field, to that of the field.
 const PART_OF_PAST: f64 = 10.0;
 
@@ -100,17 +117,23 @@ impl<'a> Convolution<'a> {
         let (excitation, tolerance) = (grid.excitation, grid.tolerance);
         let reach = source.table_reach();
         let mut derivatives = vec![Derivative::Field];
-        for (derivative, _) in quantities.iter().filter_map(|one| one.rate()) {
+        // rates of a low pass are those of the fields that it shows
+        let rates = quantities.iter().filter(|_| grid.low_pass_hz.is_none());
+        for (derivative, _) in rates.filter_map(|one| one.rate()) {
             if !derivatives.contains(&derivative) {
                 derivatives.push(derivative);
             }
         }
-        let asked = (grid.count(), derivatives.len() > 1);
+        let asked = (grid.all(), derivatives.len() > 1);
         let sets = Sets::new(excitation, tolerance, reach, asked);
         let unit_s = excitation.units().time_s();
         let ratio = excitation.medium().poisson_ratio();
         let parts = source.parts(ratio, grid.step_s / unit_s).min(tuning::PARTS);
-        let forcing = |derivative| Forcing::new(grid, wanted, derivative, (sets.count(), parts));
+        let all: Vec<usize> = match grid.low_pass_hz {
+            Some(_) => (0..grid.all()).collect(),
+            None => wanted.to_vec(),
+        };
+        let forcing = |derivative| Forcing::new(grid, &all, derivative, (sets.count(), parts));
         let past = match (excitation.radius(), reach) {
             (PressureRadius::Following { .. }, None) => {
                 Some(Past::new(excitation, PART_OF_PAST * tolerance)?)
@@ -147,10 +170,9 @@ impl<'a> Convolution<'a> {
         }
     }
 
-    /// The road of a point in m.
-    pub(crate) fn plan(&self, place_m: [f64; 2]) -> PointPlan {
-        let asked = self
-            .forcings
+    /// The road of a point in m under some forcings.
+    fn plan(&self, forcings: &[Forcing<'_>], place_m: [f64; 2]) -> PointPlan {
+        let asked = forcings
             .iter()
             .map(|own| (own.derivative, &own.times_s[..]));
         let asked: Vec<_> = asked.collect();
@@ -168,9 +190,21 @@ impl<'a> Convolution<'a> {
     /// # Errors
     /// [`ImpactError`] for a point outside the half-space or the table.
     pub(crate) fn at(&self, r_m: f64, z_m: f64) -> Result<Vec<Trace>, ImpactError> {
-        let place_m = [r_m, z_m];
-        let plan = self.plan(place_m);
-        let discs = self.sets.get(plan.set);
+        self.sampled(&self.point([r_m, z_m])?)
+    }
+
+    /// The same at a point whose kernels are known.
+    pub(crate) fn sampled(&self, point: &Point<'_>) -> Result<Vec<Trace>, ImpactError> {
+        let found = self.traces_at(&self.forcings, point)?;
+        (self.watch)();
+        Ok(found)
+    }
+
+    /// The kernels of a point in m.
+    pub(crate) fn point(&self, place_m: [f64; 2]) -> Result<Point<'_>, ImpactError> {
+        let [r_m, z_m] = place_m;
+        let set = self.sets.choose_for(self.grid.excitation, place_m);
+        let discs = self.sets.get(set);
         let distance = r_m.hypot(z_m) / self.grid.excitation.units().disc_radius_m;
         let part = match &self.past {
             None => 1.0,
@@ -183,36 +217,98 @@ impl<'a> Convolution<'a> {
             self.source.cells(ratio, place, disc_radius_m, wanted)
         });
         let cells: Vec<Cells> = cells.collect::<Result<_, _>>()?;
-        let kernels = PointKernels::new(&self.forcings[0], discs, (place_m, None), cells);
-        let of = |(forcing, integrated): (&Forcing<'_>, &Vec<Integrated>)| {
-            self.sum(
-                forcing,
-                forcing.loads(plan.set, discs),
-                &kernels,
-                integrated,
-            )
-        };
-        let sums = self.forcings.iter().zip(&plan.integrated).map(of);
-        let mut sums: Vec<[Trace; 6]> = sums.collect::<Result<_, _>>()?;
-        if let Some(echoes) = &self.echoes {
-            self.add_echoes(echoes, place_m, &mut sums)?;
-        }
-        (self.watch)();
-        Ok(self.with_quantities(&sums))
+        let echoes = self.echoes.as_ref();
+        let echoes = echoes.map(|echoes| self.echo_kernels(echoes, place_m));
+        Ok(Point {
+            set,
+            kernels: PointKernels::new(&self.forcings[0], discs, (place_m, None), cells),
+            echoes: echoes.transpose()?,
+        })
     }
 
-    /// The fields and the quantities, of the outputs of each forcing.
-    fn with_quantities(&self, sums: &[[Trace; 6]]) -> Vec<Trace> {
+    /// The six fields at a point under some forcings, then the quantities.
+    fn traces_at(
+        &self,
+        forcings: &[Forcing<'_>],
+        point: &Point<'_>,
+    ) -> Result<Vec<Trace>, ImpactError> {
+        let kernels = &point.kernels;
+        let plan = self.plan(forcings, kernels.place_m);
+        let of = |(forcing, integrated): (&Forcing<'_>, &Vec<Integrated>)| {
+            let loads = forcing.loads(point.set, kernels.discs);
+            self.sum(forcing, loads, kernels, integrated)
+        };
+        let sums = forcings.iter().zip(&plan.integrated).map(of);
+        let mut sums: Vec<[Trace; 6]> = sums.collect::<Result<_, _>>()?;
+        if let Some((set, kernels)) = &point.echoes {
+            for (all, forcing) in sums.iter_mut().zip(forcings) {
+                let own = self.of_echoes(forcing, *set, kernels)?;
+                add_traces(all, own);
+            }
+        }
+        (self.watch)();
+        Ok(self.with_quantities(sums))
+    }
+
+    /// The fields and the quantities, of the outputs of each forcing, through the low pass of the output.
+    fn with_quantities(&self, mut sums: Vec<[Trace; 6]>) -> Vec<Trace> {
+        let rate = |derivative: Derivative| {
+            let mut derivatives = self.forcings.iter().map(|own| own.derivative);
+            derivatives.position(|own| own == derivative)
+        };
+        let filter = self.grid.low_pass_hz;
+        let filter = filter.map(|cutoff_hz| LowPassed::new(self.grid.all_s().collect(), cutoff_hz));
+        let fields = sums[0].clone();
+        let seen = |component: usize, derivative: Derivative| {
+            let Trace { samples, error } = &fields[component];
+            let order = match derivative {
+                Derivative::Field => 0,
+                Derivative::First => 1,
+                Derivative::Second => 2,
+            };
+            let found = |filter: &LowPassed| filter.of((samples, *error), order, self.wanted);
+            let found = filter.as_ref().map(found);
+            found.map(|(samples, error)| Trace { samples, error })
+        };
+        for (component, shown) in sums[0].iter_mut().enumerate() {
+            if let Some(own) = seen(component, Derivative::Field) {
+                *shown = own;
+            }
+        }
         let mut found = sums[0].to_vec();
         found.extend(self.quantities.iter().map(|&quantity| {
             let Some((derivative, component)) = quantity.rate() else {
                 return self.of_stresses(quantity, &sums[0]);
             };
-            let mut derivatives = self.forcings.iter().map(|own| own.derivative);
-            let place = derivatives.position(|own| own == derivative);
-            sums[place.unwrap_or(0)][component].clone()
+            let computed = || sums[rate(derivative).unwrap_or(0)][component].clone();
+            seen(component, derivative).unwrap_or_else(computed)
         }));
         found
+    }
+
+    /// Forcings of the same derivatives for samples of another grid.
+    pub(crate) fn forcings_at<'g>(&self, grid: &Grid<'g>, wanted: &[usize]) -> Vec<Forcing<'g>> {
+        let of = |own: &Forcing<'_>| {
+            let sets = (self.sets.count(), own.parts);
+            Forcing::new(grid, wanted, own.derivative, sets)
+        };
+        self.forcings.iter().map(of).collect()
+    }
+
+    /// The same outputs at one instant in s, between two samples of one run: all that [`Self::at`] has at a sample, since a sum over
+    /// cells that end at the instant is that at a sample of a grid which begins a part of a step earlier.
+    pub(crate) fn at_instant(
+        &self,
+        point: &Point<'_>,
+        time_s: f64,
+    ) -> Result<Vec<[f64; 2]>, ImpactError> {
+        let (grid, last) = self.grid.ending_at(time_s);
+        let forcings = self.forcings_at(&grid, &[last]);
+        let found = self.traces_at(&forcings, point)?;
+        Ok(found
+            .iter()
+            .map(|trace| [trace.samples[0], trace.error])
+            .collect())
     }
 
     fn of_stresses(&self, quantity: Quantity, fields: &[Trace]) -> Trace {
@@ -224,41 +320,26 @@ impl<'a> Convolution<'a> {
         }
     }
 
-    /// Adds the echoes of a plate to the outputs of each forcing.
-    fn add_echoes(
-        &self,
-        echoes: &PlateEchoes,
-        place_m: [f64; 2],
-        sums: &mut [[Trace; 6]],
-    ) -> Result<(), ImpactError> {
-        for (all, own) in sums.iter_mut().zip(self.of_echoes(echoes, place_m)?) {
-            for (all, own) in all.iter_mut().zip(own) {
-                all.error += own.error;
-                for (all, own) in all.samples.iter_mut().zip(own.samples) {
-                    *all += own;
-                }
-            }
-        }
-        Ok(())
-    }
-
     /// Axial velocity by the echoes of a plate alone, in m/s; none without a plate, or where the quantities do not have it.
     pub(crate) fn echo_velocity(&self, place_m: [f64; 2]) -> Result<Option<Trace>, ImpactError> {
         let Some(echoes) = &self.echoes else {
             return Ok(None);
         };
-        let sums = self.of_echoes(echoes, place_m)?;
-        let all = self.forcings.iter().zip(sums);
-        let mut rates = all.filter(|(forcing, _)| forcing.derivative == Derivative::First);
-        Ok(rates.next().map(|(_, [_, axial, ..])| axial))
+        let (set, kernels) = self.echo_kernels(echoes, place_m)?;
+        let mut all = self.forcings.iter();
+        let Some(rate) = all.find(|forcing| forcing.derivative == Derivative::First) else {
+            return Ok(None);
+        };
+        let [_, axial, ..] = self.of_echoes(rate, set, &kernels)?;
+        Ok(Some(axial))
     }
 
-    /// The outputs of each forcing by the echoes of a plate alone.
-    fn of_echoes(
+    /// The kernels of the echoes of a plate at a point, with the number of their set of discs.
+    fn echo_kernels(
         &self,
         echoes: &PlateEchoes,
         place_m: [f64; 2],
-    ) -> Result<Vec<[Trace; 6]>, ImpactError> {
+    ) -> Result<(usize, PointKernels<'_>), ImpactError> {
         let image_m = echoes.image_m(place_m);
         let radius_m = self.grid.excitation.units().disc_radius_m;
         let set = self.sets.choose_for_echoes(image_m.map(|x| x / radius_m));
@@ -269,14 +350,24 @@ impl<'a> Convolution<'a> {
             echoes.cells(place_m, disc_radius_m, &wanted)
         });
         let cells: Vec<Cells> = cells.collect::<Result<_, _>>()?;
-        let kernels = PointKernels::new(&self.forcings[0], discs, (place_m, Some(image_m)), cells);
-        let of = |forcing: &Forcing<'_>| {
-            let loads = forcing.loads(set, discs);
-            let mut own = Sums::new(forcing, loads, &kernels)?;
-            own.integrate_zones(forcing, loads, &kernels, |_| false);
-            Ok(self.traces(forcing, &kernels, &own, false))
-        };
-        self.forcings.iter().map(of).collect()
+        let placed = (place_m, Some(image_m));
+        Ok((
+            set,
+            PointKernels::new(&self.forcings[0], discs, placed, cells),
+        ))
+    }
+
+    /// The outputs of a forcing by the echoes of a plate alone.
+    fn of_echoes(
+        &self,
+        forcing: &Forcing<'_>,
+        set: usize,
+        kernels: &PointKernels<'_>,
+    ) -> Result<[Trace; 6], ImpactError> {
+        let loads = forcing.loads(set, kernels.discs);
+        let mut own = Sums::new(forcing, loads, kernels)?;
+        own.integrate_zones(forcing, loads, kernels, |_| false);
+        Ok(self.traces(forcing, kernels, &own, false))
     }
 
     /// The place in radii of a disc of a radius `over` the largest, this radius in m, and the cells as far as the outputs need them,
@@ -371,6 +462,16 @@ impl<'a> Convolution<'a> {
             Trace { samples, error }
         };
         std::array::from_fn(of)
+    }
+}
+
+/// Adds traces to others, with their errors.
+fn add_traces(all: &mut [Trace; 6], own: [Trace; 6]) {
+    for (all, own) in all.iter_mut().zip(own) {
+        all.error += own.error;
+        for (all, own) in all.samples.iter_mut().zip(own.samples) {
+            *all += own;
+        }
     }
 }
 

@@ -116,6 +116,12 @@ impl Sets {
         found.unwrap_or(looked_up.len() - 1)
     }
 
+    /// The same for a place in m.
+    pub(crate) fn choose_for(&self, excitation: &Excitation, place_m: [f64; 2]) -> usize {
+        let radius_m = excitation.units().disc_radius_m;
+        self.choose(place_m.map(|x| x / radius_m))
+    }
+
     /// The set for a point whose kernels are computed.
     pub(crate) fn choose_computed(&self, [r, z]: [f64; 2]) -> usize {
         let distance = r.hypot(z);
@@ -151,8 +157,7 @@ impl PointPlan {
         asked: &[(Derivative, &[f64])],
         place_m: [f64; 2],
     ) -> Self {
-        let radius_m = excitation.units().disc_radius_m;
-        let set = sets.choose(place_m.map(|x| x / radius_m));
+        let set = sets.choose_for(excitation, place_m);
         if !sets.follows || sets.reach.is_some() {
             return Self {
                 set,

@@ -81,6 +81,7 @@ fn worst(order: Derivative, duration: f64, place: [f64; 2], tolerance: f64) -> [
         frames: None,
         farthest_m: Some(place[0].hypot(place[1])),
         plate_s: None,
+        low_pass_hz: None,
     };
     let grid = Grid::new(&wanted, &excitation, Some(&source)).unwrap();
     let times: Vec<f64> = grid.times_s().collect();
@@ -168,6 +169,7 @@ fn rates_of_shares_are_those_of_their_forces() {
         frames: None,
         farthest_m: Some(1.0),
         plate_s: None,
+        low_pass_hz: None,
     };
     let grid = Grid::new(&wanted, &excitation, None).unwrap();
     let [forces, rates] = [Derivative::Field, Derivative::First]

@@ -97,6 +97,7 @@ fn grid<'e>(
         frames: None,
         farthest_m: Some(farthest),
         plate_s: None,
+        low_pass_hz: None,
     };
     Grid::new(&wanted, excitation, Some(source)).unwrap()
 }
@@ -154,6 +155,7 @@ fn discs_agree_with_frequency_and_wavenumber_integrals() {
                 frames: None,
                 farthest_m: Some(1.0),
                 plate_s: None,
+                low_pass_hz: None,
             };
             // the step that would be chosen, less what brings the row's time onto a sample
             let chosen = Grid::new(&wanted, &excitation, Some(&source)).unwrap();
@@ -225,6 +227,7 @@ fn far_away_few_discs_are_enough() {
                     frames: None,
                     farthest_m: Some(distance),
                     plate_s: None,
+                    low_pass_hz: None,
                 };
                 let source = KernelSource::direct(excitation.medium(), 1e-1 * tolerance).unwrap();
                 let grid = Grid::new(&wanted, &excitation, Some(&source)).unwrap();
@@ -391,6 +394,7 @@ fn worst_of_samples(
         frames: None,
         farthest_m: Some(place_m[0].hypot(place_m[1])),
         plate_s: None,
+        low_pass_hz: None,
     };
     let grid = Grid::new(&wanted, excitation, Some(&source)).unwrap();
     let times: Vec<f64> = grid.times_s().collect();
@@ -456,6 +460,7 @@ fn what_arrives_from_the_turning_point_of_a_contact_that_yields_is_within_its_es
                 frames: None,
                 farthest_m: Some(0.02),
                 plate_s: None,
+                low_pass_hz: None,
             };
             let grid = Grid::new(&wanted, excitation, Some(&source)).unwrap();
             let times: Vec<f64> = grid.times_s().collect();

@@ -1,9 +1,10 @@
 //! Fields of an excitation at points of the half-space.
 //!
-//! `probes` has those at the probes of a scene and on its section; `faces` warns of the faces of a block that a half-space does
+//! `probes` has those at the probes of a scene and on its section, `peaks` their largest values over time; `faces` warns of the faces of a block that a half-space does
 //! not have.
 
 pub(crate) mod faces;
+pub(crate) mod peaks;
 pub(crate) mod probes;
 pub(crate) mod sensors;
 
@@ -93,6 +94,7 @@ impl Fields<'_> {
             frames: None,
             farthest_m: Some(r_m.hypot(z_m)),
             plate_s: None,
+            low_pass_hz: None,
         };
         let grid = Grid::new(&wanted, self.excitation, Some(&self.source))?;
         let time_s: Vec<f64> = grid.times_s().collect();

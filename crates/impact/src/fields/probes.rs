@@ -4,6 +4,7 @@ use crate::convolution::{Convolution, Trace};
 use crate::cost::Forecast;
 use crate::error::{ImpactError, finite};
 use crate::excitation::Excitation;
+use crate::fields::peaks::{Peak, peaks};
 use crate::grid::{Grid, Wanted};
 use crate::kernels::KernelSource;
 use crate::quantity::Quantity;
@@ -33,6 +34,8 @@ pub struct ProbeFields {
     pub values: Vec<Vec<Vec<f64>>>,
     /// Estimated error of each, one value a probe.
     pub errors: Vec<Vec<f64>>,
+    /// Largest values over continuous time of each, where the scene asks for them.
+    pub peaks: Option<Vec<Peaks>>,
 }
 
 /// Arrivals of the waves of a plate that have run between its faces; none on a half-space.
@@ -91,47 +94,51 @@ pub struct SectionFields {
     pub values: Vec<Vec<f32>>,
     /// Estimated error of each at each point.
     pub errors: Vec<Vec<f64>>,
-    /// Largest values over all samples in time of each, where the scene asks for them.
+    /// Largest values over continuous time of each, where the scene asks for them.
     pub peaks: Option<Vec<Peaks>>,
 }
 
-/// Where a history is largest in magnitude.
+/// Where a history is largest in magnitude, between its samples too.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Peaks {
     /// The value there, with its sign, at each place.
     pub values: Vec<f64>,
     /// When, in s.
     pub time_s: Vec<f64>,
+    /// Estimated absolute error of the value.
+    pub errors: Vec<f64>,
 }
 
 impl Peaks {
     /// Adds the peak of the next place.
-    pub fn push(&mut self, time_s: &[f64], samples: &[f64]) {
-        let [value, time_s] = peak(time_s, samples);
-        self.values.push(value);
-        self.time_s.push(time_s);
+    fn push(&mut self, peak: Peak) {
+        self.values.push(peak.value);
+        self.time_s.push(peak.time_s);
+        self.errors.push(peak.error);
     }
 }
 
-/// The first sample of the largest magnitude, with its sign, and its time; zeros without samples.
-fn peak(time_s: &[f64], samples: &[f64]) -> [f64; 2] {
-    let all = samples.iter().zip(time_s);
-    let all = all.map(|(&value, &time_s)| [value, time_s]);
-    let larger = |most: [f64; 2], one: [f64; 2]| match one[0].abs() > most[0].abs() {
-        true => one,
-        false => most,
-    };
-    all.reduce(larger).unwrap_or_default()
+/// The outputs at a point with their peaks, if these are asked for.
+fn with_peaks(
+    convolution: &Convolution<'_>,
+    place_m: [f64; 2],
+    all_s: Option<&[f64]>,
+) -> Result<(Vec<Trace>, Vec<Peak>), ImpactError> {
+    let point = convolution.point(place_m)?;
+    let traces = convolution.sampled(&point)?;
+    let peaks = all_s.map(|all_s| peaks(convolution, &point, all_s, &traces));
+    Ok((traces, peaks.transpose()?.unwrap_or_default()))
 }
 
 /// The fields at probes, at the samples that are wanted.
 pub(crate) fn at_probes(
     convolution: &Convolution<'_>,
     block: &HalfSpace,
-    probes: &[Probe],
+    (probes, asks_peaks): (&[Probe], bool),
 ) -> Result<ProbeFields, ImpactError> {
-    let found = (probes.par_iter()).map(|probe| convolution.at(probe.r_m, probe.z_m));
-    let found: Vec<Vec<Trace>> = found.collect::<Result<_, _>>()?;
+    let all_s = asks_peaks.then(|| convolution.times_s());
+    let of = |probe: &Probe| with_peaks(convolution, [probe.r_m, probe.z_m], all_s.as_deref());
+    let found: Vec<_> = probes.par_iter().map(of).collect::<Result<_, _>>()?;
     let quantities = convolution.quantities.to_vec();
     let count = 6 + quantities.len();
     let mut fields = ProbeFields {
@@ -143,10 +150,14 @@ pub(crate) fn at_probes(
         quantities,
         values: vec![Vec::new(); count],
         errors: vec![Vec::new(); count],
+        peaks: asks_peaks.then(|| vec![Peaks::default(); count]),
     };
     let excitation = convolution.grid.excitation;
     let (speeds, radius_m) = (excitation.speeds(), excitation.units().disc_radius_m);
-    for (found, probe) in found.into_iter().zip(probes) {
+    for ((found, peaks), probe) in found.into_iter().zip(probes) {
+        for (all, peak) in fields.peaks.iter_mut().flatten().zip(peaks) {
+            all.push(peak);
+        }
         let place_m = [probe.r_m, probe.z_m];
         fields.arrival_s.push(excitation.arrivals_s(place_m));
         let echo_s = speeds.first_echo_s(block, place_m, radius_m);
@@ -222,9 +233,12 @@ pub(crate) fn on_rows(
     };
     for row in 0..fields.z_m.len() {
         let z_m = fields.z_m[row];
-        let found = fields.r_m.par_iter().map(|&r_m| convolution.at(r_m, z_m));
-        let found: Vec<Vec<Trace>> = found.collect::<Result<_, _>>()?;
-        for (column, found) in found.into_iter().enumerate() {
+        let of = |&r_m: &f64| with_peaks(convolution, [r_m, z_m], peaks.then_some(&all_s[..]));
+        let found: Vec<_> = fields.r_m.par_iter().map(of).collect::<Result<_, _>>()?;
+        for (column, (found, peaks)) in found.into_iter().enumerate() {
+            for (all, peak) in fields.peaks.iter_mut().flatten().zip(peaks) {
+                all.push(peak);
+            }
             let place_m = [fields.r_m[column], z_m];
             let arrivals = convolution.grid.excitation.arrivals_s(place_m);
             for (times, time) in fields.arrival_s.iter_mut().zip(arrivals) {
@@ -236,9 +250,6 @@ pub(crate) fn on_rows(
                     fields.values[quantity][frame * size + place] = samples[n] as f32;
                 }
                 fields.errors[quantity].push(error);
-                if let Some(peaks) = &mut fields.peaks {
-                    peaks[quantity].push(&all_s, &samples);
-                }
             }
         }
     }
@@ -250,9 +261,8 @@ pub(crate) fn on_rows(
 pub struct ProbePeaks {
     /// Whether the kernels were looked up rather than computed.
     pub looked_up: bool,
-    /// Of each probe each of the six fields and then each quantity of the scene: the value of largest magnitude over the
-    /// samples, with its sign, when it is reached in s, and the estimated absolute error of the field.
-    pub peaks: Vec<[f64; 3]>,
+    /// Of each probe each of the six fields and then each quantity of the scene.
+    pub peaks: Vec<Peak>,
 }
 
 /// Memory in bytes that the fields of one row may take.
@@ -293,12 +303,11 @@ fn peaks_from(
     let asked = (&scene.quantities[..], Some(&scene.target));
     let convolution = Convolution::new(source, &grid, &wanted, asked, &|| {})?;
     for probe in &scene.probes {
-        for Trace { samples, error } in convolution.at(probe.r_m, probe.z_m)? {
-            let [value, time_s] = peak(&time_s, &samples);
-            found.peaks.push([value, time_s, error]);
-        }
+        let (_, peaks) = with_peaks(&convolution, [probe.r_m, probe.z_m], Some(&time_s))?;
+        found.peaks.extend(peaks);
     }
-    let peaks = found.peaks.iter().flatten().copied();
+    let peaks = found.peaks.iter();
+    let peaks = peaks.flat_map(|one| [one.value, one.time_s, one.error]);
     finite(|| "the peak of a field at a probe".to_owned(), peaks)?;
     Ok(found)
 }

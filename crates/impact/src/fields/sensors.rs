@@ -24,7 +24,7 @@ pub struct SensorHistory {
     pub mean: Trace,
     /// Output of the response; the mean itself without one.
     pub output: Vec<f64>,
-    /// Estimated error of each sample of it; zero before the first arrival.
+    /// Estimated error of each sample of it; zero before the first arrival, unless the output has a low pass.
     pub output_error: Vec<f64>,
 }
 
@@ -74,7 +74,9 @@ fn history(
     let arrival_s = excitation.arrivals_s(sensor.nearest_m());
     let reach_m = radius_m + sensor.face_radius_m;
     let echo_s = speeds.first_echo_s(&scene.target, [sensor.r_m, sensor.z_m], reach_m);
-    let error = |time_s: &f64| match *time_s < arrival_s[0] {
+    // a low pass without delay sees the arrival before
+    let is_still = |time_s: f64| convolution.grid.low_pass_hz.is_none() && time_s < arrival_s[0];
+    let error = |time_s: &f64| match is_still(*time_s) {
         true => 0.0,
         false => mean.error,
     };

@@ -125,6 +125,7 @@ fn motion(
         frames: None,
         farthest_m: None,
         plate_s: None,
+        low_pass_hz: None,
     };
     let source = KernelSource::direct(excitation.medium(), tolerance)?;
     let grid = Grid::new(&wanted, excitation, Some(&source))?;

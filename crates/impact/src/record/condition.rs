@@ -1,8 +1,8 @@
 //! Treatments of a record before it loads the half-space: subtraction of a baseline, low pass.
 
 use crate::record::jump::jumps;
-use crate::record::low_pass::{Rows, allowed_hz, low_pass};
 use crate::record::{ForceRecord, Treated};
+use crate::sampled::low_pass::{Rows, allowed_hz, low_pass};
 use thiserror::Error;
 
 /// A treatment that is impossible for the record.

@@ -1,12 +1,11 @@
 //! A measured or prescribed force history: linear between its samples.
 //!
-//! `jump` has its jumps, `blow` the beginning and end of its main pulse, `condition` and `low_pass` its treatments, and
+//! `jump` has its jumps, `blow` the beginning and end of its main pulse, `condition` its treatments, and
 //! `stretch` the parts in which it changes.
 
 pub(crate) mod blow;
 pub(crate) mod condition;
 pub(crate) mod jump;
-mod low_pass;
 pub(crate) mod stretch;
 
 use crate::record::jump::{Jump, MOST_JUMPS, follows, jumps, rounded_up};

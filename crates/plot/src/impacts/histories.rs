@@ -273,7 +273,7 @@ fn probe_panel(
 }
 
 /// Words for the place of a probe.
-fn place(r_m: f64, z_m: f64) -> String {
+pub(super) fn place(r_m: f64, z_m: f64) -> String {
     let (r, z) = (with_unit(r_m, "m"), with_unit(z_m, "m"));
     match (r_m > 0.0, z_m > 0.0) {
         (false, false) => "at the centre of the contact".to_owned(),

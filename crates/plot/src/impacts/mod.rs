@@ -1,6 +1,6 @@
 //! Figures of impacts, one kind of picture after the other.
 //!
-//! `histories` draws the contact and the probes over time, `spectrum` the spectrum of the force; `labels` names several
+//! `histories` draws the contact and the probes over time, `spectrum` the spectra of the force and at the probes; `labels` names several
 //! impacts.
 
 mod histories;
@@ -16,7 +16,7 @@ use figure::{Figure, Sharing};
 use formats::stored::{StoredImpact, Value};
 use histories::{FEW_PROBES, contact_names, contact_panels, loop_panel, probe_panels};
 use labels::labels;
-use spectrum::spectrum;
+use spectrum::spectra;
 use std::collections::BTreeMap;
 use std::{mem, slice};
 
@@ -33,7 +33,11 @@ pub(crate) fn of_impacts(impacts: &[StoredImpact], request: &Request) -> Drawn<F
     let one = || only(impacts, kind);
     let panel = match kind {
         PictureKind::Loop => loop_panel(impacts, &labels(impacts))?,
-        PictureKind::Spectrum => spectrum(impacts, &labels(impacts))?,
+        PictureKind::Spectrum => {
+            let panels = spectra(impacts, &labels(impacts), request)?;
+            let columns = panels.len().min(2);
+            return Ok((headed(impacts, request, columns).panels(panels), Vec::new()));
+        }
         PictureKind::Peak => {
             let (mut panel, notes) = peak(one()?, request)?;
             // in the subtitle: a star at the surface would cover the title of the panel

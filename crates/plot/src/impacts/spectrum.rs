@@ -1,12 +1,15 @@
-//! The amplitude spectrum of a force.
+//! Amplitude spectra of a force and of the histories that it causes.
 
-use crate::error::PlotError;
+use crate::error::{PlotError, chosen};
+use crate::impacts::histories::{FEW_PROBES, place};
+use crate::request::Request;
 use crate::series::loaded;
-use crate::words::with_unit;
+use crate::words::{component, of_quantity, with_unit};
 use figure::{Axis, Layer, Panel, Style};
+use formats::quantities::Described;
 use formats::stored::StoredImpact;
 use halfspace::bisected;
-use std::f64::consts::PI;
+use std::f64::consts::{FRAC_1_SQRT_2, PI};
 
 /// Number of frequencies of a spectrum.
 const FREQUENCIES: usize = 1200;
@@ -14,59 +17,162 @@ const FREQUENCIES: usize = 1200;
 /// Largest number of samples from which a spectrum is computed.
 const MOST_SPECTRUM_SAMPLES: usize = 20_000;
 
-/// Spectra of forces, one curve per impact; a single one with its corner frequency and zeros.
-pub(super) fn spectrum(impacts: &[StoredImpact], labels: &[String]) -> Result<Panel, PlotError> {
-    let mut panel = Panel::new(
-        Axis::logarithmic("frequency").si("Hz"),
-        Axis::logarithmic("amplitude of the force").si("N s"),
-    )
-    .height(380.0);
-    let mut plateau = 0.0_f64;
-    let pulses = impacts.iter().map(|impact| {
-        let pulse = ForcePulse::new(&impact.series.time_s, &impact.series.force_n);
-        let found = pulse.frequencies();
-        found.map(|frequencies| (pulse, frequencies))
+/// Decades of amplitude below the largest that a spectrum shows.
+const SHOWN: f64 = 1e-5;
+
+/// The spectrum of the force, and of a single impact next to it those of the first probes: the quantities that a picture of
+/// probes shows.
+pub(super) fn spectra(
+    impacts: &[StoredImpact],
+    labels: &[String],
+    request: &Request,
+) -> Result<Vec<Panel>, PlotError> {
+    let (force, source) = of_forces(impacts, labels)?;
+    let [impact] = impacts else {
+        return Ok(vec![force]);
+    };
+    let Some(probes) = impact.probes()? else {
+        return Ok(vec![force]);
+    };
+    let known = probes.quantities();
+    let usual = ["displacement_z", "displacement_r"];
+    let shown = chosen(impact.path(), &known, &request.quantities, &usual)?;
+    let mut panels = vec![force];
+    for probe in 0..probes.r_m.len().min(FEW_PROBES) {
+        let mut by_unit: Vec<Vec<&Described>> = Vec::new();
+        for quantity in shown.iter().map(|&number| &known[number]) {
+            match by_unit.iter_mut().find(|of| of[0].unit == quantity.unit) {
+                Some(of_unit) => of_unit.push(quantity),
+                None => by_unit.push(vec![quantity]),
+            }
+        }
+        for of_unit in by_unit {
+            let mut curves = Vec::new();
+            for quantity in &of_unit {
+                let samples = probes.trace(&quantity.name, probe)?;
+                curves.push((component(&quantity.name), samples));
+            }
+            let name = match &of_unit[..] {
+                [single] => of_quantity(&single.name),
+                several => several[0].name.split('_').take(1).collect(),
+            };
+            let labels = (name.as_str(), of_unit[0].unit.as_str());
+            let panel = of_histories(labels, &impact.series.time_s, &curves, &source);
+            let title = place(probes.r_m[probe], probes.z_m[probe]);
+            panels.extend(panel.map(|panel| panel.title(&title)));
+        }
+    }
+    Ok(panels)
+}
+
+/// The part of a spectrum that its source decides: the limits of the frequency axis in Hz, the corner (-3 dB) if there is one, and
+/// the first zeros.
+pub(super) struct Source {
+    limits_hz: [f64; 2],
+    corner_hz: Option<f64>,
+    zeros_hz: Vec<f64>,
+}
+
+/// A panel with the spectra of some histories, each with its name, over the frequencies of their source, whose corner and zeros are
+/// marked; none if all are zero. `quantity` has a name and a unit.
+pub(super) fn of_histories(
+    (quantity, unit): (&str, &str),
+    time_s: &[f64],
+    curves: &[(String, Vec<f64>)],
+    source: &Source,
+) -> Option<Panel> {
+    let spectra = curves.iter().filter_map(|(name, samples)| {
+        let history = History::new(time_s, samples);
+        (history.squares_s > 0.0).then(|| (name, history.spectrum(source.limits_hz)))
     });
-    let pulses: Vec<_> = pulses.collect();
-    // several curves begin at the same frequency
-    let lows = pulses.iter().flatten().map(|(_, [low, _])| *low);
-    let low = lows.fold(f64::INFINITY, f64::min);
-    for ((impact, label), pulse) in impacts.iter().zip(labels).zip(&pulses) {
-        let Some((pulse, [_, high])) = pulse else {
+    let spectra: Vec<_> = spectra.collect();
+    let all = spectra.iter().flat_map(|(_, points)| points);
+    let largest = all.map(|point| point.1).fold(0.0, f64::max);
+    let unit = match unit {
+        "1" => "s".to_owned(),
+        unit => format!("{unit} s"),
+    };
+    let mut panel = empty(&format!("amplitude of the {quantity}"), &unit, largest);
+    for (name, points) in &spectra {
+        let name = if curves.len() == 1 { "" } else { name };
+        panel = panel.line(name, Style::Plain, points.clone());
+    }
+    if let Some(corner_hz) = source.corner_hz {
+        panel = panel.mark(corner_hz, "corner of the force");
+    }
+    for (i, zero_hz) in source.zeros_hz.iter().enumerate() {
+        panel = panel.mark(*zero_hz, if i == 0 { "zero" } else { "" });
+    }
+    (!spectra.is_empty()).then_some(panel)
+}
+
+fn empty(quantity: &str, unit: &str, largest: f64) -> Panel {
+    let (frequency, amplitude) = (
+        Axis::logarithmic("frequency").si("Hz"),
+        Axis::logarithmic(quantity).si(unit),
+    );
+    let mut panel = Panel::new(frequency, amplitude).height(380.0);
+    panel.y = panel.y.range(SHOWN * largest, 2.0 * largest);
+    panel
+}
+
+/// Spectra of forces, one curve per impact; a single one with its corner frequency and zeros.
+fn of_forces(impacts: &[StoredImpact], labels: &[String]) -> Result<(Panel, Source), PlotError> {
+    let mut pulses = Vec::new();
+    for impact in impacts {
+        let pulse = History::new(&impact.series.time_s, &impact.series.force_n);
+        let Some(limits) = pulse.frequencies() else {
             let hint = "it is zero throughout";
             return Err(PlotError::absent(impact.path(), "force", hint));
         };
-        let points = pulse.spectrum([low, *high]);
-        plateau = points.iter().map(|p| p.1).fold(plateau, f64::max);
+        pulses.push((pulse, limits));
+    }
+    // several curves begin at the same frequency
+    let lows = pulses.iter().map(|(_, [low, _])| *low);
+    let low = lows.fold(f64::INFINITY, f64::min);
+    let mut source = Source {
+        limits_hz: [low, pulses[0].1[1]],
+        corner_hz: None,
+        zeros_hz: Vec::new(),
+    };
+    let spectra = pulses
+        .iter()
+        .map(|(pulse, [_, high])| pulse.spectrum([low, *high]));
+    let spectra: Vec<_> = spectra.collect();
+    let all = spectra.iter().flatten();
+    let plateau = all.map(|point| point.1).fold(0.0, f64::max);
+    let mut panel = empty("amplitude of the force", "N s", plateau);
+    for (points, label) in spectra.iter().zip(labels) {
         let name = if impacts.len() == 1 { "" } else { label };
         panel = panel.line(name, Style::Plain, points.clone());
-        if impacts.len() > 1 {
-            continue;
-        }
-        if let Some((corner, amplitude)) = pulse.corner(&points) {
-            let text = format!("corner {}", with_unit(corner, "Hz"));
+    }
+    if let ([(pulse, _)], [points]) = (&pulses[..], &spectra[..]) {
+        if let Some((corner, amplitude)) = pulse.corner(points) {
+            let text = format!("corner {} (\u{2212}3 dB)", with_unit(corner, "Hz"));
             panel = panel.layer(Layer::star((corner, amplitude), &text));
+            source.corner_hz = Some(corner);
         }
-        for (i, zero) in pulse.zeros(&points).into_iter().take(4).enumerate() {
+        source.zeros_hz = pulse.zeros(points);
+        source.zeros_hz.truncate(4);
+        for (i, &zero) in source.zeros_hz.iter().enumerate() {
             let word = if i == 0 { "zero " } else { "" };
             panel = panel.mark(zero, &format!("{word}{}", with_unit(zero, "Hz")));
         }
     }
-    panel.y = panel.y.range(1e-5 * plateau, 2.0 * plateau);
-    Ok(panel)
+    Ok((panel, source))
 }
 
-/// A force that is linear between samples, from its first to its last nonzero sample.
-struct ForcePulse {
+/// A force or another history that is linear between samples, from its first to its last nonzero sample.
+struct History {
     time_s: Vec<f64>,
-    force_n: Vec<f64>,
-    /// Integral of the squared force divided by the square of the largest force, in s.
+    values: Vec<f64>,
+    /// Integral of the squared values divided by the square of the largest, in s; 0 if all are zero.
     squares_s: f64,
-    /// Mean step in s of all samples, weighted by their share of that integral; 0 for zero force.
+    /// Mean step in s of all samples, weighted by their share of that integral.
     step_s: f64,
 }
 
-impl ForcePulse {
+impl History {
     /// Selects the samples: of more than [`MOST_SPECTRUM_SAMPLES`], those with the largest deviation from straight
     /// lines.
     fn new(time_s: &[f64], force_n: &[f64]) -> Self {
@@ -87,8 +193,8 @@ impl ForcePulse {
         }
         Self {
             time_s: kept.iter().map(|&i| time_s[i]).collect(),
-            force_n: with_their_area(time_s, force_n, &kept),
-            squares_s,
+            values: with_their_area(time_s, force_n, &kept),
+            squares_s: if largest > 0.0 { squares_s } else { 0.0 },
             step_s: squares_s / weights,
         }
     }
@@ -100,7 +206,7 @@ impl ForcePulse {
     /// ```
     fn amplitude(&self, frequency: f64) -> f64 {
         let (mut re, mut im) = (0.0, 0.0);
-        for (t, p) in self.time_s.windows(2).zip(self.force_n.windows(2)) {
+        for (t, p) in self.time_s.windows(2).zip(self.values.windows(2)) {
             let h = t[1] - t[0];
             let x = PI * frequency * h;
             let (mean, half) = (0.5 * (p[0] + p[1]), 0.5 * (p[1] - p[0]));
@@ -118,20 +224,24 @@ impl ForcePulse {
         re.hypot(im)
     }
 
-    /// Limits of the frequency axis: far below the corner, and up to the resolution of the samples.
+    /// Limits of the frequency axis: far below the corner, and up to six over the length of the pulse, beyond its first zeros.
     ///
-    /// The length of the pulse determines the upper end, not the length of its record. It is the length of Hertz's
-    /// pulse with the same largest force and the same integral of the squared force.
+    /// The length of the pulse determines both, not the length of its record. It is the length of Hertz's pulse with the same
+    /// largest force and the same integral of the squared force. A record of few samples in a pulse shows less.
     fn frequencies(&self) -> Option<[f64; 2]> {
         /// Length of Hertz's pulse divided by the integral of its squared force in units of the largest force: 3 pi/4.
         const HERTZ_LENGTH: f64 = 0.75 * PI;
+        const LIMITS: [f64; 2] = [0.02, 6.0];
         let whole_s = self.time_s[self.time_s.len() - 1] - self.time_s[0];
         if !(whole_s > 0.0 && self.squares_s > 0.0) {
             return None;
         }
         let length_s = (HERTZ_LENGTH * self.squares_s).min(whole_s);
         let samples = length_s / self.step_s;
-        Some([0.02 / whole_s, (0.1 * samples).clamp(4.0, 20.0) / length_s])
+        Some([
+            LIMITS[0] / length_s,
+            LIMITS[1].min(0.5 * samples) / length_s,
+        ])
     }
 
     /// Amplitudes over a range of frequencies.
@@ -143,13 +253,13 @@ impl ForcePulse {
             .collect()
     }
 
-    /// The frequency at which the amplitude is half of the impulse.
+    /// The frequency at which the energy is half of that at 0 Hz, and the amplitude there.
     fn corner(&self, points: &[(f64, f64)]) -> Option<(f64, f64)> {
-        let half = 0.5 * points.first()?.1;
-        let below = points.iter().position(|p| p.1 < half)?;
+        let part = FRAC_1_SQRT_2 * self.amplitude(0.0);
+        let below = points.iter().position(|p| p.1 < part)?;
         let (low, high) = (points[below.checked_sub(1)?].0, points[below].0);
-        let corner = bisected(low, high, |frequency| self.amplitude(frequency) >= half);
-        Some((corner, half))
+        let corner = bisected(low, high, |frequency| self.amplitude(frequency) >= part);
+        Some((corner, part))
     }
 
     /// Frequencies of minima that are deep enough to look like zeros in a picture.
@@ -224,12 +334,12 @@ mod tests {
     #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
     use super::*;
 
-    fn pulse(force: impl Fn(f64) -> f64, samples: usize) -> ForcePulse {
+    fn pulse(force: impl Fn(f64) -> f64, samples: usize) -> History {
         let time_s: Vec<f64> = (0..=samples)
             .map(|i| 5e-6 * i as f64 / samples as f64)
             .collect();
         let force_n: Vec<f64> = time_s.iter().map(|t| force(t / 5e-6)).collect();
-        ForcePulse::new(&time_s, &force_n)
+        History::new(&time_s, &force_n)
     }
 
     #[test]
@@ -247,7 +357,7 @@ mod tests {
     }
 
     #[test]
-    fn hertz_pulse_has_its_zeros_at_seven_quarters_and_on() {
+    fn a_sine_to_the_power_of_one_and_a_half_has_its_zeros_at_seven_quarters_and_on() {
         // sin^1.5: 1/(Gamma(7/4 + x) Gamma(7/4 - x)) with x = f tc vanishes at 7/4, 11/4, ...
         let pulse = pulse(|x| (PI * x).sin().max(0.0).powf(1.5), 2000);
         let points = pulse.spectrum(pulse.frequencies().unwrap());
@@ -256,12 +366,12 @@ mod tests {
             assert!((zero * 5e-6 / exact - 1.0).abs() < 1e-3, "{zero}");
         }
         assert!(zeros.len() >= 3);
-        // where Gamma(7/4)^2/(Gamma(7/4 + x) Gamma(7/4 - x)) is one half
+        // -3 dB by Gamma functions: states of a pulse sin^1.5
         let corner = pulse.corner(&points).map_or(0.0, |c| c.0);
-        let gamma = |x: f64| stirling(x);
-        let x = corner * 5e-6;
-        let share = gamma(1.75).powi(2) / (gamma(1.75 + x) * gamma(1.75 - x));
-        assert!((share - 0.5).abs() < 1e-3, "{x}: {share}");
+        assert!(
+            (corner * 5e-6 / 0.659_927_21 - 1.0).abs() < 1e-4,
+            "{corner}"
+        );
     }
 
     #[test]
@@ -277,27 +387,15 @@ mod tests {
                 + force((t - 4.9e-3) / 5e-6) * f64::from(u8::from((4.9e-3..4.905e-3).contains(t)))
         };
         let force_n: Vec<f64> = time_s.iter().enumerate().map(of).collect();
-        let long = ForcePulse::new(&time_s, &force_n);
+        let long = History::new(&time_s, &force_n);
         assert!(long.time_s.len() <= MOST_SPECTRUM_SAMPLES);
         let [high, same] = [&long, &alone].map(|pulse| pulse.frequencies().unwrap()[1]);
         assert!((high / same - 1.0).abs() < 0.02, "{high} {same}");
-        let corner = |pulse: &ForcePulse| {
+        let corner = |pulse: &History| {
             let points = pulse.spectrum(pulse.frequencies().unwrap());
             pulse.corner(&points).unwrap().0
         };
         let [found, known] = [&long, &alone].map(corner);
         assert!((found / known - 1.0).abs() < 0.02, "{found} {known}");
-    }
-
-    /// Gamma(x) for x > 0.5 to 1e-9, by recurrence and Stirling's series.
-    fn stirling(x: f64) -> f64 {
-        let mut product = 1.0;
-        let mut x = x;
-        while x < 10.0 {
-            product *= x;
-            x += 1.0;
-        }
-        let series = 1.0 / (12.0 * x) - 1.0 / (360.0 * x.powi(3)) + 1.0 / (1260.0 * x.powi(5));
-        ((x - 0.5) * x.ln() - x + 0.5 * (2.0 * PI).ln() + series).exp() / product
     }
 }
