@@ -32,6 +32,7 @@ pub mod scene;
 mod report;
 #[cfg(feature = "hdf5")]
 mod hdf;
+pub mod traces;
 #[cfg(feature = "hdf5")]
 pub mod sweep;
 #[cfg(feature = "hdf5")]

@@ -1,11 +1,18 @@
 //! `hertzlamb infer`: yield pressure or velocity from a measured rebound.
 
+use crate::arguments::Overwrite;
 use crate::failure::{Failure, lines, show};
-use crate::report::si;
+use crate::report::{short, si};
 use clap::builder::PossibleValuesParser;
 use clap::{ArgGroup, Args};
 use contact::{Choice, Inferred, Measure, Unknown};
-use formats::read_scene;
+use formats::traces::{
+    Given, InferredForce, KnownOf, force_report, infer_force, read_traces, stage_force,
+};
+use formats::{read_scene, resolved};
+use impact::Scene;
+use inverse::Estimate;
+use output::{HDF5, Role};
 use serde::{Serialize, Serializer};
 use serde_json::Value;
 use std::fmt::{self, Display, Formatter};
@@ -14,7 +21,8 @@ use std::path::PathBuf;
 const EXAMPLES: &str = "Examples:
   hertzlamb infer scenes/plastic-drop.toml --restitution 0.56 --error 0.01
   hertzlamb infer scenes/plastic-drop.toml --bounces 0.32,0.18
-  hertzlamb infer scenes/plastic-drop.toml --peak-force 120 --error 3 --unknown velocity_m_s";
+  hertzlamb infer scenes/plastic-drop.toml --peak-force 120 --error 3 --unknown velocity_m_s
+  hertzlamb infer scenes/sensor-face.toml --trace trace.csv -o force.h5";
 
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES, group(ArgGroup::new("measured").required(true)))]
@@ -34,6 +42,12 @@ pub(crate) struct Arguments {
     /// Measured largest force in N.
     #[arg(long, group = "measured", value_name = "NEWTONS")]
     peak_force: Option<f64>,
+    /// Trace of the scene's sensors: text with a column of times and one for each sensor. Infers the force. Give the option
+    /// again for each repeated drop; the drops are aligned and averaged.
+    #[arg(long, group = "measured", value_name = "TRACE")]
+    trace: Vec<PathBuf>,
+    #[command(flatten)]
+    force: ForceArguments,
     /// Absolute error of the measured value; for bounces, of each of the two times.
     #[arg(long, default_value_t = 0.0)]
     error: f64,
@@ -45,8 +59,170 @@ pub(crate) struct Arguments {
     json: bool,
 }
 
+/// Options for a force from traces.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "With --trace")]
+struct ForceArguments {
+    /// File to write the force to (HDF5). Default: none.
+    #[arg(short, long, requires = "trace", value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// Standard deviation of white noise in the unit of the traces. Default: the noise before the first arrival.
+    #[arg(long, requires = "trace", value_name = "SIGMA")]
+    noise: Option<f64>,
+    /// Sensors, numbered from 1, whose gain is not known.
+    #[arg(
+        long,
+        requires = "trace",
+        value_name = "SENSORS",
+        value_delimiter = ','
+    )]
+    unknown_gains: Vec<usize>,
+    /// Known impulse in N s and its standard deviation.
+    #[arg(
+        long,
+        requires = "trace",
+        value_name = "VALUE,SD",
+        value_delimiter = ',',
+        num_args = 2
+    )]
+    impulse: Option<Vec<f64>>,
+    /// Times in s of the traces between which the force may differ from zero. Default: 1.3 fitted contact times.
+    #[arg(
+        long,
+        requires = "trace",
+        value_name = "FROM,TO",
+        value_delimiter = ',',
+        num_args = 2,
+        allow_negative_numbers = true
+    )]
+    window: Option<Vec<f64>>,
+    /// Weight of the squared second differences of the force in 1/N^2. Default: the most likely one.
+    #[arg(long, requires = "trace", value_name = "LAMBDA")]
+    lambda: Option<f64>,
+    /// Property of the striker that is trusted: the others follow from the force.
+    #[arg(long, requires = "trace", value_name = "PROPERTY", value_parser = PossibleValuesParser::new(KnownOf::ALL.iter().map(|one| one.name())))]
+    known: Option<String>,
+    /// Known restitution, by which the impulse is a momentum.
+    #[arg(long = "of-restitution", requires = "trace", value_name = "E")]
+    of_restitution: Option<f64>,
+    #[command(flatten)]
+    overwrite: Overwrite,
+}
+
+/// The force behind traces.
+fn run_traces(arguments: &Arguments, scene: &Scene) -> Result<(), Failure> {
+    let own = &arguments.force;
+    let mut read: Vec<Role> = vec![("the scene", arguments.scene.clone())];
+    read.extend(arguments.trace.iter().map(|path| ("a trace", path.clone())));
+    let claim = |path: &PathBuf| {
+        HDF5.check(path)?;
+        own.overwrite.claim(path, &read)
+    };
+    let output = own.output.as_ref().map(claim).transpose()?;
+    let blows = arguments.trace.iter().map(|path| read_traces(path));
+    let blows = blows.collect::<Result<Vec<_>, _>>()?;
+    let pair = |both: &Option<Vec<f64>>| both.as_ref().and_then(|own| own[..].try_into().ok());
+    let given = Given {
+        noise: own.noise,
+        unknown_gains: own.unknown_gains.clone(),
+        impulse_n_s: pair(&own.impulse),
+        lambda: own.lambda,
+        window_s: pair(&own.window),
+        known: own.known.as_deref().and_then(KnownOf::named),
+        restitution: own.of_restitution,
+    };
+    let force = infer_force(scene, &blows, &given)?;
+    if let Some(output) = &output {
+        stage_force(output, &resolved(scene), &force)?.commit()?;
+    }
+    show(arguments.json, &ForceReport(force))
+}
+
+/// The force behind traces.
+struct ForceReport(InferredForce);
+
+impl Serialize for ForceReport {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        force_report(&self.0).serialize(serializer)
+    }
+}
+
+impl Display for ForceReport {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let (fit, history) = (&self.0.found.fit, &self.0.found.history);
+        let of = |own: &Estimate, unit: &str| {
+            format!("{} +- {}", si(own.value, unit), short(own.sd, unit))
+        };
+        let start = Estimate {
+            value: fit.start_s.value + self.0.start_s,
+            ..fit.start_s
+        };
+        let mut text = vec![
+            ("peak force", of(&fit.peak_n, "N")),
+            ("contact time", of(&fit.duration_s, "s")),
+            ("start", of(&start, "s")),
+            ("impulse", of(&fit.impulse_n_s, "N s")),
+            (
+                "history",
+                format!(
+                    "peak {}, impulse {}, {} samples",
+                    of(&history.peak_n, "N"),
+                    of(&history.impulse_n_s, "N s"),
+                    history.force_n.len()
+                ),
+            ),
+            (
+                "agreement",
+                format!(
+                    "{:.4} % of the variance; chi-squared {:.3} a degree of freedom with the history, {:.3} with the fit",
+                    100.0 * history.variance_reduction,
+                    history.chi_squared / history.degrees_of_freedom,
+                    fit.chi_squared / fit.degrees_of_freedom.max(1) as f64
+                ),
+            ),
+        ];
+        for (i, noise) in (1..).zip(&self.0.found.noise) {
+            let how = match (&noise.quiet, noise.order) {
+                (None, _) => "given".to_owned(),
+                (Some(quiet), 0) => format!("white, of {} quiet samples", quiet.len()),
+                (Some(quiet), order) => {
+                    format!("coloured (order {order}), of {} quiet samples", quiet.len())
+                }
+            };
+            text.push((
+                "noise",
+                format!(
+                    "sensor {i}: standard deviation {:.3e}, {how}; signal to noise {:.0}",
+                    noise.sigma, noise.signal_to_noise
+                ),
+            ));
+        }
+        if let Some(own) = &self.0.ball {
+            text.push((
+                "ball",
+                format!(
+                    "radius {}, mass {}, velocity {}",
+                    of(&own.radius_m, "m"),
+                    of(&own.mass_kg, "kg"),
+                    of(&own.velocity_m_s, "m/s")
+                ),
+            ));
+        }
+        text.extend(
+            self.0
+                .momentum_n_s
+                .iter()
+                .map(|own| ("momentum", of(own, "N s"))),
+        );
+        f.write_str(&lines(text))
+    }
+}
+
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let scene = read_scene(&arguments.scene)?;
+    if !arguments.trace.is_empty() {
+        return run_traces(arguments, &scene);
+    }
     let unknown = Unknown::named(&arguments.unknown).unwrap_or(Unknown::YieldPressure);
     let mut one = [
         (Measure::Restitution, arguments.restitution),

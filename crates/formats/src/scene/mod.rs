@@ -7,7 +7,7 @@
 pub(crate) mod body;
 pub(crate) mod keys;
 mod read;
-mod record;
+pub(crate) mod record;
 mod response;
 pub(crate) mod section;
 

@@ -169,7 +169,7 @@ fn cut((time_s, force_n): Rows, reading: &Reading) -> Result<Rows, SceneError> {
 const PLAIN_COLUMNS: [&str; 2] = ["time_s", "force_n"];
 
 /// Units of time and force in s and N. The last of each list is another character for the same letter mu.
-const TIMES: [(&str, f64); 6] = [
+pub(crate) const TIMES: [(&str, f64); 6] = [
     ("s", 1.0),
     ("ms", 1e-3),
     ("us", 1e-6),
@@ -190,13 +190,16 @@ const FORCES: [(&str, f64); 8] = [
 /// Units in V of a sensor signal, which the sensitivity converts to force.
 const SIGNALS: [(&str, f64); 2] = [("V", 1.0), ("mV", 1e-3)];
 
+/// A way out of a missing unit.
+const UNITS: &str = "set force.units, such as [\"us\", \"kN\"]";
+
 /// The separator of columns in a line; none for blanks.
-pub(super) fn separator(line: &str) -> Option<char> {
+pub(crate) fn separator(line: &str) -> Option<char> {
     ['\t', ';', ','].into_iter().find(|&c| line.contains(c))
 }
 
 /// The columns of a line, without surrounding blanks and quotes.
-pub(super) fn columns(line: &str, by: Option<char>) -> Vec<&str> {
+pub(crate) fn columns(line: &str, by: Option<char>) -> Vec<&str> {
     let bare = |part| str::trim(part).trim_matches('"').trim();
     match by {
         Some(by) => line.split(by).map(bare).collect(),
@@ -205,7 +208,7 @@ pub(super) fn columns(line: &str, by: Option<char>) -> Vec<&str> {
 }
 
 /// A finite number; accepts a decimal comma if commas do not separate columns.
-pub(super) fn number(text: &str, by: Option<char>) -> Option<f64> {
+pub(crate) fn number(text: &str, by: Option<char>) -> Option<f64> {
     let number = match by {
         Some(',') => text.parse(),
         _ => text.replace(',', ".").parse(),
@@ -219,7 +222,7 @@ fn number_at(fields: &[&str], place: usize, by: Option<char>) -> Option<f64> {
 }
 
 /// The unit of a column: given, or the last part of its name, as in `Time [us]` or `F/kN`; empty if there is none.
-fn unit<'a>(name: &'a str, given: Option<&'a String>, own: &'static str) -> &'a str {
+pub(crate) fn unit<'a>(name: &'a str, given: Option<&'a String>, own: &'static str) -> &'a str {
     let named = || {
         let (_, end) = name.rsplit_once(['[', '(', '/'])?;
         Some(end.trim_end_matches([']', ')']).trim())
@@ -232,7 +235,13 @@ fn unit<'a>(name: &'a str, given: Option<&'a String>, own: &'static str) -> &'a 
 }
 
 /// The factor of the unit of a column.
-fn factor(name: &str, unit: &str, known: &[(&str, f64)], more: &str) -> Result<f64, String> {
+pub(crate) fn factor(
+    name: &str,
+    unit: &str,
+    known: &[(&str, f64)],
+    more: &str,
+    remedy: &str,
+) -> Result<f64, String> {
     let factor = known.iter().find(|(name, _)| *name == unit);
     factor.map(|(_, factor)| *factor).ok_or_else(|| {
         let names: Vec<&str> = known.iter().map(|(name, _)| *name).collect();
@@ -241,7 +250,7 @@ fn factor(name: &str, unit: &str, known: &[(&str, f64)], more: &str) -> Result<f
             unit => format!("has the unit \"{unit}\""),
         };
         format!(
-            "the column \"{name}\" {has}, but one of {}{more} is required: set force.units, such as [\"us\", \"kN\"]",
+            "the column \"{name}\" {has}, but one of {}{more} is required: {remedy}",
             // the last is another character for mu
             names[..names.len() - 1].join(", ")
         )
@@ -264,6 +273,7 @@ fn force_factor(name: &str, unit: &str, sensitivity: Option<f64>) -> Result<f64,
             unit,
             &FORCES,
             ", or V, mV with force.sensitivity_v_per_n",
+            UNITS,
         ),
     }
 }
@@ -308,7 +318,7 @@ fn from_text(text: &str, reading: &Reading) -> Result<Rows, (usize, String)> {
     let [of_time, of_force] = [("s", 0), ("N", 1)].map(|(own, i)| unit(names[i], given(i), own));
     let at_header = |reason: String| (line, reason);
     let factors = [
-        factor(names[0], of_time, &TIMES, "").map_err(at_header)?,
+        factor(names[0], of_time, &TIMES, "", UNITS).map_err(at_header)?,
         force_factor(names[1], of_force, reading.sensitivity_v_per_n).map_err(at_header)?,
     ];
     let (mut time_s, mut force_n): Rows = Default::default();

@@ -1,4 +1,5 @@
 //! Names and versions on disk, one file per format.
 
+pub mod force;
 pub mod results;
 pub mod sweep;
