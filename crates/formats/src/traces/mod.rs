@@ -180,7 +180,7 @@ pub fn infer_force(
     };
     let step_s = traces.step_s / oversampling as f64;
     let count = traces.samples[0].len();
-    let responses = Responses::of(scene, (step_s, count * oversampling), traces.step_s)?;
+    let responses = Responses::of(scene, (step_s, count * oversampling))?;
     let lead = responses.travel_steps();
     let mut problem = Problem {
         oversampling,
@@ -192,10 +192,16 @@ pub fn infer_force(
     };
     for (i, samples) in traces.samples.iter().enumerate() {
         let own = responses.of_sensor(i);
-        let (quiet, begins) = quiet(samples, given.noise);
+        let begins_s = begins_s(
+            samples,
+            traces.step_s,
+            &responses,
+            (i, &pulse, contact_s, step_s),
+        );
+        let arrives_s = begins_s + own.arrival as f64 * step_s;
+        let quiet = ((1.0 - NOT_QUIET) * arrives_s / traces.step_s).max(0.0) as usize;
         let is_unknown = given.unknown_gains.contains(&(i + 1));
-        let travels = own.shown as f64 * step_s;
-        let echo_s = own.echo_s + begins as f64 * traces.step_s - travels;
+        let echo_s = own.echo_s + begins_s;
         problem.traces.push(Trace {
             samples: samples.clone(),
             response: own.samples.clone(),
@@ -287,21 +293,30 @@ fn pulse(scene: &Scene) -> Result<(Pulse, Option<f64>), TraceError> {
     Ok((Pulse::sampled(&force_n)?, Some(contact_s)))
 }
 
-/// How many samples at the beginning are quiet, and the first that is part of the blow.
-fn quiet(samples: &[f64], noise: Option<f64>) -> (usize, usize) {
+/// About when a blow begins, in s after the first sample of a trace: its largest sample is where that of the law's pulse is; for a
+/// blow of unknown length no later than the first sample above the noise of its beginning.
+fn begins_s(
+    samples: &[f64],
+    trace_step_s: f64,
+    responses: &Responses,
+    (sensor, pulse, contact_s, step_s): (usize, &Pulse, Option<f64>, f64),
+) -> f64 {
     /// The least that a noise is measured of.
     const FEWEST: usize = 16;
-    let sigma = noise.unwrap_or_else(|| {
-        let first = &samples[..FEWEST.min(samples.len())];
-        let mean = first.iter().sum::<f64>() / first.len() as f64;
-        let square = first.iter().map(|x| (x - mean).powi(2)).sum::<f64>();
-        (square / first.len() as f64).sqrt()
-    });
     let largest = samples.iter().fold(0.0_f64, |a, x| a.max(x.abs()));
-    let level = (SEEN * sigma).max(1e-9 * largest);
-    let begins = samples.iter().position(|x| x.abs() > level);
-    let begins = begins.unwrap_or(samples.len());
-    ((begins as f64 * (1.0 - NOT_QUIET)) as usize, begins)
+    if let Some(contact_s) = contact_s {
+        let duration = (contact_s / step_s).round().max(1.0) as usize;
+        let expected = responses.largest(sensor, pulse, duration);
+        let found = samples.iter().position(|x| x.abs() >= largest).unwrap_or(0);
+        return found as f64 * trace_step_s - expected as f64 * step_s;
+    }
+    let first = &samples[..FEWEST.min(samples.len())];
+    let mean = first.iter().sum::<f64>() / first.len() as f64;
+    let square = first.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / first.len() as f64;
+    let level = (SEEN * square.sqrt()).max(1e-9 * largest);
+    let seen = samples.iter().position(|x| x.abs() > level);
+    let own = responses.of_sensor(sensor);
+    seen.unwrap_or(samples.len()) as f64 * trace_step_s - own.arrival as f64 * step_s
 }
 
 /// The ball and the momentum behind a fit.
