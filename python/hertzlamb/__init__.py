@@ -44,6 +44,7 @@ from hertzlamb._errors import (
     WorkError,
 )
 from hertzlamb._fields import Fields
+from hertzlamb._force import Force, infer_force
 from hertzlamb._impact import Impact, Inferred, Probes, Section, impact, infer, resolve
 from hertzlamb._materials import Material, Materials, materials
 from hertzlamb._sensors import Response, Sensor
@@ -55,6 +56,7 @@ __all__ = [
     "Collisions",
     "DomainError",
     "Fields",
+    "Force",
     "ForkError",
     "HertzlambError",
     "HertzlambWarning",
@@ -80,6 +82,7 @@ __all__ = [
     "collide",
     "impact",
     "infer",
+    "infer_force",
     "kernels",
     "materials",
     "resolve",

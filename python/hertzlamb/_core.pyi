@@ -12,6 +12,7 @@ _Tell = Callable[[int, int], object] | None
 _Path = str | PathLike[str]
 
 __all__ = [
+    "Force",
     "Outcome",
     "Plan",
     "Response",
@@ -21,6 +22,7 @@ __all__ = [
     "check_at_once",
     "describe",
     "extend",
+    "force",
     "impact",
     "infer",
     "kernel",
@@ -50,6 +52,25 @@ class Outcome:
     def sensors(self) -> list[dict[str, Any]]: ...
     def section(self) -> dict[str, Any] | None: ...
     def save(self, path: _Path, overwrite: bool, csv: bool) -> None: ...
+
+def force(
+    given: Any,
+    time_s: _Floats,
+    blows: list[list[_Floats]],
+    noise: float | None,
+    unknown_gains: list[int],
+    impulse_n_s: list[float] | None,
+    lambda_: float | None,
+    window_s: list[float] | None,
+    known: str | None,
+    restitution: float | None,
+) -> Force: ...
+@final
+class Force:
+    def report(self) -> dict[str, Any]: ...
+    def arrays(self) -> dict[str, Any]: ...
+    def scene(self) -> dict[str, Any]: ...
+    def save(self, path: _Path, overwrite: bool) -> None: ...
 
 @final
 class Response:

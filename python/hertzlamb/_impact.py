@@ -479,6 +479,20 @@ class Impact:
 
         return of_impact(self)
 
+    def to_stream(self) -> Any:
+        """Outputs of the sensors as an ObsPy Stream, one Trace each; needs ObsPy.
+
+        ``trace.stats.hertzlamb`` has the place, the quantity, the unit, and the arrivals in s. Write it as MiniSEED, which
+        keeps steps down to 1 ns: ``run.to_stream().write("impact.mseed", "MSEED")``. SAC and ObsPy round steps to 1 us.
+
+        Raises `SceneError` if the scene has no sensors.
+        """
+        from hertzlamb._stream import stream
+
+        if not self.sensors:
+            raise SceneError('the scene has no sensors: add some, "sensor": [{"r_m": 0.02, "z_m": 0.0}]', key="sensor")
+        return stream(self.sensors)
+
     def save(self, path: str | os.PathLike[str], *, overwrite: bool = False) -> None:
         """Writes all results to an HDF5 file.
 

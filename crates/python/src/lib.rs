@@ -25,6 +25,7 @@ mod sweep;
 mod table;
 mod tabulate;
 mod response;
+mod force;
 mod impact_outcome;
 
 use pyo3::prelude::*;
@@ -34,6 +35,7 @@ use pyo3::prelude::*;
 mod _core {
     #[pymodule_export]
     use crate::{
+        force::{Force, infer_force_of},
         impact_outcome::{Outcome, infer, run_impact},
         kernels::{arrivals, kernel, medium, static_field, surface, surface_centre},
         library::{describe, materials},
