@@ -59,6 +59,17 @@ const A_DECADE: f64 = 30.0;
 /// Circles of the rule around the axis over those of the rule beside it, for the same error.
 const AROUND: f64 = 0.6;
 
+/// Whether discs may stand for a face under a load of a radius.
+pub(crate) fn stands_in(radius_m: f64, face_m: f64) -> bool {
+    face_m > 0.0 && radius_m <= LARGEST_LOAD * face_m
+}
+
+/// The smallest and the largest radius in m of discs that stand for a face under a load of a radius.
+pub(crate) fn stand_in_radii(face_m: f64, radius_m: f64) -> [f64; 2] {
+    let [[low, _], ..] = FIVE;
+    [low * face_m, ALONE[0].sqrt() * face_m + radius_m]
+}
+
 /// Discs that stand for a load and a face.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct FaceDiscs {
@@ -188,8 +199,7 @@ impl Content {
         let allowed = OF_TOLERANCE * tolerance;
         let far_m = (r_m - face_m).max(0.0).hypot(z_m).max(0.1 * face_m);
         let waves = self.waves(face_m, far_m, derivative);
-        let load = self.radius_m / face_m;
-        let found = if load <= LARGEST_LOAD {
+        let found = if stands_in(self.radius_m, face_m) {
             self.discs(&waves, face_m, allowed)
         } else {
             None

@@ -5,6 +5,7 @@ use crate::convolution::plan::Sets;
 use crate::cost::{busy, computed_s};
 use crate::error::ImpactError;
 use crate::excitation::Excitation;
+use crate::face::{stand_in_radii, stands_in};
 use crate::grid::{Grid, Wanted};
 use crate::kernels::{KernelSource, table_error};
 use crate::quantity::Derivative;
@@ -172,17 +173,24 @@ pub(crate) fn choose_source(
     kernels: &KernelChoice,
     excitation: &Excitation,
 ) -> Result<Option<(KernelSource, String)>, ImpactError> {
-    let points = places(scene);
-    if points.is_empty() {
+    if scene.points() == 0 {
         return Ok(None);
     }
+    let points = places(scene, excitation.units().disc_radius_m);
     let (medium, tolerance) = (excitation.medium(), scene.settings.tolerance);
     let direct = |reason: String| -> Result<_, ImpactError> {
         let kernel = KernelSource::for_fields(medium, tolerance)?;
         Ok(Some((KernelSource::Direct(kernel), reason)))
     };
     let radius_m = excitation.units().disc_radius_m;
-    let [nearest, farthest] = span(points.iter().map(|place_m| place_m.map(|x| x / radius_m)));
+    let faces = faces(scene, radius_m);
+    let of_points = points.iter().map(|place_m| place_m.map(|x| x / radius_m));
+    let [widest, narrowest] = [1, 0].map(|end| {
+        let over = |(place_m, radii_m): &Face| place_m.map(|x| x / radii_m[end]);
+        faces.iter().map(over).collect::<Vec<[f64; 2]>>()
+    });
+    let [nearest, _] = span(of_points.clone().chain(widest));
+    let [_, farthest] = span(of_points.chain(narrowest.iter().copied()));
     let load = |tables: &Arc<dyn Tables>| {
         // in radii of the smallest disc
         let sets = Sets::new(excitation, tolerance, Some(tables.reach()), (1, false));
@@ -191,7 +199,7 @@ pub(crate) fn choose_source(
             let smallest = sets.get(sets.choose(place)).smallest();
             place.map(|x| x / smallest)
         });
-        let [_, far] = span(seen);
+        let [_, far] = span(seen.chain(narrowest.iter().copied()));
         let table = tables.part(medium.poisson_ratio(), [nearest, far]);
         table.map(KernelSource::Table).map_err(ImpactError::Table)
     };
@@ -221,8 +229,16 @@ pub(crate) fn choose_source(
         return Ok(Some((table, "requested".to_owned())));
     };
     let mut error = 0.0_f64;
-    for place_m in points {
-        match looked_up_error(own, excitation, scene, place_m) {
+    let of_points = points.into_iter().map(|place_m| (place_m, None));
+    let of_faces = faces
+        .iter()
+        .map(|(place_m, radii_m)| (*place_m, Some(radii_m[1])));
+    for (place_m, face_m) in of_points.chain(of_faces) {
+        let found = match face_m {
+            None => looked_up_error(own, excitation, scene, place_m),
+            Some(disc_m) => mean_error(own, excitation, place_m, disc_m),
+        };
+        match found {
             Err(outside @ LookupError::Outside { .. }) => {
                 return direct(format!("{outside}: computed"));
             }
@@ -242,14 +258,37 @@ pub(crate) fn choose_source(
     Ok(Some((table, reason)))
 }
 
-/// All probes and the corners and edges of the section: [r, z] in m.
-fn places(scene: &Scene) -> Vec<[f64; 2]> {
+/// The place of a sensor in m and the radii in m of the smallest and the largest disc that stands for its face.
+type Face = ([f64; 2], [f64; 2]);
+
+/// The sensors for whose faces discs stand.
+fn faces(scene: &Scene, radius_m: f64) -> Vec<Face> {
+    let faces = scene
+        .sensors
+        .iter()
+        .filter(|own| stands_in(radius_m, own.face_radius_m));
+    faces
+        .map(|own| {
+            (
+                [own.r_m, own.z_m],
+                stand_in_radii(own.face_radius_m, radius_m),
+            )
+        })
+        .collect()
+}
+
+/// All probes, the corners and edges of the section, and the sensors for whose faces no discs stand: [r, z] in m.
+fn places(scene: &Scene, radius_m: f64) -> Vec<[f64; 2]> {
     let probes = scene.probes.iter().map(|probe| [probe.r_m, probe.z_m]);
     let section = scene.section.iter().flat_map(|section| {
         let part = |most_m: f64, i: u32| most_m * f64::from(i) / 4.0;
         (0..25).map(move |i| [part(section.r_max_m, i / 5), part(section.z_max_m, i % 5)])
     });
-    let sensors = scene.sensors.iter().flat_map(|sensor| {
+    let others = scene
+        .sensors
+        .iter()
+        .filter(|own| !stands_in(radius_m, own.face_radius_m));
+    let sensors = others.flat_map(|sensor| {
         [
             sensor.nearest_m(),
             [sensor.r_m, sensor.z_m],
@@ -311,4 +350,19 @@ fn looked_up_error(
     let fronts = Fronts::new(excitation, place_m);
     let [mostly, _] = fronts.looked_up_errors(discs.smallest(), step_s, Derivative::Field.power());
     Ok(of_table + mostly)
+}
+
+/// Relative error of a looked-up mean over a face, by the table's error on a disc as large.
+fn mean_error(
+    table: &Table,
+    excitation: &Excitation,
+    place_m: [f64; 2],
+    disc_m: f64,
+) -> Result<f64, LookupError> {
+    let (place, medium) = (place_m.map(|x| x / disc_m), excitation.medium());
+    let over = disc_m / excitation.units().disc_radius_m;
+    let errors = table_error(table, medium.poisson_ratio(), place, excitation.pulse(over))?;
+    let still = medium.static_field(Profile::Hertz, place[0], place[1])?;
+    let largest = |own: &[f64]| own.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
+    Ok(largest(&errors[..2]) / largest(&still[..2]))
 }

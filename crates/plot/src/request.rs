@@ -61,7 +61,8 @@ kinds! {
     Impact "impact" of Impact uses [Quantity, Quantities, Span, Scale] => "force compared with Hertz's, displacement, velocity, and the first probes; or the chosen quantities";
     Loop "loop" of Impact uses [] => "force over approach; the enclosed area is the energy loss";
     Probes "probes" of Impact uses [Quantity, Quantities, Span, Scale] => "histories at the probes with arrivals and error bands";
-    Spectrum "spectrum" of Impact uses [Quantity, Quantities, Scale] => "amplitude spectra of the force, with its corner frequency (-3 dB) and zeros, and of the histories at the first probes";
+    Sensors "sensors" of Impact uses [Span] => "outputs of the sensors with arrivals and error bands";
+    Spectrum "spectrum" of Impact uses [Quantity, Quantities, Scale] => "amplitude spectra of the force, with its corner frequency (-3 dB) and zeros, and of the histories at the first probes or sensors";
     Waves "waves" of Impact uses [Quantity, Times, Frames, Span, Scale] => "frames of the section until the first wave leaves it; as .gif all frames";
     Peak "peak" of Impact uses [Quantity, Scale] => "largest value at every point of the section; over all samples if the scene has [output] peaks, over the frames otherwise";
     Surface "x-t" of Impact uses [Quantity, Span, Scale] => "distance along the surface over time, with wave fronts";

@@ -6,11 +6,11 @@ use crate::quantities::Described;
 use crate::scene::bodies_of;
 use crate::scene::section::{as_number, parse};
 use crate::schema::results::{
-    ENERGIES, ENERGY, ERROR_SUFFIX, MAP, MAP_SCALES, PEAK_SUFFIXES, PLACES, PROBES, SCENE, SERIES,
-    WARNINGS,
+    ENERGIES, ENERGY, ERROR_SUFFIX, MAP, MAP_SCALES, OUTPUTS, PEAK_SUFFIXES, PLACES, PROBES, SCENE,
+    SENSORS, SERIES, WARNINGS,
 };
-use contact::HalfSpace;
-use impact::{EnergySeries, Series, Strike, StrikerSeries};
+use contact::{Choice, HalfSpace};
+use impact::{EnergySeries, Measured, Series, Strike, StrikerSeries};
 use std::path::Path;
 use toml::{Table, Value};
 
@@ -123,6 +123,48 @@ impl StoredImpact {
         }))
     }
 
+    /// The sensors with their histories; empty for a scene without sensors.
+    ///
+    /// # Errors
+    /// [`SceneError`] for a damaged file.
+    pub fn sensors(&self) -> Result<Vec<StoredSensor>, SceneError> {
+        let listed = self.scene.get("sensor").and_then(Value::as_array);
+        let tables: Vec<&Table> = listed
+            .into_iter()
+            .flatten()
+            .filter_map(Value::as_table)
+            .collect();
+        let shape = [tables.len(), self.series.time_s.len()];
+        let damaged = || {
+            self.stored
+                .damaged("its sensors are not those of its scene")
+        };
+        let of = |(i, table): (usize, &&Table)| {
+            let number = |key: &str| table.get(key).and_then(as_number).ok_or_else(damaged);
+            let word = |table: &Table, key: &str| table.get(key)?.as_str().map(str::to_owned);
+            let quantity = word(table, "quantity").ok_or_else(damaged)?;
+            let measured = Measured::named(&quantity).ok_or_else(damaged)?;
+            let response = table.get("response").and_then(Value::as_table);
+            let samples = |name: &str| {
+                self.stored
+                    .some(&format!("{SENSORS}/{name}"), &shape, i..i + 1)
+            };
+            Ok(StoredSensor {
+                r_m: number("r_m")?,
+                z_m: number("z_m")?,
+                face_radius_m: number("face_radius_m")?,
+                unit: response
+                    .and_then(|own| word(own, "unit"))
+                    .unwrap_or_else(|| measured.unit().to_owned()),
+                quantity,
+                has_response: response.is_some(),
+                output: samples(OUTPUTS[2].0)?,
+                output_error: samples(OUTPUTS[3].0)?,
+            })
+        };
+        tables.iter().enumerate().map(of).collect()
+    }
+
     /// The section; none for a scene without a section.
     ///
     /// # Errors
@@ -163,6 +205,27 @@ fn energy_of(stored: &Stored, samples: usize) -> Result<Option<EnergySeries>, Sc
         radiated_j: column(3)?,
         plastic_j: existing(4)?,
     }))
+}
+
+/// A sensor of a results file with its output at the times of the results.
+#[derive(Debug, Clone)]
+pub struct StoredSensor {
+    /// Distance of its centre from the axis in m.
+    pub r_m: f64,
+    /// Depth in m.
+    pub z_m: f64,
+    /// Radius of its face in m.
+    pub face_radius_m: f64,
+    /// Measured quantity.
+    pub quantity: String,
+    /// Whether it has a response.
+    pub has_response: bool,
+    /// Unit of the output.
+    pub unit: String,
+    /// Output.
+    pub output: Vec<f64>,
+    /// Estimated error of each sample.
+    pub output_error: Vec<f64>,
 }
 
 /// Positions of the probes of a results file; traces are read on request.

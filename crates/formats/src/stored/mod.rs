@@ -10,7 +10,7 @@ mod open;
 mod rows;
 
 pub use crate::sweep::Part;
-pub use impact::{StoredImpact, StoredProbes, StoredSection};
+pub use impact::{StoredImpact, StoredProbes, StoredSection, StoredSensor};
 pub use open::{FileKind, file_kind};
 pub(crate) use rows::whole_sweep;
 pub use rows::{StoredPart, StoredSweep};

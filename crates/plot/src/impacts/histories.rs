@@ -6,7 +6,7 @@ use crate::series::{curve, end_s, waves_of};
 use crate::words::{axis, component, of_quantity, with_unit};
 use figure::{Axis, Layer, Legend, Panel, Scale, Style};
 use formats::quantities::Described;
-use formats::stored::{StoredImpact, StoredProbes};
+use formats::stored::{StoredImpact, StoredProbes, StoredSensor};
 use impact::{Impact, Series};
 
 /// Number of probes that are shown together with a contact.
@@ -251,7 +251,16 @@ fn probe_panel(
         // "displacement" of `displacement_z`
         several => several[0].name.split('_').take(1).collect(),
     };
-    let mut panel = over_time(&quantity, &shown[0].unit, span_s, legend).title(&place(r_m, z_m));
+    let panel = over_time(&quantity, &shown[0].unit, span_s, legend).title(&place(r_m, z_m));
+    with_arrivals(panel, impact, [r_m, z_m])
+}
+
+/// Adds the arrivals at a place to a panel.
+fn with_arrivals(
+    mut panel: Panel,
+    impact: &StoredImpact,
+    [r_m, z_m]: [f64; 2],
+) -> Result<Panel, PlotError> {
     let (speeds, start_s) = waves_of(impact)?;
     let radius_m = impact.number("disc_radius_m").unwrap_or(0.0);
     let arrivals_s = speeds.arrivals_s(r_m, z_m, radius_m);
@@ -270,6 +279,44 @@ fn probe_panel(
         panel = panel.mark(start_s + echo_s, "valid until the echo");
     }
     Ok(panel)
+}
+
+/// One panel per sensor with its output, its error and the arrivals at the centre of its face.
+pub(super) fn sensor_panels(
+    impact: &StoredImpact,
+    request: &Request,
+) -> Result<Vec<Panel>, PlotError> {
+    let sensors = impact.sensors()?;
+    if sensors.is_empty() {
+        let hint = "add a [[sensor]] with r_m and z_m to the scene";
+        return Err(PlotError::absent(impact.path(), "sensors", hint));
+    }
+    let time_s = &impact.series.time_s;
+    let span_s = request.span_within([0.0, time_s[time_s.len() - 1]])?;
+    let panel = |sensor: &StoredSensor| {
+        let quantity = sensor_words(sensor);
+        let panel = over_time(&quantity, &sensor.unit, span_s, Legend::Off);
+        let place_m = [sensor.r_m, sensor.z_m];
+        let panel = with_arrivals(panel.title(&place(sensor.r_m, sensor.z_m)), impact, place_m)?;
+        let [low, high] = [-1.0, 1.0].map(|sign| {
+            let ends = sensor.output.iter().zip(&sensor.output_error);
+            let ends = ends.map(|(own, error)| own + sign * error);
+            curve(time_s, &ends.collect::<Vec<f64>>(), span_s)
+        });
+        let middle = curve(time_s, &sensor.output, span_s);
+        let within = middle.iter().zip(low).zip(high);
+        let within = within.map(|((&(t, y), (_, low)), (_, high))| (t, [low, y, high]));
+        Ok(panel.banded("", Style::Plain, &within.collect::<Vec<_>>()))
+    };
+    sensors.iter().map(panel).collect()
+}
+
+/// Words for the output of a sensor.
+pub(super) fn sensor_words(sensor: &StoredSensor) -> String {
+    match sensor.has_response {
+        true => "output of the sensor".to_owned(),
+        false => format!("mean {}", of_quantity(&sensor.quantity)),
+    }
 }
 
 /// Words for the place of a probe.

@@ -14,7 +14,9 @@ use crate::words::{digits, with_unit};
 use contact::Shape;
 use figure::{Figure, Sharing};
 use formats::stored::{StoredImpact, Value};
-use histories::{FEW_PROBES, contact_names, contact_panels, loop_panel, probe_panels};
+use histories::{
+    FEW_PROBES, contact_names, contact_panels, loop_panel, probe_panels, sensor_panels,
+};
 use labels::labels;
 use spectrum::spectra;
 use std::collections::BTreeMap;
@@ -36,6 +38,11 @@ pub(crate) fn of_impacts(impacts: &[StoredImpact], request: &Request) -> Drawn<F
         PictureKind::Spectrum => {
             let panels = spectra(impacts, &labels(impacts), request)?;
             let columns = panels.len().min(2);
+            return Ok((headed(impacts, request, columns).panels(panels), Vec::new()));
+        }
+        PictureKind::Sensors => {
+            let panels = sensor_panels(one()?, request)?;
+            let columns = if panels.len() > 2 { 2 } else { 1 };
             return Ok((headed(impacts, request, columns).panels(panels), Vec::new()));
         }
         PictureKind::Peak => {
@@ -100,13 +107,19 @@ fn histories(impacts: &[StoredImpact], kind: PictureKind, request: &Request) -> 
             format!("{name} is a quantity of the contact, not of a probe: use the picture impact");
         return Err(PlotError::refused(None, sentence));
     }
-    let (probes, left_out) = match of_contact.is_empty() || !at_probes.is_empty() {
+    let (mut probes, left_out) = match of_contact.is_empty() || !at_probes.is_empty() {
         true => probe_panels(impacts, &labels, (request, &at_probes), most)?,
         false => (Vec::new(), 0),
     };
     if (is_all || !at_probes.is_empty()) && probes.is_empty() {
         let hint = "add a [[probe]] with r_m and z_m to the scene";
         return Err(PlotError::absent(impacts[0].path(), "probes", hint));
+    }
+    if let ([impact], true, true) = (impacts, probes.is_empty(), request.quantities.is_empty()) {
+        if !impact.sensors()?.is_empty() {
+            probes = sensor_panels(impact, request)?;
+            probes.truncate(FEW_PROBES);
+        }
     }
     let note = || format!("{left_out} probes are not shown: use the picture probes to see all");
     let notes = (left_out > 0).then(note).into_iter().collect();

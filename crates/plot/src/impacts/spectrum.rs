@@ -1,7 +1,7 @@
 //! Amplitude spectra of a force and of the histories that it causes.
 
 use crate::error::{PlotError, chosen};
-use crate::impacts::histories::{FEW_PROBES, place};
+use crate::impacts::histories::{FEW_PROBES, place, sensor_words};
 use crate::request::Request;
 use crate::series::loaded;
 use crate::words::{component, of_quantity, with_unit};
@@ -31,13 +31,21 @@ pub(super) fn spectra(
     let [impact] = impacts else {
         return Ok(vec![force]);
     };
+    let mut panels = vec![force];
+    for sensor in impact.sensors()?.into_iter().take(FEW_PROBES) {
+        let words = sensor_words(&sensor);
+        let curves = [(String::new(), sensor.output)];
+        let labels = (words.as_str(), sensor.unit.as_str());
+        let panel = of_histories(labels, &impact.series.time_s, &curves, &source);
+        let title = place(sensor.r_m, sensor.z_m);
+        panels.extend(panel.map(|panel| panel.title(&title)));
+    }
     let Some(probes) = impact.probes()? else {
-        return Ok(vec![force]);
+        return Ok(panels);
     };
     let known = probes.quantities();
     let usual = ["displacement_z", "displacement_r"];
     let shown = chosen(impact.path(), &known, &request.quantities, &usual)?;
-    let mut panels = vec![force];
     for probe in 0..probes.r_m.len().min(FEW_PROBES) {
         let mut by_unit: Vec<Vec<&Described>> = Vec::new();
         for quantity in shown.iter().map(|&number| &known[number]) {

@@ -80,6 +80,7 @@ impl SweepPicture {
             | PictureKind::Impact
             | PictureKind::Loop
             | PictureKind::Probes
+            | PictureKind::Sensors
             | PictureKind::Spectrum
             | PictureKind::Waves
             | PictureKind::Peak
