@@ -115,11 +115,11 @@ fn histories(impacts: &[StoredImpact], kind: PictureKind, request: &Request) -> 
         let hint = "add a [[probe]] with r_m and z_m to the scene";
         return Err(PlotError::absent(impacts[0].path(), "probes", hint));
     }
-    if let ([impact], true, true) = (impacts, probes.is_empty(), request.quantities.is_empty()) {
-        if !impact.sensors()?.is_empty() {
-            probes = sensor_panels(impact, request)?;
-            probes.truncate(FEW_PROBES);
-        }
+    if let ([impact], true, true) = (impacts, probes.is_empty(), request.quantities.is_empty())
+        && !impact.sensors()?.is_empty()
+    {
+        probes = sensor_panels(impact, request)?;
+        probes.truncate(FEW_PROBES);
     }
     let note = || format!("{left_out} probes are not shown: use the picture probes to see all");
     let notes = (left_out > 0).then(note).into_iter().collect();
