@@ -122,6 +122,11 @@ def _trace(values: Any) -> tuple[Floats, float | None]:
     return np.ascontiguousarray(values, dtype=float), None
 
 
+def _is_trace(values: Any) -> bool:
+    """Whether it is one trace, rather than a list of traces."""
+    return hasattr(values, "stats") or not (len(values) and (hasattr(values[0], "stats") or np.ndim(values[0])))
+
+
 def infer_force(
     time: Any,
     values: Any,
@@ -189,9 +194,8 @@ def infer_force(
     >>> bool(abs(force.peak_force_n.value / run.peak_force_n - 1) < 0.02)
     True
     """
-    is_one = hasattr(values, "stats") or np.ndim(values) == 1
-    drops: list[Any] = [[values]] if is_one else list(values)
-    if not is_one and (hasattr(drops[0], "stats") or np.ndim(drops[0]) == 1):
+    drops: list[Any] = [[values]] if _is_trace(values) else list(values)
+    if _is_trace(drops[0]):
         drops = [drops]
     found = [[_trace(trace) for trace in drop] for drop in drops]
     steps = {step for drop in found for _, step in drop if step is not None}

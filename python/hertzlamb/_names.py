@@ -91,63 +91,83 @@ class OfPlaces(OfFields):
     displacement_r_error: Floats
     displacement_r_peak: Floats
     displacement_r_peak_time: Floats
+    displacement_r_peak_error: Floats
     displacement_z_error: Floats
     displacement_z_peak: Floats
     displacement_z_peak_time: Floats
+    displacement_z_peak_error: Floats
     stress_rr_error: Floats
     stress_rr_peak: Floats
     stress_rr_peak_time: Floats
+    stress_rr_peak_error: Floats
     stress_tt_error: Floats
     stress_tt_peak: Floats
     stress_tt_peak_time: Floats
+    stress_tt_peak_error: Floats
     stress_zz_error: Floats
     stress_zz_peak: Floats
     stress_zz_peak_time: Floats
+    stress_zz_peak_error: Floats
     stress_rz_error: Floats
     stress_rz_peak: Floats
     stress_rz_peak_time: Floats
+    stress_rz_peak_error: Floats
     velocity_r_error: Floats
     velocity_r_peak: Floats
     velocity_r_peak_time: Floats
+    velocity_r_peak_error: Floats
     velocity_z_error: Floats
     velocity_z_peak: Floats
     velocity_z_peak_time: Floats
+    velocity_z_peak_error: Floats
     acceleration_r_error: Floats
     acceleration_r_peak: Floats
     acceleration_r_peak_time: Floats
+    acceleration_r_peak_error: Floats
     acceleration_z_error: Floats
     acceleration_z_peak: Floats
     acceleration_z_peak_time: Floats
+    acceleration_z_peak_error: Floats
     strain_rr_error: Floats
     strain_rr_peak: Floats
     strain_rr_peak_time: Floats
+    strain_rr_peak_error: Floats
     strain_tt_error: Floats
     strain_tt_peak: Floats
     strain_tt_peak_time: Floats
+    strain_tt_peak_error: Floats
     strain_zz_error: Floats
     strain_zz_peak: Floats
     strain_zz_peak_time: Floats
+    strain_zz_peak_error: Floats
     strain_rz_error: Floats
     strain_rz_peak: Floats
     strain_rz_peak_time: Floats
+    strain_rz_peak_error: Floats
     von_mises_error: Floats
     von_mises_peak: Floats
     von_mises_peak_time: Floats
+    von_mises_peak_error: Floats
     tresca_error: Floats
     tresca_peak: Floats
     tresca_peak_time: Floats
+    tresca_peak_error: Floats
     max_shear_error: Floats
     max_shear_peak: Floats
     max_shear_peak_time: Floats
+    max_shear_peak_error: Floats
     principal_1_error: Floats
     principal_1_peak: Floats
     principal_1_peak_time: Floats
+    principal_1_peak_error: Floats
     principal_2_error: Floats
     principal_2_peak: Floats
     principal_2_peak_time: Floats
+    principal_2_peak_error: Floats
     principal_3_error: Floats
     principal_3_peak: Floats
     principal_3_peak_time: Floats
+    principal_3_peak_error: Floats
 
 
 class OfProbes(OfPlaces):

@@ -103,9 +103,9 @@ class Response:
         Complex values H, such as those of ObsPy's ``get_evalresp_response_for_frequencies``, are
         ``table(f, abs(H), numpy.unwrap(numpy.angle(H)))``.
         """
-        columns = [np.ascontiguousarray(column, dtype=float) for column in (frequency_hz, amplitude)]
+        frequency, size = (np.ascontiguousarray(column, dtype=float) for column in (frequency_hz, amplitude))
         phase = None if phase_rad is None else np.ascontiguousarray(phase_rad, dtype=float)
-        return cls(_core.Response.table(*columns, phase))
+        return cls(_core.Response.table(frequency, size, phase))
 
     @classmethod
     def filter(cls, coefficients: ArrayLike, rate_hz: float) -> Response:

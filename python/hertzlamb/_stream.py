@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 def stream(sensors: Sequence[Sensor]) -> Any:
     try:
-        from obspy import Stream, Trace, UTCDateTime
+        from obspy import Stream, Trace, UTCDateTime  # type: ignore[import-not-found, import-untyped, unused-ignore]
     except ImportError:
         message = "to_stream needs ObsPy: install it with \"pip install obspy\""
         raise ImportError(message) from None
