@@ -1,7 +1,6 @@
 //! The results of an impact as JSON.
 
 use crate::quantities::{Kind, QUANTITIES};
-use crate::results::mean_name;
 use crate::schema::results::TREATMENT;
 use contact::{Choice, Collision, GRAVITY_M_S2, InferError, Inferred, Material, Measure, Unknown};
 use impact::{Cause, Outcome, Scene, SensorHistory};
@@ -192,7 +191,7 @@ pub fn json_report(scene: &Scene, outcome: &Outcome, wall_s: f64) -> Value {
             "quantity": own.sensor.measured.name(),
             "unit": own.sensor.measured.unit(),
             "output_unit": own.sensor.output_unit(),
-            "face_mean": mean_name(own.face),
+            "face_mean": own.face.name(),
             "mean_peak": own.mean.peak(),
             "mean_error": own.mean.error,
             "output_peak": peak_of(&own.output),

@@ -10,7 +10,6 @@
 //!
 //! Theory: `docs/theory.md` (T71).
 
-use crate::convolution::discs::Share;
 use crate::excitation::{Excitation, PressureRadius};
 use crate::grid::Grid;
 use crate::quantity::Derivative;
@@ -58,6 +57,9 @@ const A_DECADE: f64 = 30.0;
 
 /// Circles of the rule around the axis over those of the rule beside it, for the same error.
 const AROUND: f64 = 0.6;
+
+/// A share of the force as a polynomial in the squared radius of the load over the largest.
+pub(crate) type Share = [f64; 3];
 
 /// Whether discs may stand for a face under a load of a radius.
 pub(crate) fn stands_in(radius_m: f64, face_m: f64) -> bool {

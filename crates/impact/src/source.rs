@@ -228,26 +228,13 @@ pub(crate) fn choose_source(
     let KernelSource::Table(own) = &table else {
         return Ok(Some((table, "requested".to_owned())));
     };
-    let mut error = 0.0_f64;
-    let of_points = points.into_iter().map(|place_m| (place_m, None));
-    let of_faces = faces
-        .iter()
-        .map(|(place_m, radii_m)| (*place_m, Some(radii_m[1])));
-    for (place_m, face_m) in of_points.chain(of_faces) {
-        let found = match face_m {
-            None => looked_up_error(own, excitation, scene, place_m),
-            Some(disc_m) => mean_error(own, excitation, place_m, disc_m),
-        };
-        match found {
-            Err(outside @ LookupError::Outside { .. }) => {
-                return direct(format!("{outside}: computed"));
-            }
-            found => {
-                let source = |source: LookupError| ImpactError::Table(source.into());
-                error = error.max(found.map_err(source)?);
-            }
+    let largest = largest_error(own, excitation, scene, (&points, &faces));
+    let error = match largest {
+        Err(outside @ LookupError::Outside { .. }) => {
+            return direct(format!("{outside}: computed"));
         }
-    }
+        found => found.map_err(|source| ImpactError::Table(source.into()))?,
+    };
     let [and, then]: [String; 2] = before;
     if error > tolerance && cost_s <= DEAR_S {
         return direct(format!(
@@ -309,6 +296,23 @@ fn span(places: impl Iterator<Item = [f64; 2]>) -> [[f64; 2]; 2] {
             [pick(nearest, f64::min), pick(farthest, f64::max)]
         },
     )
+}
+
+/// The largest relative error of looked-up fields at some places and of means over some faces.
+fn largest_error(
+    table: &Table,
+    excitation: &Excitation,
+    scene: &Scene,
+    (points, faces): (&[[f64; 2]], &[Face]),
+) -> Result<f64, LookupError> {
+    let of_points = points
+        .iter()
+        .map(|place_m| looked_up_error(table, excitation, scene, *place_m));
+    let of_faces = faces
+        .iter()
+        .map(|(place_m, radii_m)| mean_error(table, excitation, *place_m, radii_m[1]));
+    let mut all = of_points.chain(of_faces);
+    all.try_fold(0.0_f64, |most, one| one.map(|error| most.max(error)))
 }
 
 /// Relative error of looked-up fields at a point, known before they are: that of the table for the force on each disc, and of the

@@ -7,7 +7,7 @@ use crate::values::{from_json, frozen, vector};
 use crate::work::{Threads, run};
 use contact::{Choice, Unknown};
 use formats::quantities::{Described, Kind, Labels, QUANTITIES, labels_of};
-use formats::results::{beside, mean_name};
+use formats::results::beside;
 use formats::schema::results as schema;
 use formats::{Existing, Output, json_report, stage_results, stage_results_csv};
 use impact::{Allowance, KernelChoice, Outcome as Computed, Scene, SensorHistory, simulate_within};
@@ -181,7 +181,7 @@ impl Outcome {
                 sensor.measured.name(),
                 sensor.measured.unit(),
                 sensor.output_unit(),
-                mean_name(own.face),
+                own.face.name(),
             ];
             for ((name, ..), word) in schema::SENSED.iter().zip(words) {
                 found.set_item(name, word)?;

@@ -165,7 +165,7 @@ def test_every_result_has_an_attribute():
     assert list(hl.Impact.__annotations__) == list(_names.OfRows.__annotations__) == list(described)
     fields = [*DESCRIBED["fields"], *DESCRIBED["more"]]
     assert list(_names.OfFields.__annotations__) == fields and list(_names.OfEnergy.__annotations__) == list(DESCRIBED["energy"])
-    beside = [f"{field}_{what}" for field in fields for what in ("error", "peak", "peak_time")]
+    beside = [f"{field}_{what}" for field in fields for what in ("error", "peak", "peak_time", "peak_error")]
     assert list(_names.OfPlaces.__annotations__) == beside
     asked = {**SECTION, "output": {"quantities": [*DESCRIBED["more"]], "peaks": True}}
     section = hl.impact(asked).section

@@ -95,7 +95,7 @@ def test_a_force_is_inferred_from_arrays_and_trace_objects():
     assert same.start_s.value == pytest.approx(force.start_s.value + 120 * step, abs=1e-11)
     one = hl.infer_force(time, traces[1], {**BALL, "sensor": SENSORS[1:]})
     assert abs(one.peak_force_n.value / run.peak_force_n - 1) < 0.02
-    drops = [[trace + 1e-12, other] for trace, other in [traces, traces]]
+    drops = [[trace + 0.01 * np.abs(trace).max() * rng.normal(size=len(time)) for trace in traces] for _ in range(2)]
     assert len(hl.infer_force(time, drops, scene).report["shifts_s"]) == 2
     objects[0].stats.delta = objects[1].stats.delta = 0.0
     with pytest.raises(hl.SceneError, match="1 us"):

@@ -10,5 +10,4 @@ mod write;
 
 pub use identity::{check_results, scene_sha256};
 pub use section::beside;
-pub use sensors::mean_name;
 pub use write::{stage_results, stage_results_csv, write_results};

@@ -5,17 +5,7 @@ use crate::hdf::{attach_scales, numbers, scale, texts, vector};
 use crate::schema::results as schema;
 use contact::Choice;
 use hdf5::File;
-use impact::{FaceMean, SensorHistory};
-
-/// The method of a mean over a face, as files and reports name it.
-pub fn mean_name(face: FaceMean) -> &'static str {
-    match face {
-        FaceMean::Point => "point",
-        FaceMean::Discs(_) => "discs",
-        FaceMean::Circles(_) => "circles",
-        FaceMean::Kernels => "kernels",
-    }
-}
+use impact::SensorHistory;
 
 pub(super) fn write_sensors(
     file: &File,
@@ -41,7 +31,7 @@ pub(super) fn write_sensors(
         |own| own.sensor.measured.name().to_owned(),
         |own| own.sensor.measured.unit().to_owned(),
         |own| own.sensor.output_unit().to_owned(),
-        |own| mean_name(own.face).to_owned(),
+        |own| own.face.name().to_owned(),
     ];
     for (described, of) in schema::SENSED.iter().zip(words) {
         let column: Vec<String> = sensors.iter().map(of).collect();

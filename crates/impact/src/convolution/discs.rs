@@ -16,11 +16,9 @@
 //!
 //! Theory: `docs/theory.md` (T60).
 
+use crate::face::Share;
 use halfspace::lagrange;
 use std::f64::consts::PI;
-
-/// A share of the force as a polynomial in the squared radius of the load over the largest.
-pub(crate) type Share = [f64; 3];
 
 /// Squares of some radii over that of the largest, with their polynomials.
 #[derive(Debug, Clone, PartialEq)]

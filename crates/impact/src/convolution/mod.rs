@@ -15,8 +15,6 @@
 #[cfg(test)]
 mod close_tests;
 pub(crate) mod discs;
-#[cfg(test)]
-mod echo_tests;
 pub(crate) mod echoes;
 mod ends;
 mod exact;
@@ -24,8 +22,6 @@ pub(crate) mod fronts;
 mod loads;
 pub(crate) mod mean;
 pub(crate) mod plan;
-#[cfg(test)]
-mod rate_tests;
 mod sums;
 #[cfg(test)]
 mod tests;

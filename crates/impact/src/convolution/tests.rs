@@ -2,6 +2,9 @@
 
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 
+mod echoes;
+mod rates;
+
 use crate::convolution::{Convolution, Past, Trace};
 use crate::excitation::{Excitation, PressureRadius};
 use crate::grid::{Grid, Wanted};

@@ -78,19 +78,43 @@ pub struct Road {
     pub seconds: f64,
 }
 
-/// Places of a scene, and how many points each stands for.
-fn planned(scene: &Scene, faces: &[MeanPlan]) -> Vec<([f64; 2], Place, f64)> {
+/// A place of a scene.
+struct Planned {
+    place_m: [f64; 2],
+    place: Place,
+    /// How many points it stands for.
+    points: f64,
+    /// Discs that stand for a face, if they do.
+    stand_ins: Option<usize>,
+}
+
+impl Planned {
+    fn of(place_m: [f64; 2], place: Place, points: f64) -> Self {
+        Self {
+            place_m,
+            place,
+            points,
+            stand_ins: None,
+        }
+    }
+}
+
+/// Places of a scene.
+fn planned(scene: &Scene, faces: &[MeanPlan]) -> Vec<Planned> {
     let probes = scene.probes.iter().enumerate();
-    let probes = probes.map(|(i, probe)| ([probe.r_m, probe.z_m], Place::Probe(i), 1.0));
+    let probes = probes.map(|(i, probe)| Planned::of([probe.r_m, probe.z_m], Place::Probe(i), 1.0));
     let sensors = scene.sensors.iter().zip(faces).enumerate();
     let sensors = sensors.map(|(i, (sensor, plan))| {
-        let (place, points) = match plan {
-            // discs have about as many kernels as a point
-            MeanPlan::Point | MeanPlan::Discs(_) => (Place::Sensor(i), 1),
-            MeanPlan::Circles(count, _) => (Place::Sensor(i), *count),
-            MeanPlan::Exact => (Place::MeanOfKernels(i), 1),
-        };
-        ([sensor.r_m, sensor.z_m], place, points as f64)
+        let place_m = [sensor.r_m, sensor.z_m];
+        match plan {
+            MeanPlan::Point => Planned::of(place_m, Place::Sensor(i), 1.0),
+            MeanPlan::Discs(discs) => Planned {
+                stand_ins: Some(discs.shares.len()),
+                ..Planned::of(place_m, Place::Sensor(i), 1.0)
+            },
+            MeanPlan::Circles(count, _) => Planned::of(place_m, Place::Sensor(i), *count as f64),
+            MeanPlan::Exact => Planned::of(place_m, Place::MeanOfKernels(i), 1.0),
+        }
     });
     let section = scene.section.iter().flat_map(|section| {
         let Section {
@@ -113,7 +137,7 @@ fn planned(scene: &Scene, faces: &[MeanPlan]) -> Vec<([f64; 2], Place, f64)> {
         let places = r_m
             .into_iter()
             .flat_map(move |r| z_m.clone().into_iter().map(move |z| [r, z]));
-        places.map(move |place_m| (place_m, Place::Section, each))
+        places.map(move |place_m| Planned::of(place_m, Place::Section, each))
     });
     probes.chain(sensors).chain(section).collect()
 }
@@ -180,41 +204,66 @@ impl EchoCost {
     }
 }
 
-/// The roads of the points of a scene at the times of a grid, with kernels of a table that reaches to `reach` or, without it,
-/// computed ones.
-pub(crate) fn roads(scene: &Scene, grid: &Grid<'_>, reach: Option<[f64; 2]>) -> Vec<Road> {
-    let (excitation, tolerance) = (grid.excitation, grid.tolerance);
-    let follows = matches!(excitation.radius(), PressureRadius::Following { .. });
-    let asked = Asked::of(scene, grid, follows && reach.is_none());
-    let samples = asked.counts[0];
-    let sets = Sets::new(
-        excitation,
-        tolerance,
-        reach,
-        (samples as usize, scene.rates() > 0),
-    );
-    let digits = -tolerance.log10();
-    let more = if scene.rates() > 0 { WITH_RATES } else { 1.0 };
-    let kernels_s = match reach {
-        None => more * (KERNELS + KERNELS_A_DIGIT * digits) * KERNEL_S + samples * CELL_S,
-        Some(_) => samples * LOOKED_UP_S,
-    };
-    let radius_m = excitation.units().disc_radius_m;
-    let speeds = excitation.speeds();
-    let harder = (speeds.p / speeds.s / 3.0_f64.sqrt())
-        .max(1.0)
-        .powf(OF_SPEEDS);
-    let plate = EchoCost::of(scene, grid);
-    let mut roads: Vec<Road> = Vec::new();
-    let faces = plans(scene, grid, reach.is_none());
-    for (place_m, place, points) in planned(scene, &faces) {
+/// What the cost of all points of a scene depends on.
+struct Prices<'a> {
+    scene: &'a Scene,
+    grid: &'a Grid<'a>,
+    sets: Sets,
+    asked: Asked,
+    plate: Option<EchoCost>,
+    looked_up: bool,
+    /// Seconds for the kernels of a disc.
+    kernels_s: f64,
+    /// Kernels of the past over those of a ratio of 1/4.
+    harder: f64,
+}
+
+impl<'a> Prices<'a> {
+    fn of(scene: &'a Scene, grid: &'a Grid<'a>, reach: Option<[f64; 2]>) -> Self {
+        let (excitation, tolerance) = (grid.excitation, grid.tolerance);
+        let follows = matches!(excitation.radius(), PressureRadius::Following { .. });
+        let asked = Asked::of(scene, grid, follows && reach.is_none());
+        let samples = asked.counts[0];
+        let of_sets = (samples as usize, scene.rates() > 0);
+        let more = if scene.rates() > 0 { WITH_RATES } else { 1.0 };
+        let digits = -tolerance.log10();
+        let speeds = excitation.speeds();
+        Self {
+            sets: Sets::new(excitation, tolerance, reach, of_sets),
+            plate: EchoCost::of(scene, grid),
+            looked_up: reach.is_some(),
+            kernels_s: match reach {
+                None => more * (KERNELS + KERNELS_A_DIGIT * digits) * KERNEL_S + samples * CELL_S,
+                Some(_) => samples * LOOKED_UP_S,
+            },
+            harder: (speeds.p / speeds.s / 3.0_f64.sqrt())
+                .max(1.0)
+                .powf(OF_SPEEDS),
+            scene,
+            grid,
+            asked,
+        }
+    }
+
+    /// The road of a place.
+    fn road(&self, planned: &Planned) -> Road {
+        let (excitation, tolerance) = (self.grid.excitation, self.grid.tolerance);
+        let Planned {
+            place_m,
+            place,
+            points,
+            stand_ins,
+        } = *planned;
         let kind = usize::from(place == Place::Section);
-        let (times_s, count) = (&asked.times_s[kind][..], asked.counts[kind]);
-        let forcings: Vec<_> = derivatives(scene).map(|one| (one, times_s)).collect();
-        let plan = PointPlan::new(&sets, (excitation, tolerance), &forcings, place_m);
-        let discs = sets.get(plan.set).count();
+        let (times_s, count) = (&self.asked.times_s[kind][..], self.asked.counts[kind]);
+        let samples = self.asked.counts[0];
+        let forcings: Vec<_> = derivatives(self.scene).map(|one| (one, times_s)).collect();
+        let plan = PointPlan::new(&self.sets, (excitation, tolerance), &forcings, place_m);
+        let discs = stand_ins.unwrap_or_else(|| self.sets.get(plan.set).count());
+        let follows = matches!(excitation.radius(), PressureRadius::Following { .. });
         let still_s = if follows { count * STATIC_S } else { 0.0 };
-        let sums_s = (discs as f64 + 1.0) * convolved_s(scene, samples, count) + still_s;
+        let sums_s = (discs as f64 + 1.0) * convolved_s(self.scene, samples, count) + still_s;
+        let radius_m = excitation.units().disc_radius_m;
         let is_on_axis = place_m[0] < AXIS * place_m[1].hypot(radius_m);
         let axis = if is_on_axis { ON_AXIS } else { 1.0 };
         let each = |whole| {
@@ -224,41 +273,50 @@ pub(crate) fn roads(scene: &Scene, grid: &Grid<'_>, reach: Option<[f64; 2]>) -> 
                 KERNELS_OF_PARTS
             }
         };
-        let past: f64 = plan
-            .integrated
-            .iter()
-            .flatten()
-            .map(|one| each(one.whole))
-            .sum();
-        let past_s = harder * axis * past * digits.powi(2) * KERNEL_S;
-        let of_echoes = |plate: &EchoCost| plate.seconds(place_m, radius_m, (&sets, samples));
-        let echoes_s = plate.as_ref().map_or(0.0, of_echoes);
-        let fields_s = discs as f64 * kernels_s + forcings.len() as f64 * sums_s + past_s;
-        let harder = match place {
+        // discs that stand for a face serve all samples
+        let integrated = || {
+            plan.integrated
+                .iter()
+                .flatten()
+                .filter(|_| stand_ins.is_none())
+        };
+        let past: f64 = integrated().map(|one| each(one.whole)).sum();
+        let digits = -tolerance.log10();
+        let past_s = self.harder * axis * past * digits.powi(2) * KERNEL_S;
+        let of_echoes = |plate: &EchoCost| plate.seconds(place_m, radius_m, (&self.sets, samples));
+        let echoes_s = self.plate.as_ref().map_or(0.0, of_echoes);
+        let fields_s = discs as f64 * self.kernels_s + forcings.len() as f64 * sums_s + past_s;
+        let of_mean = match place {
             Place::MeanOfKernels(_) => KERNELS_OF_MEAN,
             Place::Probe(_) | Place::Sensor(_) | Place::Section => 1.0,
         };
-        let seconds = harder * fields_s + echoes_s;
-        let integrated = plan.integrated.iter().map(Vec::len).sum::<usize>() as f64;
-        let (looked_up, samples) = (reach.is_some(), forcings.len() * count as usize);
-        match roads
-            .last_mut()
-            .filter(|last| last.place == Place::Section && place == Place::Section)
-        {
+        Road {
+            place,
+            points: points as usize,
+            discs,
+            looked_up: self.looked_up,
+            samples: forcings.len() * count as usize,
+            integrated: points * integrated().count() as f64,
+            seconds: points * (of_mean * fields_s + echoes_s),
+        }
+    }
+}
+
+/// The roads of the points of a scene at the times of a grid, with kernels of a table that reaches to `reach` or, without it,
+/// computed ones.
+pub(crate) fn roads(scene: &Scene, grid: &Grid<'_>, reach: Option<[f64; 2]>) -> Vec<Road> {
+    let prices = Prices::of(scene, grid, reach);
+    let mut roads: Vec<Road> = Vec::new();
+    for planned in planned(scene, &plans(scene, grid, reach.is_none())) {
+        let road = prices.road(&planned);
+        let is_next = |last: &&mut Road| last.place == Place::Section && road.place == last.place;
+        match roads.last_mut().filter(is_next) {
             Some(last) => {
-                last.discs = last.discs.max(discs);
-                last.integrated += points * integrated;
-                last.seconds += points * seconds;
+                last.discs = last.discs.max(road.discs);
+                last.integrated += road.integrated;
+                last.seconds += road.seconds;
             }
-            None => roads.push(Road {
-                place,
-                points: points as usize,
-                discs,
-                looked_up,
-                samples,
-                integrated: points * integrated,
-                seconds: points * seconds,
-            }),
+            None => roads.push(road),
         }
     }
     if let (Some(last), Some(section)) = (roads.last_mut(), &scene.section) {

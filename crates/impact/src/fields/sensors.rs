@@ -41,6 +41,18 @@ pub enum FaceMean {
     Kernels,
 }
 
+impl FaceMean {
+    /// Its name in files and reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Point => "point",
+            Self::Discs(_) => "discs",
+            Self::Circles(_) => "circles",
+            Self::Kernels => "kernels",
+        }
+    }
+}
+
 /// The histories of a scene's sensors by a convolution that has the rates they measure.
 pub(crate) fn at_sensors(
     convolution: &Convolution<'_>,
