@@ -96,7 +96,8 @@ def same(told, printed):
 def pictures(chapter):
     """Names of the pictures that a chapter draws."""
     text = chapter.read_text()
-    return [name for name in re.findall(r"pictures/([\w-]+\.(?:svg|png|gif))\)", text) if f"-o {name}" in text]
+    shown = re.findall(r"pictures/([\w-]+\.(?:svg|png|gif))\)", text)
+    return [name for name in shown if f"-o {name}" in text or f'"{name}"' in text]
 
 
 def tables(chapter):

@@ -483,7 +483,8 @@ class Impact:
         """Outputs of the sensors as an ObsPy Stream, one Trace each; needs ObsPy.
 
         ``trace.stats.hertzlamb`` has the place, the quantity, the unit, and the arrivals in s. Write it as MiniSEED, which
-        keeps steps down to 1 ns: ``run.to_stream().write("impact.mseed", "MSEED")``. SAC and ObsPy round steps to 1 us.
+        keeps steps down to 1 ns: ``run.to_stream().write("impact.mseed", "MSEED", reclen=2**20)``. With shorter records ObsPy
+        reads steps below 1 us in parts, because it rounds the time of each record to 1 us. It rounds steps of SAC to 1 us.
 
         Raises `SceneError` if the scene has no sensors.
         """

@@ -30,7 +30,7 @@ pub enum InverseError {
     },
     /// A beginning that is not at rest.
     #[error(
-        "trace {index} begins under load: its first samples are {} times the noise; begin before the blow, or subtract the offset of the quiet part", rounded(*ratio)
+        "trace {} begins under load: its first samples are {} times the noise; begin before the blow, or subtract the offset of the quiet part", index + 1, rounded(*ratio)
     )]
     UnderLoad {
         /// Index of the trace.
@@ -57,7 +57,7 @@ pub enum InverseError {
     },
     /// Waves in the quiet part.
     #[error(
-        "the quiet part of trace {index} ends at {} s, but the first wave of the blow arrives at {} s: end the quiet part before, or pass the standard deviation of the noise", rounded(*quiet_s), rounded(*arrival_s)
+        "the quiet part of trace {} ends at {} s, but the first wave of the blow arrives at {} s: end the quiet part before, or pass the standard deviation of the noise", index + 1, rounded(*quiet_s), rounded(*arrival_s)
     )]
     QuietMoves {
         /// Index of the trace.

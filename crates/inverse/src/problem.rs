@@ -195,8 +195,8 @@ impl<'a> Problem<'a> {
     }
 
     fn rows_of(&self, index: usize, trace: &Trace) -> Result<Rows, InverseError> {
-        finite(&format!("trace {index}"), &trace.samples)?;
-        finite(&format!("response {index}"), &trace.response)?;
+        finite(&format!("trace {}", index + 1), &trace.samples)?;
+        finite(&format!("response {}", index + 1), &trace.response)?;
         if let Gain::Known(gain) = trace.gain {
             check(
                 gain != 0.0 && gain.is_finite(),
@@ -215,7 +215,7 @@ impl<'a> Problem<'a> {
             self.force_index(used.max(1) - 1).saturating_add(1),
         );
         let response = trace.response.get(..needed).ok_or_else(|| {
-            let key = format!("the number of samples of response {index}");
+            let key = format!("the number of samples of response {}", index + 1);
             let remedy = ": compute it on the force step until the end of the trace";
             outside(key, found as f64, format!("[{needed}, inf)"), remedy)
         })?;
@@ -224,7 +224,7 @@ impl<'a> Problem<'a> {
         let largest = response.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
         let arrival = response.iter().position(|x| x.abs() > ARRIVED * largest);
         let arrival = arrival.ok_or_else(|| {
-            let key = format!("the largest value of response {index}");
+            let key = format!("the largest value of response {}", index + 1);
             let remedy =
                 ": no wave reaches the sensor before the end of the trace; check its place";
             outside(key, largest, "(0, inf)", remedy)
@@ -232,7 +232,7 @@ impl<'a> Problem<'a> {
         let first = whitening.order();
         let range = [first + FEWEST_QUIET, MOST_FORCE_STEPS / self.oversampling];
         if !(range[0]..=range[1]).contains(&used) {
-            let key = format!("the number of valid samples of trace {index}");
+            let key = format!("the number of valid samples of trace {}", index + 1);
             let remedy = ": cut the trace around the blow, or resample it to about a hundred samples in a contact";
             return Err(outside(key, used as f64, format!("{range:?}"), remedy));
         }
@@ -261,7 +261,7 @@ impl<'a> Problem<'a> {
                 let found = range.len();
                 let quiet = trace.samples.get(range.clone());
                 let quiet = quiet.filter(|quiet| quiet.len() >= FEWEST_QUIET).ok_or_else(|| {
-                    let key = format!("the number of quiet samples of trace {index}");
+                    let key = format!("the number of quiet samples of trace {}", index + 1);
                     let range = format!("[{FEWEST_QUIET}, {}]", trace.samples.len());
                     let remedy = ": record more before the trigger, or pass the standard deviation of the noise";
                     outside(key, found as f64, range, remedy)
@@ -269,7 +269,7 @@ impl<'a> Problem<'a> {
                 let mean = quiet.iter().sum::<f64>() / found as f64;
                 let sigma = (mean_square(quiet) - mean * mean).max(0.0).sqrt();
                 if sigma <= 0.0 {
-                    let key = format!("the noise of the quiet part of trace {index}");
+                    let key = format!("the noise of the quiet part of trace {}", index + 1);
                     let remedy =
                         ": pass a standard deviation, at least 0.29 of a digit of the recorder";
                     return Err(outside(key, sigma, "(0, inf)", remedy));

@@ -87,9 +87,9 @@ pub fn average(drops: &[Vec<f64>], step_s: f64) -> Result<Averaged, InverseError
         "[4, inf)",
     )?;
     for (index, drop) in drops.iter().enumerate() {
-        finite(&format!("drop {index}"), drop)?;
+        finite(&format!("drop {}", index + 1), drop)?;
         if drop.len() != size {
-            let key = format!("the number of samples of drop {index}");
+            let key = format!("the number of samples of drop {}", index + 1);
             let range = format!("[{size}, {size}]");
             return Err(outside(
                 key,
@@ -107,7 +107,7 @@ pub fn average(drops: &[Vec<f64>], step_s: f64) -> Result<Averaged, InverseError
             .enumerate()
             .map(|(index, drop)| match delay(drop, &mean) {
                 (_, found) if found < LEAST_CORRELATION => {
-                    let key = format!("the correlation of drop {index} with the others");
+                    let key = format!("the correlation of drop {} with the others", index + 1);
                     let remedy =
                         ": remove it, or average drops of the same ball, height and place only";
                     Err(outside(

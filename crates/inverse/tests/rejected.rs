@@ -50,26 +50,26 @@ fn numbers_and_lengths() {
         ("valid_until_s", |p| {
             p.traces[0].valid_until_s = Some(f64::INFINITY);
         }),
-        ("the number of valid samples of trace 0", |p| {
+        ("the number of valid samples of trace 1", |p| {
             p.traces[0].valid_until_s = Some(0.2);
         }),
-        ("the number of valid samples of trace 0", |p| {
+        ("the number of valid samples of trace 1", |p| {
             p.traces[0].samples.resize(20_000, 0.0);
             p.traces[0].response.resize(80_001, 0.0);
         }),
-        ("the number of samples of response 0", |p| {
+        ("the number of samples of response 1", |p| {
             p.lead = usize::MAX;
         }),
-        ("sample 77 of trace 0", |p| {
+        ("sample 77 of trace 1", |p| {
             p.traces[0].samples[77] = f64::INFINITY;
         }),
-        ("sample 3 of response 0", |p| {
+        ("sample 3 of response 1", |p| {
             p.traces[0].response[3] = f64::NAN;
         }),
-        ("the number of samples of response 0", |p| {
+        ("the number of samples of response 1", |p| {
             p.traces[0].response.truncate(100);
         }),
-        ("the largest value of response 0", |p| {
+        ("the largest value of response 1", |p| {
             p.traces[0].response.fill(0.0);
         }),
         ("gain", |p| p.traces[0].gain = Gain::Unknown),
@@ -80,17 +80,17 @@ fn numbers_and_lengths() {
 
 #[test]
 fn noise_that_cannot_be_found() {
-    let said = rejected("the number of quiet samples of trace 0", |p| {
+    let said = rejected("the number of quiet samples of trace 1", |p| {
         p.traces[0].noise = Noise::Quiet(0..9);
     });
     assert!(
         said.contains("= 9 is outside [16, 149]") && said.contains("pass the standard deviation"),
         "{said}"
     );
-    rejected("the number of quiet samples of trace 0", |p| {
+    rejected("the number of quiet samples of trace 1", |p| {
         p.traces[0].noise = Noise::Quiet(0..9999);
     });
-    rejected("the noise of the quiet part of trace 0", |p| {
+    rejected("the noise of the quiet part of trace 1", |p| {
         p.traces[0].samples[..30].fill(0.0);
         p.traces[0].noise = Noise::Quiet(0..30);
     });

@@ -198,12 +198,16 @@ impl Display for ForceReport {
             ));
         }
         if let Some(own) = &self.0.ball {
+            let mass_g = Estimate {
+                value: 1e3 * own.mass_kg.value,
+                sd: 1e3 * own.mass_kg.sd,
+            };
             text.push((
                 "ball",
                 format!(
                     "radius {}, mass {}, velocity {}",
                     of(&own.radius_m, "m"),
-                    of(&own.mass_kg, "kg"),
+                    of(&mass_g, "g"),
                     of(&own.velocity_m_s, "m/s")
                 ),
             ));
