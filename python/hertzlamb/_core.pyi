@@ -57,7 +57,7 @@ def force(
     given: Any,
     time_s: _Floats,
     blows: list[list[_Floats]],
-    noise: float | None,
+    noise: list[float],
     unknown_gains: list[int],
     impulse_n_s: list[float] | None,
     lambda_: float | None,

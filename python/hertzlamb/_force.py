@@ -132,7 +132,7 @@ def infer_force(
     values: Any,
     scene: Scene,
     *,
-    noise: float | None = None,
+    noise: float | Sequence[float] | None = None,
     unknown_gains: Sequence[int] = (),
     impulse_n_s: tuple[float, float] | None = None,
     lambda_: float | None = None,
@@ -155,8 +155,8 @@ def infer_force(
     scene : dict, path or str
         Scene with the block, the sensors with their responses, and perhaps the striker. Without a striker it needs
         ``contact.disc_radius_m`` and a ``force``, whose samples are ignored.
-    noise : float, optional
-        Standard deviation of white noise in the unit of the traces. Default: the noise before the first arrival, which may
+    noise : float or one for each sensor, optional
+        Standard deviation of white noise in the units of the traces. Default: the noise before the first arrival, which may
         be coloured.
     unknown_gains : sequence of int
         Sensors, from 0, whose gain is not known.
@@ -213,7 +213,7 @@ def infer_force(
             scene,
             np.ascontiguousarray(time, dtype=float),
             [[samples for samples, _ in drop] for drop in found],
-            noise,
+            [] if noise is None else [float(sigma) for sigma in np.atleast_1d(noise)],
             [sensor + 1 for sensor in unknown_gains],
             None if impulse_n_s is None else list(impulse_n_s),
             lambda_,

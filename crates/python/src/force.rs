@@ -31,7 +31,7 @@ pub(crate) fn infer_force_of(
     given: &Bound<'_, PyAny>,
     time_s: PyReadonlyArray1<'_, f64>,
     blows: Vec<Vec<PyReadonlyArray1<'_, f64>>>,
-    noise: Option<f64>,
+    noise: Vec<f64>,
     unknown_gains: Vec<usize>,
     impulse_n_s: Option<[f64; 2]>,
     lambda_: Option<f64>,

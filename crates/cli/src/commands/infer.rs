@@ -66,9 +66,10 @@ struct ForceArguments {
     /// File to write the force to (HDF5). Default: none.
     #[arg(short, long, requires = "trace", value_name = "FILE")]
     output: Option<PathBuf>,
-    /// Standard deviation of white noise in the unit of the traces. Default: the noise before the first arrival.
-    #[arg(long, requires = "trace", value_name = "SIGMA")]
-    noise: Option<f64>,
+    /// Standard deviation of white noise, one for all sensors or one for each, in the units of the traces. Default: the noise
+    /// before the first arrival.
+    #[arg(long, requires = "trace", value_name = "SIGMA", value_delimiter = ',')]
+    noise: Vec<f64>,
     /// Sensors, numbered from 1, whose gain is not known.
     #[arg(
         long,
@@ -82,20 +83,18 @@ struct ForceArguments {
         long,
         requires = "trace",
         value_name = "VALUE,SD",
-        value_delimiter = ',',
-        num_args = 2
+        value_parser = pair
     )]
-    impulse: Option<Vec<f64>>,
+    impulse: Option<[f64; 2]>,
     /// Times in s of the traces between which the force may differ from zero. Default: 1.3 fitted contact times.
     #[arg(
         long,
         requires = "trace",
         value_name = "FROM,TO",
-        value_delimiter = ',',
-        num_args = 2,
-        allow_negative_numbers = true
+        value_parser = pair,
+        allow_hyphen_values = true
     )]
-    window: Option<Vec<f64>>,
+    window: Option<[f64; 2]>,
     /// Weight of the squared second differences of the force in 1/N^2. Default: the most likely one.
     #[arg(long, requires = "trace", value_name = "LAMBDA")]
     lambda: Option<f64>,
@@ -107,6 +106,16 @@ struct ForceArguments {
     of_restitution: Option<f64>,
     #[command(flatten)]
     overwrite: Overwrite,
+}
+
+/// Two numbers with a comma between them.
+fn pair(text: &str) -> Result<[f64; 2], String> {
+    let numbers: Option<Vec<f64>> = text
+        .split(',')
+        .map(|part| part.trim().parse().ok())
+        .collect();
+    let pair = numbers.and_then(|numbers| <[f64; 2]>::try_from(numbers).ok());
+    pair.ok_or_else(|| "two numbers are required, such as 1e-5,3e-5".to_owned())
 }
 
 /// The force behind traces.
@@ -121,13 +130,12 @@ fn run_traces(arguments: &Arguments, scene: &Scene) -> Result<(), Failure> {
     let output = own.output.as_ref().map(claim).transpose()?;
     let blows = arguments.trace.iter().map(|path| read_traces(path));
     let blows = blows.collect::<Result<Vec<_>, _>>()?;
-    let pair = |both: &Option<Vec<f64>>| both.as_ref().and_then(|own| own[..].try_into().ok());
     let given = Given {
-        noise: own.noise,
+        noise: own.noise.clone(),
         unknown_gains: own.unknown_gains.clone(),
-        impulse_n_s: pair(&own.impulse),
+        impulse_n_s: own.impulse,
         lambda: own.lambda,
-        window_s: pair(&own.window),
+        window_s: own.window,
         known: own.known.as_deref().and_then(KnownOf::named),
         restitution: own.of_restitution,
     };

@@ -79,8 +79,9 @@ impl Traces {
 /// What is known in addition to the scene and the traces.
 #[derive(Debug, Clone, Default)]
 pub struct Given {
-    /// Standard deviation of white noise in the unit of each trace. Default: the noise of the quiet beginning of each.
-    pub noise: Option<f64>,
+    /// Standard deviation of white noise, one for all traces or one for each, in their units. Default: the noise of the quiet
+    /// beginning of each.
+    pub noise: Vec<f64>,
     /// Sensors, from 1, whose gain is not known.
     pub unknown_gains: Vec<usize>,
     /// Impulse in N s with its standard deviation.
@@ -157,8 +158,9 @@ const MOST_OVERSAMPLING: usize = 16;
 /// Standard deviations of the noise above which a sample is part of the blow.
 const SEEN: f64 = 6.0;
 
-/// Part of the samples before the blow that is not counted as quiet.
-const NOT_QUIET: f64 = 0.1;
+/// Part of the samples before the blow that is not counted as quiet, where the law tells when it begins, and where only the noise does,
+/// above which a slow beginning shows late.
+const NOT_QUIET: [f64; 2] = [0.1, 0.5];
 
 /// The force behind the traces of one blow, or of repeated ones, which are aligned and averaged.
 ///
@@ -169,7 +171,7 @@ pub fn infer_force(
     blows: &[Traces],
     given: &Given,
 ) -> Result<InferredForce, TraceError> {
-    let (traces, sds, shifts_s) = averaged(scene, blows)?;
+    let (traces, sds, shifts_s) = averaged(scene, blows, given)?;
     let (pulse, contact_s) = pulse(scene)?;
     let oversampling = match contact_s {
         None => 1,
@@ -199,13 +201,14 @@ pub fn infer_force(
             (i, &pulse, contact_s, step_s),
         );
         let arrives_s = begins_s + own.arrival as f64 * step_s;
-        let quiet = ((1.0 - NOT_QUIET) * arrives_s / traces.step_s).max(0.0) as usize;
+        let left_out = NOT_QUIET[usize::from(contact_s.is_none())];
+        let quiet = ((1.0 - left_out) * arrives_s / traces.step_s).max(0.0) as usize;
         let is_unknown = given.unknown_gains.contains(&(i + 1));
         let echo_s = own.echo_s + begins_s;
         problem.traces.push(Trace {
             samples: samples.clone(),
             response: own.samples.clone(),
-            noise: match (given.noise, sds.get(i)) {
+            noise: match (noise(given, i), sds.get(i)) {
                 (Some(sigma), _) => Noise::White(sigma),
                 (None, Some(Some(sigma))) => Noise::White(*sigma),
                 (None, _) => Noise::Quiet(0..quiet),
@@ -233,7 +236,7 @@ pub fn infer_force(
 /// The traces of all blows as one, with the standard deviation of the noise of each mean where there are several, and their shifts.
 type Means = (Traces, Vec<Option<f64>>, Vec<f64>);
 
-fn averaged(scene: &Scene, blows: &[Traces]) -> Result<Means, TraceError> {
+fn averaged(scene: &Scene, blows: &[Traces], given: &Given) -> Result<Means, TraceError> {
     let wrong = |sentence: String| TraceError::Scene(SceneError::of(sentence, "trace"));
     let Some(first) = blows.first() else {
         return Err(wrong("there is no trace".to_owned()));
@@ -241,6 +244,12 @@ fn averaged(scene: &Scene, blows: &[Traces]) -> Result<Means, TraceError> {
     if scene.sensors.is_empty() {
         let hint = "the traces are those of the sensors of the scene: describe each in a section [[sensor]]";
         return Err(TraceError::Scene(SceneError::missing("sensor", hint)));
+    }
+    if given.noise.len() > 1 && given.noise.len() != scene.sensors.len() {
+        let (found, sensors) = (given.noise.len(), scene.sensors.len());
+        return Err(wrong(format!(
+            "there are {found} values of the noise, but the scene has {sensors} sensors: give one for all, or one for each"
+        )));
     }
     for blow in blows {
         let (traces, sensors) = (blow.samples.len(), scene.sensors.len());
@@ -291,6 +300,14 @@ fn pulse(scene: &Scene) -> Result<(Pulse, Option<f64>), TraceError> {
     };
     let force_n: Vec<f64> = (0..=SAMPLES).map(at).collect();
     Ok((Pulse::sampled(&force_n)?, Some(contact_s)))
+}
+
+/// The noise that is given for a trace.
+fn noise(given: &Given, trace: usize) -> Option<f64> {
+    match given.noise[..] {
+        [one] => Some(one),
+        ref each => each.get(trace).copied(),
+    }
 }
 
 /// About when a blow begins, in s after the first sample of a trace: its largest sample is where that of the law's pulse is; for a

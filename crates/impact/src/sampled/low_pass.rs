@@ -66,10 +66,15 @@ pub(crate) fn allowed_hz(time_s: &[f64]) -> [f64; 2] {
     [least, low]
 }
 
+/// The poles above the real axis in rad/s.
+fn poles(cutoff_hz: f64) -> [Complex64; 2] {
+    [0.625, 0.875].map(|angle| Complex64::from_polar(2.0 * PI * cutoff_hz, angle * PI))
+}
+
 /// The force through the filter; `cutoff_hz` is one of [`allowed_hz`].
 pub(crate) fn low_pass(time_s: &[f64], force_n: &[f64], cutoff_hz: f64) -> Rows {
     let mut rows = Rows::new(time_s, force_n, cutoff_hz);
-    let poles = [0.625, 0.875].map(|angle| Complex64::from_polar(2.0 * PI * cutoff_hz, angle * PI));
+    let poles = poles(cutoff_hz);
     let count = rows.time_s.len();
     let mut sum = vec![0.0; count];
     let mut state = [Complex64::default(); 2];
@@ -104,11 +109,10 @@ pub(crate) fn low_pass(time_s: &[f64], force_n: &[f64], cutoff_hz: f64) -> Rows 
 /// y = -(1/4) Re sum s (F + B),     y' = -(1/4) Re sum s^2 (F - B),     y'' = -(1/4) Re sum s^3 (F + B)
 /// ```
 pub(crate) fn filtered(time_s: &[f64], values: &[f64], cutoff_hz: f64, order: i32) -> Vec<f64> {
-    let poles = [0.625, 0.875].map(|angle| Complex64::from_polar(2.0 * PI * cutoff_hz, angle * PI));
     let count = values.len();
     let mut found = vec![0.0; count];
     let last = values.last().copied().unwrap_or(0.0);
-    for pole in poles {
+    for pole in poles(cutoff_hz) {
         let steps = time_s.windows(2).map(|t| functions(pole * (t[1] - t[0])));
         let steps: Vec<_> = steps.collect();
         let (mut state, factor) = (Complex64::default(), -0.25 * pole.powi(order + 1));
