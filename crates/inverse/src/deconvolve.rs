@@ -211,7 +211,7 @@ pub(crate) fn deconvolve(
     fit: &PulseFit,
     normal: &Normal,
 ) -> Result<ForceHistory, InverseError> {
-    let pulse = pulse_samples(problem, fit, normal);
+    let start = vec![1.0; normal.penalty.size()];
     let (mut gains, mut lambda, mut noise) = (fit.gains.clone(), guess(problem, fit), 1.0);
     loop {
         let mut all = normal.stacked(&gains, None);
@@ -219,7 +219,7 @@ pub(crate) fn deconvolve(
             let likelihood = |log: f64| normal.likelihood(&all, log.exp(), noise);
             largest(likelihood, (lambda * noise).ln()).exp()
         });
-        let mut solution = normal.solve(&all, lambda, &pulse)?;
+        let mut solution = normal.solve(&all, lambda, &start)?;
         let mut scale = 0.0;
         for _ in 0..GAIN_CHANGES {
             let before = gains;
@@ -241,7 +241,14 @@ pub(crate) fn deconvolve(
             continue;
         }
         let x = &solution.x;
-        let [low_n, high_n] = band.ends(&solution, noise, problem.confidence);
+        let width = quantile(0.5 * (1.0 - problem.confidence));
+        let half = band.variance.iter().zip(&band.bias);
+        let half = half.map(|(variance, bias)| width * variance.sqrt() + bias.abs());
+        let (low_n, high_n) = x
+            .iter()
+            .zip(half)
+            .map(|(x, half)| ((x - half).max(0.0), x + half))
+            .unzip();
         let top = (0..x.len())
             .max_by(|&i, &j| x[i].total_cmp(&x[j]))
             .unwrap_or(0);
@@ -282,29 +289,15 @@ fn guess(problem: &Problem, fit: &PulseFit) -> f64 {
     count / (fit.peak_n.value * fit.peak_n.value * bends.sum::<f64>())
 }
 
-/// Samples of the fitted pulse in the window.
-fn pulse_samples(problem: &Problem, fit: &PulseFit, normal: &Normal) -> Vec<f64> {
-    let sample = |j| {
-        let time_s = problem.force_time_s((normal.start + j) as f64) - fit.start_s.value;
-        fit.peak_n.value * problem.pulse.at(time_s / fit.duration_s.value)[0]
-    };
-    (0..normal.penalty.size()).map(sample).collect()
-}
-
 /// The largest value of a function with one maximum, found by steps that are halved where neither leads up.
 fn largest(of: impl Fn(f64) -> f64, guess: f64) -> f64 {
     let (mut place, mut best, mut step) = (guess, of(guess), FIRST_STEP);
     while step > LAST_STEP && (place - guess).abs() < FARTHEST {
         let tried = [place + step, place - step].map(|x| (of(x), x));
-        let higher = if tried[0].0 > tried[1].0 {
-            tried[0]
-        } else {
-            tried[1]
-        };
-        if higher.0 > best {
-            (best, place) = higher;
-        } else {
-            step *= 0.4;
+        let higher = tried.into_iter().max_by(|a, b| a.0.total_cmp(&b.0));
+        match higher.filter(|higher| higher.0 > best) {
+            Some(higher) => (best, place) = higher,
+            None => step *= 0.4,
         }
     }
     place
@@ -386,31 +379,6 @@ impl Band {
                 .collect(),
         })
     }
-
-    /// The lower and the upper ends.
-    fn ends(&self, solution: &Solution, noise: f64, confidence: f64) -> [Vec<f64>; 2] {
-        let tail = 0.5 * (1.0 - confidence);
-        let width = quantile(tail);
-        let ends = solution.x.iter().enumerate().map(|(j, &x)| {
-            let (sd, bias) = (self.variance[j].sqrt(), self.bias[j].abs());
-            let half = width * sd + bias;
-            if x > 0.0 {
-                return ((x - half).max(0.0), x + half);
-            }
-            // the posterior is the tail of a normal law whose mean is negative; beyond 30 standard deviations it is
-            // below 1e-197
-            let mean = (solution.gradient[j] * sd / noise).clamp(-30.0, 0.0);
-            let end = mean + quantile(2.0 * tail * upper_tail(-mean));
-            (0.0, (sd * end).max(0.0) + bias)
-        });
-        let (low, high) = ends.unzip();
-        [low, high]
-    }
-}
-
-/// Probability of a normal variable above z.
-fn upper_tail(z: f64) -> f64 {
-    0.5 * erfc(z * FRAC_1_SQRT_2)
 }
 
 /// Where the probability of a normal variable above it is `tail`, at most 1/2.
@@ -418,7 +386,7 @@ fn quantile(tail: f64) -> f64 {
     let (mut low, mut high) = (0.0, 40.0);
     for _ in 0..50 {
         let middle = 0.5 * (low + high);
-        match upper_tail(middle) > tail {
+        match 0.5 * erfc(middle * FRAC_1_SQRT_2) > tail {
             true => low = middle,
             false => high = middle,
         }

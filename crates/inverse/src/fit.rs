@@ -238,15 +238,11 @@ impl Fitting<'_> {
         let (peak, duration, start) = (values[0], values[1], values[2]);
         let first = start.max(0.0).floor() as usize;
         let last = (start + duration).max(first as f64).ceil() as usize;
-        // a line between samples lies inside a curve: the samples are moved out by a twelfth of the second difference
         let sample = |j: usize| {
-            let parts = [(-1.0, -1.0), (0.0, 14.0), (1.0, -1.0)].map(|(offset, weight)| {
-                let fraction = (j as f64 + offset - start) / duration;
-                let [value, slope] = self.problem.pulse.at(fraction);
-                let slope = -peak / duration * slope;
-                [value, fraction * slope, slope].map(|x| weight / 12.0 * x)
-            });
-            [0, 1, 2].map(|c| parts[0][c] + parts[1][c] + parts[2][c])
+            let fraction = (j as f64 - start) / duration;
+            let [value, slope] = self.problem.pulse.at(fraction);
+            let slope = -peak / duration * slope;
+            [value, fraction * slope, slope]
         };
         let samples: Vec<[f64; 3]> = (first..=last).map(sample).collect();
         let forces = [0, 1, 2].map(|c| samples.iter().map(|s| s[c]).collect::<Vec<f64>>());

@@ -94,20 +94,17 @@ fn default_window(
     fit: &PulseFit,
 ) -> Result<(Normal, ForceHistory), InverseError> {
     let (start, duration) = (fit.start_s.value, fit.duration_s.value);
-    let mut first = None;
-    for margin in MARGINS {
-        let window = [start - margin * duration, start + (1.0 + margin) * duration];
-        let samples = (window[1] - window[0]) / problem.force_step_s();
-        if first.is_some() && samples > MOST_SAMPLES as f64 {
-            break;
-        }
-        let found = over(problem, rows, fit, window)?;
-        if found.1.error_factor == 1.0 {
-            return Ok(found);
-        }
-        first.get_or_insert(found);
+    let windows =
+        MARGINS.map(|margin| [start - margin * duration, start + (1.0 + margin) * duration]);
+    let explains = |(_, history): &(Normal, ForceHistory)| history.error_factor == 1.0;
+    let first = over(problem, rows, fit, windows[0])?;
+    if explains(&first) {
+        return Ok(first);
     }
-    first.ok_or_else(InverseError::not_solved)
+    let others = windows[1..]
+        .iter()
+        .filter_map(|window| over(problem, rows, fit, *window).ok());
+    Ok(others.into_iter().find(explains).unwrap_or(first))
 }
 
 /// The force history over a window in s, as far as the traces show it.

@@ -202,7 +202,7 @@ pub fn nnls(matrix: &Symmetric, right: &[f64], start: &[f64]) -> Option<Solution
         let parts = parts.map(|(&j, wanted)| x[j] / (x[j] - wanted).max(f64::MIN_POSITIVE));
         let part = parts.fold(1.0, f64::min);
         for (&j, wanted) in free.iter().zip(&wanted) {
-            x[j] += part * (wanted - x[j]);
+            x[j] = (1.0 - part) * x[j] + part * wanted;
         }
         if wanted.iter().any(|value| *value <= 0.0) {
             let largest = x.iter().fold(0.0, |a: f64, b| a.max(*b));

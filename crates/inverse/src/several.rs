@@ -62,8 +62,7 @@ const LEAST_CORRELATION: f64 = 0.5;
 
 /// The mean of repeated drops of the same ball from the same height, aligned by correlation.
 ///
-/// Each trace is shifted to the largest correlation with the first, and again with the mean; between samples it is read by
-/// cubic interpolation. Samples that a shift brings in from outside a trace are zero.
+/// Each trace is shifted to the largest correlation with the first; between samples it is read by cubic interpolation. Samples that a shift brings in from outside a trace are zero.
 ///
 /// # Errors
 /// [`InverseError`] for fewer than two drops, drops of different lengths, samples that are not finite, and a drop that does
@@ -83,31 +82,21 @@ pub fn average(drops: &[Vec<f64>], step_s: f64) -> Result<Averaged, InverseError
             return Err(InverseError::outside(&key, found, &range, remedy));
         }
     }
-    let (mut mean, mut shifts, mut aligned) = (drops[0].clone(), vec![], vec![]);
-    for _ in 0..2 {
-        shifts = Vec::new();
-        for (index, drop) in drops.iter().enumerate() {
-            let (shift, correlation) = delay(drop, &mean);
-            if correlation < LEAST_CORRELATION {
-                let key = format!("the correlation of drop {index} with the others");
-                let range = format!("[{LEAST_CORRELATION}, 1]");
-                let remedy =
-                    ": remove it, or average drops of the same ball, height and place only";
-                return Err(InverseError::outside(&key, correlation, &range, remedy));
-            }
-            shifts.push(shift - shifts.first().unwrap_or(&0.0));
+    let (mut shifts, mut aligned) = (Vec::new(), Vec::new());
+    for (index, drop) in drops.iter().enumerate() {
+        let (shift, correlation) = delay(drop, &drops[0]);
+        if correlation < LEAST_CORRELATION {
+            let key = format!("the correlation of drop {index} with the first");
+            let range = format!("[{LEAST_CORRELATION}, 1]");
+            let remedy = ": remove it, or average drops of the same ball, height and place only";
+            return Err(InverseError::outside(&key, correlation, &range, remedy));
         }
-        aligned = drops
-            .iter()
-            .zip(&shifts)
-            .map(|(drop, shift)| {
-                let samples = (0..size).map(|i| at(drop, i as f64 + shift));
-                samples.collect::<Vec<f64>>()
-            })
-            .collect();
-        let sample = |i: usize| aligned.iter().map(|drop| drop[i]).sum::<f64>() / count;
-        mean = (0..size).map(sample).collect();
+        let samples = (0..size).map(|i| at(drop, i as f64 + shift));
+        aligned.push(samples.collect::<Vec<f64>>());
+        shifts.push(shift);
     }
+    let sample = |i: usize| aligned.iter().map(|drop| drop[i]).sum::<f64>() / count;
+    let mean: Vec<f64> = (0..size).map(sample).collect();
     let sd = |i: usize| {
         let squares = aligned.iter().map(|drop| (drop[i] - mean[i]).powi(2));
         (squares.sum::<f64>() / (count * (count - 1.0))).sqrt()

@@ -171,7 +171,7 @@ fn repeated_drops() {
     let mut other = drops(30.0);
     let said = |drops: &[Vec<f64>]| average(drops, 1e-6).expect_err("an error").to_string();
     other[5] = normal(9, 200);
-    assert!(said(&other).contains("the correlation of drop 5 with the others = "));
+    assert!(said(&other).contains("the correlation of drop 5 with the first = "));
     other[5].truncate(150);
     assert!(said(&other).contains("drop 5 = 150 is outside [200, 200]"));
     assert!(average(&other[..1], 1e-6).is_err());
