@@ -14,7 +14,6 @@ use crate::error::{Estimate, InverseError};
 use crate::nnls::{Factor, Symmetric, dot};
 use crate::problem::{Gain, Noise, Problem, Rows, last_shown};
 use fault::rounded;
-use std::iter::repeat;
 
 /// Peak, duration and start of a pulse with their errors.
 #[derive(Debug, Clone, PartialEq)]
@@ -61,6 +60,9 @@ const SHOWN: f64 = 0.1;
 /// Steps at most, and the gain in chi-squared at which they end: a standard deviation is a gain of one.
 const MOST_STEPS: usize = 60;
 const CONVERGED: f64 = 1e-7;
+
+/// Step of the slopes by each parameter, relative to it: central differences are exact to its square.
+const SLOPE_STEP: f64 = 1e-4;
 
 /// Shortest duration in force steps.
 const SHORTEST: f64 = 3.0;
@@ -234,44 +236,40 @@ impl Fitting<'_> {
         duration * self.problem.force_step_s() * self.problem.pulse.mean()
     }
 
-    fn point(&self, values: Vec<f64>) -> Point {
+    /// The residual of all rows, and that of the impulse.
+    fn residual(&self, values: &[f64]) -> Vec<f64> {
         let (peak, duration, start) = (values[0], values[1], values[2]);
-        let first = start.max(0.0).floor() as usize;
+        let first = start.max(0.0) as usize;
         let last = (start + duration).max(first as f64).ceil() as usize;
-        let sample = |j: usize| {
-            let fraction = (j as f64 - start) / duration;
-            let [value, slope] = self.problem.pulse.at(fraction);
-            let slope = -peak / duration * slope;
-            [value, fraction * slope, slope]
+        let sample = |j: usize| peak * self.problem.pulse.at((j as f64 - start) / duration)[0];
+        let force: Vec<f64> = (first..=last).map(sample).collect();
+        let mut residual = Vec::new();
+        for (rows, (gain, _)) in self.rows.iter().zip(self.gains(values)) {
+            let model = rows.predict(first, &force);
+            residual.extend(rows.data.iter().zip(model).map(|(d, x)| d - gain * x));
+        }
+        let impulse = self.problem.impulse_n_s.iter();
+        residual.extend(impulse.map(|own| (own.value - peak * self.per_peak(duration)) / own.sd));
+        residual
+    }
+
+    fn point(&self, values: Vec<f64>) -> Point {
+        let residual = self.residual(&values);
+        let slope = |i: usize| {
+            // the start has no scale of its own, nor has a gain of zero
+            let scale = if i == 2 { values[1] } else { values[i].abs() };
+            let step = SLOPE_STEP * if scale > 0.0 { scale } else { 1.0 };
+            let [low, high] = [-step, step].map(|step| {
+                let mut moved = values.clone();
+                moved[i] += step;
+                self.residual(&moved)
+            });
+            let pairs = low.iter().zip(&high);
+            pairs
+                .map(|(low, high)| (low - high) / (2.0 * step))
+                .collect()
         };
-        let samples: Vec<[f64; 3]> = (first..=last).map(sample).collect();
-        let forces = [0, 1, 2].map(|c| samples.iter().map(|s| s[c]).collect::<Vec<f64>>());
-        // the slopes of all rows by each parameter
-        let (mut slopes, mut residual) = (vec![Vec::new(); values.len()], Vec::new());
-        for (rows, (gain, place)) in self.rows.iter().zip(self.gains(&values)) {
-            let traces = forces.each_ref().map(|force| rows.predict(first, force));
-            for (i, slope) in slopes.iter_mut().enumerate() {
-                let (factor, trace) = match i {
-                    0..3 => (gain, &traces[i]),
-                    i if Some(i) == place => (peak, &traces[0]),
-                    _ => (0.0, &traces[0]),
-                };
-                slope.extend(trace.iter().map(|x| factor * x));
-            }
-            let model = traces[0].iter().map(|x| gain * peak * x);
-            residual.extend(rows.data.iter().zip(model).map(|(d, x)| d - x));
-        }
-        if let Some(impulse) = self.problem.impulse_n_s {
-            let per_peak = self.per_peak(duration) / impulse.sd;
-            residual.push(impulse.value / impulse.sd - peak * per_peak);
-            let own = [per_peak, peak * per_peak / duration]
-                .into_iter()
-                .chain(repeat(0.0));
-            slopes
-                .iter_mut()
-                .zip(own)
-                .for_each(|(slope, own)| slope.push(own));
-        }
+        let slopes: Vec<Vec<f64>> = (0..values.len()).map(slope).collect();
         Point {
             chi_squared: dot(&residual, &residual),
             matrix: Symmetric::from_fn(values.len(), |i, j| dot(&slopes[i], &slopes[j])),
