@@ -127,14 +127,17 @@ fn of_sac(text: &str) -> Result<(Vec<Complex64>, Vec<Complex64>, f64), String> {
 /// The quantities of a table.
 const QUANTITIES: [&str; 3] = ["frequency", "amplitude", "phase"];
 
-/// Place of a quantity and the conversion of a value into Hz, a factor or rad.
-type Column = (usize, fn(f64) -> f64);
+/// The conversion of a value into Hz, a factor or rad.
+type Convert = fn(f64) -> f64;
+
+/// Places of the columns of frequency, amplitude and phase.
+type Places = [Option<(usize, Convert)>; 3];
 
 /// The header of a table.
 const HEADER: &str = "frequency_hz,amplitude,phase_deg";
 
-/// The column of a name such as `frequency_khz`, `f [kHz]` or `amplitude/dB`; none if it is of another quantity.
-fn column(name: &str) -> Result<Option<Column>, String> {
+/// The quantity of a column with a name such as `frequency_khz`, `f [kHz]` or `amplitude/dB`; none if it is another one.
+fn column(name: &str) -> Result<Option<(usize, Convert)>, String> {
     let name = name.to_lowercase();
     let (stem, unit) = match name.split_once(['[', '(']) {
         Some((stem, unit)) => (stem.trim(), unit.trim_end_matches([']', ')']).trim()),
@@ -146,7 +149,7 @@ fn column(name: &str) -> Result<Option<Column>, String> {
         "phase" => 2,
         _ => return Ok(None),
     };
-    let convert: fn(f64) -> f64 = match (quantity, unit) {
+    let convert: Convert = match (quantity, unit) {
         (0, "khz") => |f| 1e3 * f,
         (0, "mhz") => |f| 1e6 * f,
         (1, "db") => |decibels| 10_f64.powf(decibels / 20.0),
@@ -162,33 +165,27 @@ fn column(name: &str) -> Result<Option<Column>, String> {
     Ok(Some((quantity, convert)))
 }
 
-/// The columns of a header, none if the line has no frequency or no amplitude.
-fn header(line: &str) -> Result<Option<Vec<Option<Column>>>, String> {
-    let names = columns(line, separator(line));
-    let found: Vec<Option<Column>> = names
-        .iter()
-        .map(|name| column(name))
-        .collect::<Result<_, _>>()?;
-    let count = |quantity| {
-        found
-            .iter()
-            .flatten()
-            .filter(|own| own.0 == quantity)
-            .count()
-    };
-    if let Some(twice) = (0..3).find(|&quantity| count(quantity) > 1) {
-        return Err(format!(
-            "two columns have the {}: keep one of them",
-            QUANTITIES[twice]
-        ));
+/// The columns of a header; none if the line has no frequency or no amplitude.
+fn header(line: &str) -> Result<Option<Places>, String> {
+    let mut found = Places::default();
+    for (place, name) in columns(line, separator(line)).into_iter().enumerate() {
+        let Some((quantity, convert)) = column(name)? else {
+            continue;
+        };
+        if found[quantity].replace((place, convert)).is_some() {
+            let quantity = QUANTITIES[quantity];
+            return Err(format!(
+                "\"{name}\" is a second {quantity}: keep one of them"
+            ));
+        }
     }
-    Ok((count(0) == 1 && count(1) == 1).then_some(found))
+    Ok((found[0].is_some() && found[1].is_some()).then_some(found))
 }
 
 /// The frequencies, amplitudes and phases of a text.
 fn of_table(text: &str) -> Result<(Vec<f64>, Vec<f64>, Option<Vec<f64>>), String> {
     let mut lines = rows(text, '#');
-    let (by, header) = loop {
+    let (by, places) = loop {
         let (line, row) = lines.next().ok_or_else(|| format!(": no header with frequency and amplitude: a table begins with \"{HEADER}\" or without the phase"))?;
         if let Some(found) = header(row).map_err(in_line(line))? {
             break (separator(row), found);
@@ -197,22 +194,16 @@ fn of_table(text: &str) -> Result<(Vec<f64>, Vec<f64>, Option<Vec<f64>>), String
     let mut lists: [Vec<f64>; 3] = Default::default();
     for (line, row) in lines {
         let fields = columns(row, by);
-        for (place, (quantity, convert)) in header
-            .iter()
-            .enumerate()
-            .filter_map(|(i, own)| Some((i, (*own)?)))
-        {
-            let field = *fields.get(place).unwrap_or(&"");
-            let value = number(field, by).ok_or_else(|| {
-                format!(
-                    "{} = \"{field}\" is not a finite number",
-                    QUANTITIES[quantity]
-                )
-            });
-            lists[quantity].push(convert(value.map_err(in_line(line))?));
+        for (quantity, list) in lists.iter_mut().enumerate() {
+            let Some((place, convert)) = places[quantity] else {
+                continue;
+            };
+            let (name, field) = (QUANTITIES[quantity], fields.get(place).unwrap_or(&""));
+            let value = number(field, by);
+            let value = value.ok_or_else(|| format!("{name} = \"{field}\" is not a finite number"));
+            list.push(convert(value.map_err(in_line(line))?));
         }
     }
     let [frequencies_hz, amplitudes, phases_rad] = lists;
-    let has_phases = header.iter().flatten().any(|own| own.0 == 2);
-    Ok((frequencies_hz, amplitudes, has_phases.then_some(phases_rad)))
+    Ok((frequencies_hz, amplitudes, places[2].map(|_| phases_rad)))
 }

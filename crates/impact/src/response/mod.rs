@@ -95,13 +95,11 @@ fn within(
     fits: impl Fn(f64) -> bool,
     range: &'static str,
 ) -> Result<(), ResponseError> {
-    numbers
-        .iter()
-        .find(|x| !fits(**x))
-        .map_or(Ok(()), |&value| {
-            let sentence = format!("{key} = {} is outside {range}", number(value));
-            Err(ResponseError::new(key, value, sentence))
-        })
+    let Some(&value) = numbers.iter().find(|x| !fits(**x)) else {
+        return Ok(());
+    };
+    let sentence = format!("{key} = {} is outside {range}", number(value));
+    Err(ResponseError::new(key, value, sentence))
 }
 
 /// Rejects numbers that are not finite.
@@ -223,10 +221,8 @@ impl Response {
         }
         let mut error = before;
         let error = (0..output.len()).map(|n| {
-            error = differences[n..]
-                .iter()
-                .take(NEAR)
-                .fold(error, |a, &b| a.max(b));
+            let near = differences[n..].iter().take(NEAR);
+            error = near.fold(error, |a, &b| a.max(b));
             error
         });
         Ok(Output {
