@@ -6,7 +6,7 @@ use fault::Fault;
 use formats::read_response;
 use impact::response::Response;
 use num_complex::Complex64;
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::PI;
 use std::fs;
 use std::path::PathBuf;
 

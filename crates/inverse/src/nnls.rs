@@ -17,14 +17,12 @@ pub struct Symmetric {
 impl Symmetric {
     /// The matrix with these entries, of which only those with i >= j are asked for.
     pub fn from_fn(size: usize, entry: impl Fn(usize, usize) -> f64) -> Self {
-        let mut rows = vec![vec![0.0; size]; size];
-        for i in 0..size {
-            for j in 0..=i {
-                rows[i][j] = entry(i, j);
-                rows[j][i] = rows[i][j];
-            }
+        let lower = (0..size).map(|i| (0..=i).map(|j| entry(i, j)).collect());
+        let lower: Vec<Vec<f64>> = lower.collect();
+        let row = |i: usize| (0..size).map(|j| lower[i.max(j)][i.min(j)]).collect();
+        Self {
+            rows: (0..size).map(row).collect(),
         }
-        Self { rows }
     }
 
     /// Rows of the matrix.

@@ -25,7 +25,8 @@ pub fn read_response(path: &Path) -> Result<Response, SceneError> {
         let (poles, zeros, gain) = of_sac(text).map_err(wrong)?;
         PolesZeros::new(poles, zeros, gain).map(Response::PolesZeros)
     } else {
-        let (frequencies_hz, amplitudes, phases_rad) = of_table(text).map_err(wrong)?;
+        let [frequencies_hz, amplitudes, phases_rad] = of_table(text).map_err(wrong)?;
+        let phases_rad = (!phases_rad.is_empty()).then_some(phases_rad);
         Tabulated::new(frequencies_hz, amplitudes, phases_rad).map(Response::Tabulated)
     };
     found.map_err(|error| SceneError::from(error).in_file(path))
@@ -182,8 +183,8 @@ fn header(line: &str) -> Result<Option<Places>, String> {
     Ok((found[0].is_some() && found[1].is_some()).then_some(found))
 }
 
-/// The frequencies, amplitudes and phases of a text.
-fn of_table(text: &str) -> Result<(Vec<f64>, Vec<f64>, Option<Vec<f64>>), String> {
+/// The frequencies, amplitudes and phases of a text; no phases without their column.
+fn of_table(text: &str) -> Result<[Vec<f64>; 3], String> {
     let mut lines = rows(text, '#');
     let (by, places) = loop {
         let (line, row) = lines.next().ok_or_else(|| format!(": no header with frequency and amplitude: a table begins with \"{HEADER}\" or without the phase"))?;
@@ -204,6 +205,5 @@ fn of_table(text: &str) -> Result<(Vec<f64>, Vec<f64>, Option<Vec<f64>>), String
             list.push(convert(value.map_err(in_line(line))?));
         }
     }
-    let [frequencies_hz, amplitudes, phases_rad] = lists;
-    Ok((frequencies_hz, amplitudes, places[2].map(|_| phases_rad)))
+    Ok(lists)
 }
