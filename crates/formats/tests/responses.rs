@@ -6,7 +6,7 @@ use fault::Fault;
 use formats::read_response;
 use impact::response::Response;
 use num_complex::Complex64;
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::PI;
 use std::fs;
 use std::path::PathBuf;
 
@@ -44,10 +44,6 @@ fn sac_roots_that_are_not_listed_are_at_the_origin() {
     assert_eq!(found.zeros(), [Complex64::default(); 3]);
     assert_eq!(found.poles()[2], Complex64::new(-100.0, 0.0));
     assert_eq!((found.poles().len(), found.gain()), (4, 3e4));
-    // of displacement; of velocity it has one zero at the origin less
-    let velocity = Response::PolesZeros(found.clone().of_derivative(1).unwrap());
-    let ratio = Response::PolesZeros(found).at(2.0) / velocity.at(2.0);
-    assert!((ratio - Complex64::new(0.0, TAU * 2.0)).norm() < 1e-12);
     let listed = SAC.replace("ZEROS 3", "zeros 3\r\n-1 0\r");
     let Response::PolesZeros(found) = read(listed) else {
         panic!("poles and zeros");
@@ -56,7 +52,6 @@ fn sac_roots_that_are_not_listed_are_at_the_origin() {
         found.zeros()[..2],
         [Complex64::new(-1.0, 0.0), Complex64::default()]
     );
-    assert!(found.of_derivative(3).is_err());
 }
 
 #[test]
@@ -124,13 +119,13 @@ fn tables_that_are_wrong_are_refused_with_the_line() {
     assert!(refused("f_hz,amplitude,phase\n1,1,0\n").contains("one of deg, rad"));
     assert!(refused("f_hz,frequency_khz,gain\n1,1,0\n").contains("keep one of them"));
     let rows = |rows: &str| refused(&format!("\nf_hz,amplitude\n{rows}"));
-    assert!(rows("1,1\n1,2\n").starts_with(" line 4: frequency = \"1\" does not follow"));
-    assert!(rows("-1,1\n").starts_with(" line 3: frequency = \"-1\" is outside [0, inf)"));
-    assert!(rows("1,-1\n").starts_with(" line 3: amplitude = \"-1\" is outside"));
+    assert!(rows("1,1\n1,2\n").starts_with(": response.frequency_hz = 1 does not follow 1"));
+    assert!(rows("-1,1\n2,1\n").contains("response.frequency_hz = -1 is outside [0, inf)"));
+    assert!(rows("1,-1\n2,1\n").contains("response.amplitude = -1 is outside [0, inf)"));
     assert!(rows("1,1\n2,NaN\n").starts_with(" line 4: amplitude = \"NaN\" is not a finite"));
     assert!(rows("1,1\n2\n").starts_with(" line 4: amplitude = \"\" is not"));
     assert!(rows("1,1\n2,0\n").contains("response.amplitude = 0 at 2 Hz"));
     assert!(rows("1,1\n").contains("response.frequency_hz has 1 elements"));
     let many: String = (0..10_001).map(|i| format!("{i},1\n")).collect();
-    assert!(rows(&many).starts_with(" line 10003: there are more than 10000 rows"));
+    assert!(rows(&many).contains("10001 elements, but 2 to 10000"));
 }

@@ -42,52 +42,39 @@ pub struct Ball {
 /// [`InverseError::Range`] for a modulus or property that is not positive.
 pub fn ball(fit: &PulseFit, effective_modulus_pa: f64, known: Known) -> Result<Ball, InverseError> {
     positive("the effective modulus in Pa", effective_modulus_pa)?;
-    let k = 4.0 / 3.0 * effective_modulus_pa;
-    // m over R^(1/3)
-    let heavy =
-        |peak: f64, duration: f64| 0.8 * peak.cbrt() * (duration / CONTACT_TIME * k.cbrt()).powi(2);
     match known {
         Known::Radius(radius_m) => positive("the radius in m", radius_m)?,
         Known::Density(density) => positive("the density in kg/m^3", density)?,
         Known::Mass(mass_kg) => positive("the mass in kg", mass_kg)?,
     }
-    let of = |peak: f64, duration: f64| {
-        let radius = match known {
-            Known::Radius(radius_m) => radius_m,
-            Known::Density(density) => (heavy(peak, duration) * 0.75 / (PI * density)).powf(0.375),
-            Known::Mass(mass_kg) => (mass_kg / heavy(peak, duration)).powi(3),
-        };
-        let alpha = (peak / (k * radius.sqrt())).powf(2.0 / 3.0);
-        [
-            radius,
-            heavy(peak, duration) * radius.cbrt(),
-            CONTACT_TIME * alpha / duration,
-        ]
-    };
     let (peak, duration) = (fit.peak_n.value, fit.duration_s.value);
-    // powers of both: the slopes are exact up to the square of the step
-    let step = 1e-4;
-    let [up, down] = [step, -step].map(|h| {
-        [
-            of(peak * (1.0 + h), duration),
-            of(peak, duration * (1.0 + h)),
-        ]
-    });
-    let found = of(peak, duration);
-    let [radius_m, mass_kg, velocity_m_s] = [0, 1, 2].map(|c| {
-        let slope = |i: usize, x: f64| (up[i][c] - down[i][c]) / (2.0 * step * x);
-        let slopes = [slope(0, peak), slope(1, duration)];
-        let terms = [(0, 0), (0, 1), (1, 0), (1, 1)]
-            .map(|(i, j)| slopes[i] * slopes[j] * fit.covariance[i][j]);
-        Estimate {
-            value: found[c],
-            sd: terms.iter().sum::<f64>().max(0.0).sqrt(),
+    let k = 4.0 / 3.0 * effective_modulus_pa;
+    // m over R^(1/3)
+    let heavy = 0.8 * peak.cbrt() * (duration / CONTACT_TIME * k.cbrt()).powi(2);
+    // radius, and its exponents of peak and duration
+    let (radius, [a, b]) = match known {
+        Known::Radius(radius_m) => (radius_m, [0.0, 0.0]),
+        Known::Density(density) => {
+            let radius = (heavy * 0.75 / (PI * density)).powf(0.375);
+            (radius, [0.125, 0.75])
         }
-    });
+        Known::Mass(mass_kg) => ((mass_kg / heavy).powi(3), [-1.0, -6.0]),
+    };
+    let alpha = (peak / (k * radius.sqrt())).powf(2.0 / 3.0);
+    let estimate = |value: f64, exponents: [f64; 2]| {
+        let [a, b] = [exponents[0] / peak, exponents[1] / duration];
+        let c = fit.covariance;
+        let relative = a * a * c[0][0] + 2.0 * a * b * c[0][1] + b * b * c[1][1];
+        let sd = value * relative.max(0.0).sqrt();
+        Estimate { value, sd }
+    };
     Ok(Ball {
-        radius_m,
-        mass_kg,
-        velocity_m_s,
+        radius_m: estimate(radius, [a, b]),
+        mass_kg: estimate(heavy * radius.cbrt(), [(1.0 + a) / 3.0, 2.0 + b / 3.0]),
+        velocity_m_s: estimate(
+            CONTACT_TIME * alpha / duration,
+            [(2.0 - a) / 3.0, -1.0 - b / 3.0],
+        ),
     })
 }
 
@@ -96,16 +83,8 @@ pub fn ball(fit: &PulseFit, effective_modulus_pa: f64, known: Known) -> Result<B
 /// # Errors
 /// [`InverseError::Range`] for a restitution outside [0, 1].
 pub fn momentum(fit: &PulseFit, restitution: f64) -> Result<Estimate, InverseError> {
-    check(
-        (0.0..=1.0).contains(&restitution),
-        "restitution",
-        restitution,
-        "[0, 1]",
-    )?;
-    let Estimate { value, sd } = fit.impulse_n_s;
-    let scaled = |x: f64| x / (1.0 + restitution);
-    Ok(Estimate {
-        value: scaled(value),
-        sd: scaled(sd),
-    })
+    let good = (0.0..=1.0).contains(&restitution);
+    check(good, "restitution", restitution, "[0, 1]")?;
+    let [value, sd] = [fit.impulse_n_s.value, fit.impulse_n_s.sd].map(|x| x / (1.0 + restitution));
+    Ok(Estimate { value, sd })
 }

@@ -15,6 +15,7 @@ use crate::fit::{PulseFit, variance};
 use crate::nnls::{Factor, Solution, Symmetric, dot, nnls};
 use crate::problem::{Gain, Problem, Rows};
 use libm::erfc;
+use std::f64::consts::FRAC_1_SQRT_2;
 
 /// One point of the L-curve.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -60,68 +61,77 @@ pub struct ForceHistory {
     pub variance_reduction: f64,
 }
 
-/// The normal equations of each trace for a gain of one, over a window of force samples.
-pub(crate) struct Normal {
-    /// First force sample.
-    pub(crate) start: usize,
-    parts: Vec<Part>,
-    penalty: Symmetric,
-}
-
-struct Part {
+/// Normal equations of a window of force samples.
+#[derive(Clone)]
+pub(crate) struct Equations {
     matrix: Symmetric,
     right: Vec<f64>,
     /// Squared rows that the window can change, their number, and all squared rows.
     data: [f64; 3],
 }
 
-/// The normal equations of all traces with their gains.
-pub(crate) struct Stacked {
-    matrix: Symmetric,
-    right: Vec<f64>,
-    square: f64,
-    count: f64,
+impl Equations {
+    /// Those of one trace for a gain of one.
+    fn of(rows: &Rows, start: usize, size: usize) -> Self {
+        let column = |j| rows.predict(start + j, &[1.0]);
+        let columns: Vec<Vec<f64>> = (0..size).map(column).collect();
+        let first = columns[0].iter().position(|x| *x != 0.0);
+        let changed = &rows.data[first.unwrap_or(rows.data.len())..];
+        let [square, all] = [changed, &rows.data].map(|data| dot(data, data));
+        Self {
+            matrix: Symmetric::from_fn(size, |i, j| dot(&columns[i], &columns[j])),
+            right: columns
+                .iter()
+                .map(|column| dot(column, &rows.data))
+                .collect(),
+            data: [square, changed.len() as f64, all],
+        }
+    }
+
+    /// Squared norm of the residual of a force.
+    fn residual(&self, x: &[f64]) -> f64 {
+        let explained = 2.0 * dot(&self.right, x) - dot(&self.matrix.times(x), x);
+        (self.data[0] - explained).max(0.0)
+    }
+}
+
+/// The normal equations of each trace for a gain of one.
+pub(crate) struct Normal {
+    /// First force sample.
+    pub(crate) start: usize,
+    traces: Vec<Equations>,
+    penalty: Symmetric,
 }
 
 impl Normal {
-    /// Over the force samples from `start` to `end`.
-    pub(crate) fn new(problem: &Problem, rows: &[Rows], [start, end]: [usize; 2]) -> Self {
-        let size = end + 1 - start;
-        let parts = rows
-            .iter()
-            .map(|rows| Part::new(problem, rows, start, size))
-            .collect();
+    /// Over so many force samples from `start` on.
+    pub(crate) fn new(rows: &[Rows], start: usize, size: usize) -> Self {
+        let traces = rows.iter().map(|rows| Equations::of(rows, start, size));
         let penalty = Symmetric::from_fn(size, |i, j| {
             [6.0, -4.0, 1.0].get(i - j).copied().unwrap_or(0.0)
         });
         Self {
             start,
-            parts,
+            traces: traces.collect(),
             penalty,
         }
     }
 
-    /// Those of all traces but one, with the variance of the noise.
-    pub(crate) fn stacked(&self, gains: &[Estimate], but: Option<usize>, variance: f64) -> Stacked {
+    /// Those of all traces but one with their gains.
+    pub(crate) fn stacked(&self, gains: &[Estimate], but: Option<usize>) -> Equations {
         let size = self.penalty.size();
-        let matrix = Symmetric::from_fn(size, |_, _| 0.0);
-        let mut all = Stacked {
-            matrix,
+        let mut all = Equations {
+            matrix: Symmetric::from_fn(size, |_, _| 0.0),
             right: vec![0.0; size],
-            square: 0.0,
-            count: 0.0,
+            data: [0.0; 3],
         };
-        for (k, (part, &Estimate { value: gain, .. })) in self.parts.iter().zip(gains).enumerate() {
-            if Some(k) == but {
-                continue;
+        for (k, (own, gain)) in self.traces.iter().zip(gains).enumerate() {
+            if Some(k) != but {
+                all.matrix.add(gain.value * gain.value, &own.matrix);
+                let pairs = all.right.iter_mut().zip(&own.right);
+                pairs.for_each(|(b, p)| *b += gain.value * p);
+                (0..3).for_each(|i| all.data[i] += own.data[i]);
             }
-            all.matrix.add(gain * gain / variance, &part.matrix);
-            all.right
-                .iter_mut()
-                .zip(&part.right)
-                .for_each(|(b, p)| *b += gain * p / variance);
-            all.square += part.data[0] / variance;
-            all.count += part.data[1];
         }
         all
     }
@@ -129,31 +139,27 @@ impl Normal {
     /// The force of a weight, from a start.
     pub(crate) fn solve(
         &self,
-        all: &Stacked,
+        all: &Equations,
         lambda: f64,
         start: &[f64],
     ) -> Result<Solution, InverseError> {
-        nnls(&self.weighted(all, lambda), &all.right, start).ok_or(InverseError::NotSolved)
+        let found = nnls(&self.weighted(all, lambda), &all.right, start);
+        found.ok_or_else(InverseError::not_solved)
     }
 
-    fn weighted(&self, all: &Stacked, lambda: f64) -> Symmetric {
+    fn weighted(&self, all: &Equations, lambda: f64) -> Symmetric {
         let mut matrix = all.matrix.clone();
         matrix.add(lambda, &self.penalty);
         matrix
     }
 
-    /// Logarithm of the likelihood of the traces.
-    fn likelihood(&self, all: &Stacked, lambda: f64) -> f64 {
+    /// Logarithm of the likelihood of the traces with rows of the variance `noise`.
+    fn likelihood(&self, all: &Equations, lambda: f64, noise: f64) -> f64 {
         Factor::of(&self.weighted(all, lambda)).map_or(f64::NEG_INFINITY, |factor| {
             let y = factor.forward(&all.right);
-            0.5 * (dot(&y, &y) - factor.log_determinant() + all.right.len() as f64 * lambda.ln())
+            let count = all.right.len() as f64;
+            0.5 * (dot(&y, &y) / noise - factor.log_determinant() + count * lambda.ln())
         })
-    }
-
-    /// Squared norms of residual and second differences.
-    fn norms(&self, all: &Stacked, x: &[f64]) -> [f64; 2] {
-        let residual = dot(&all.matrix.times(x), x) - 2.0 * dot(&all.right, x) + all.square;
-        [residual.max(0.0), dot(&self.penalty.times(x), x)]
     }
 
     /// The gains of a force, in the scale of the known ones or of the impulse, and the relative variance of that scale where
@@ -165,55 +171,22 @@ impl Normal {
         x: &[f64],
         noise: f64,
     ) -> (Vec<Estimate>, f64) {
-        let sums = self
-            .parts
-            .iter()
-            .map(|part| [dot(&part.right, x), dot(&part.matrix.times(x), x)]);
+        let sums = self.traces.iter();
+        let sums = sums.map(|own| [dot(&own.right, x), dot(&own.matrix.times(x), x)]);
         let sums: Vec<[f64; 2]> = sums.collect();
-        let mut known = [0.0; 2];
-        for (rows, [product, square]) in rows.iter().zip(&sums) {
-            if let Gain::Known(gain) = rows.gain {
-                known = [known[0] + gain * product, known[1] + gain * gain * square];
-            }
-        }
-        let (scale, error) = match problem.impulse_n_s {
-            Some(impulse) if known[1] == 0.0 => {
-                let sum = x.iter().sum::<f64>() * problem.force_step_s();
-                (impulse.value / sum, (impulse.sd / impulse.value).powi(2))
-            }
-            Some(_) | None => (known[0] / known[1], noise / known[1]),
-        };
+        let impulse = x.iter().sum::<f64>() * problem.force_step_s();
+        let [scale, error] = problem.scale(rows, &sums, impulse, noise);
         let gain = |(rows, [product, square]): (&Rows, &[f64; 2])| match rows.gain {
             Gain::Known(value) => Estimate { value, sd: 0.0 },
             Gain::Unknown => {
                 let value = product / square / scale;
-                Estimate {
-                    value,
-                    sd: (noise / square + value * value * error).sqrt(),
-                }
+                let sd = (noise / square + value * value * error).sqrt();
+                Estimate { value, sd }
             }
         };
         let any = rows.iter().any(|rows| rows.gain == Gain::Unknown);
         let gains = rows.iter().zip(&sums).map(gain).collect();
         (gains, if any { error } else { 0.0 })
-    }
-}
-
-impl Part {
-    fn new(problem: &Problem, rows: &Rows, start: usize, size: usize) -> Self {
-        let column = |j| rows.predict(problem, start + j, &[1.0]);
-        let columns: Vec<Vec<f64>> = (0..size).map(column).collect();
-        let first = columns[0].iter().position(|x| *x != 0.0);
-        let changed = &rows.data[first.unwrap_or(rows.data.len())..];
-        let squares = [changed, &rows.data].map(|data| dot(data, data));
-        Self {
-            matrix: Symmetric::from_fn(size, |i, j| dot(&columns[i], &columns[j])),
-            right: columns
-                .iter()
-                .map(|column| dot(column, &rows.data))
-                .collect(),
-            data: [squares[0], changed.len() as f64, squares[1]],
-        }
     }
 }
 
@@ -238,39 +211,72 @@ pub(crate) fn deconvolve(
     fit: &PulseFit,
     normal: &Normal,
 ) -> Result<ForceHistory, InverseError> {
-    let pulse = pulse_samples(problem, fit, normal);
-    let mut lambda = guess(problem, fit);
-    let chosen = |all: &Stacked, guess: f64| match problem.lambda {
-        Some(lambda) => lambda,
-        None => largest(|log| normal.likelihood(all, log.exp()), guess.ln()).exp(),
-    };
-    let (mut gains, mut noise) = (fit.gains.clone(), 1.0);
+    let start = vec![1.0; normal.penalty.size()];
+    let (mut gains, mut lambda, mut noise) = (fit.gains.clone(), guess(problem, fit), 1.0);
     loop {
-        let mut all = normal.stacked(&gains, None, noise);
-        lambda = chosen(&all, lambda);
-        let mut solution = normal.solve(&all, lambda, &pulse)?;
+        let mut all = normal.stacked(&gains, None);
+        lambda = problem.lambda.unwrap_or_else(|| {
+            let likelihood = |log: f64| normal.likelihood(&all, log.exp(), noise);
+            largest(likelihood, (lambda * noise).ln()).exp()
+        });
+        let mut solution = normal.solve(&all, lambda, &start)?;
         let mut scale = 0.0;
         for _ in 0..GAIN_CHANGES {
             let before = gains;
             (gains, scale) = normal.gains(problem, rows, &solution.x, noise);
             let pairs = gains.iter().zip(&before);
-            let change = pairs
-                .map(|(a, b)| (a.value / b.value - 1.0).abs())
-                .fold(0.0, f64::max);
-            if change <= GAIN_CHANGE {
+            let changes = pairs.map(|(a, b)| (a.value / b.value - 1.0).abs());
+            if changes.fold(0.0, f64::max) <= GAIN_CHANGE {
                 break;
             }
-            all = normal.stacked(&gains, None, noise);
+            all = normal.stacked(&gains, None);
             solution = normal.solve(&all, lambda, &solution.x)?;
         }
-        let posterior = Posterior::new(normal, &all, lambda, solution, scale);
-        let [residual, _] = normal.norms(&all, &posterior.solution.x);
-        let found = variance(residual, (all.count - posterior.unknowns).max(1.0));
+        let band = Band::new(normal, &all, lambda, &solution, [noise, scale])?;
+        let chi_squared = all.residual(&solution.x);
+        let degrees_of_freedom = (all.data[1] - band.unknowns).max(1.0);
+        let found = variance(chi_squared, degrees_of_freedom);
         if found > 1.0 && noise == 1.0 {
             noise = found;
             continue;
         }
-        return Ok(posterior.history(problem, &all, gains, noise, residual * noise));
+        let x = &solution.x;
+        let width = quantile(0.5 * (1.0 - problem.confidence));
+        let half = band.variance.iter().zip(&band.bias);
+        let half = half.map(|(variance, bias)| width * variance.sqrt() + bias.abs());
+        let (low_n, high_n) = x
+            .iter()
+            .zip(half)
+            .map(|(x, half)| ((x - half).max(0.0), x + half))
+            .unzip();
+        let top = (0..x.len())
+            .max_by(|&i, &j| x[i].total_cmp(&x[j]))
+            .unwrap_or(0);
+        let step_s = problem.force_step_s();
+        let sd_of_sum = band.variance_of_sum.sqrt().hypot(band.bias.iter().sum());
+        let [square, _, all_squares] = all.data;
+        return Ok(ForceHistory {
+            start_s: problem.force_time_s(normal.start as f64),
+            step_s,
+            low_n,
+            high_n,
+            peak_n: Estimate {
+                value: x[top],
+                sd: band.variance[top].sqrt().hypot(band.bias[top]),
+            },
+            impulse_n_s: Estimate {
+                value: step_s * x.iter().sum::<f64>(),
+                sd: step_s * sd_of_sum,
+            },
+            gains,
+            lambda,
+            l_curve: l_curve(normal, &all, lambda),
+            chi_squared,
+            degrees_of_freedom,
+            error_factor: noise.sqrt(),
+            variance_reduction: (square - chi_squared) / all_squares,
+            force_n: solution.x,
+        });
     }
 }
 
@@ -283,47 +289,31 @@ fn guess(problem: &Problem, fit: &PulseFit) -> f64 {
     count / (fit.peak_n.value * fit.peak_n.value * bends.sum::<f64>())
 }
 
-/// Samples of the fitted pulse in the window.
-fn pulse_samples(problem: &Problem, fit: &PulseFit, normal: &Normal) -> Vec<f64> {
-    let sample = |j| {
-        let time_s = problem.force_time_s((normal.start + j) as f64) - fit.start_s.value;
-        fit.peak_n.value * problem.pulse.at(time_s / fit.duration_s.value)[0]
-    };
-    (0..normal.penalty.size()).map(sample).collect()
-}
-
 /// The largest value of a function with one maximum, found by steps that are halved where neither leads up.
 fn largest(of: impl Fn(f64) -> f64, guess: f64) -> f64 {
     let (mut place, mut best, mut step) = (guess, of(guess), FIRST_STEP);
     while step > LAST_STEP && (place - guess).abs() < FARTHEST {
         let tried = [place + step, place - step].map(|x| (of(x), x));
-        let higher = if tried[0].0 > tried[1].0 {
-            tried[0]
-        } else {
-            tried[1]
-        };
-        if higher.0 > best {
-            (best, place) = higher;
-        } else {
-            step *= 0.4;
+        let higher = tried.into_iter().max_by(|a, b| a.0.total_cmp(&b.0));
+        match higher.filter(|higher| higher.0 > best) {
+            Some(higher) => (best, place) = higher,
+            None => step *= 0.4,
         }
     }
     place
 }
 
-/// Residual and roughness for weights around one, ascending, for noise of the variance one; without those that rounding
-/// prevents.
-fn l_curve(normal: &Normal, all: &Stacked, lambda: f64, noise: f64) -> Vec<LCurvePoint> {
+/// Residual and roughness for weights around one, ascending; without those that rounding prevents.
+fn l_curve(normal: &Normal, all: &Equations, lambda: f64) -> Vec<LCurvePoint> {
     let (mut x, mut points) = (Vec::new(), Vec::new());
     for i in (-L_CURVE_SIDE..=L_CURVE_SIDE).rev() {
         let lambda = lambda * 10_f64.powf(f64::from(i) / L_CURVE_DENSITY);
         if let Ok(found) = normal.solve(all, lambda, &x) {
             x = found.x;
-            let [residual, roughness] = normal.norms(all, &x);
             points.push(LCurvePoint {
-                lambda: lambda * noise,
-                residual: (residual * noise).sqrt(),
-                roughness: roughness.sqrt(),
+                lambda,
+                residual: all.residual(&x).sqrt(),
+                roughness: dot(&normal.penalty.times(&x), &x).sqrt(),
             });
         }
     }
@@ -331,11 +321,8 @@ fn l_curve(normal: &Normal, all: &Stacked, lambda: f64, noise: f64) -> Vec<LCurv
     points
 }
 
-/// The force of a weight with what it does not determine.
-struct Posterior<'a> {
-    normal: &'a Normal,
-    lambda: f64,
-    solution: Solution,
+/// What the traces do not determine of a force.
+struct Band {
     /// Variance of each sample. Of a free one between that of the posterior, which has all of the prior in it and is too
     /// wide where the traces determine the force, and that of the noise alone, which has none and is too narrow: the geometric
     /// mean of the first and twice the second. `tests/back.rs` fails with either. Of a pinned one that of the posterior.
@@ -348,119 +335,50 @@ struct Posterior<'a> {
     bias: Vec<f64>,
 }
 
-impl<'a> Posterior<'a> {
-    fn new(normal: &'a Normal, all: &Stacked, lambda: f64, solution: Solution, scale: f64) -> Self {
-        let (free, factor) = (&solution.free, &solution.factor);
-        let size = solution.x.len();
+impl Band {
+    /// Of rows of the variance `noise` and a relative variance `scale` of the whole force.
+    fn new(
+        normal: &Normal,
+        all: &Equations,
+        lambda: f64,
+        solution: &Solution,
+        [noise, scale]: [f64; 2],
+    ) -> Result<Self, InverseError> {
+        let Solution {
+            x, free, factor, ..
+        } = solution;
         let matrix = normal.weighted(all, lambda);
-        let mut variance = vec![0.0; size];
+        let mut variance = vec![0.0; x.len()];
         let mut unknowns = free.len() as f64;
-        for (at, &j) in free.iter().enumerate() {
-            let mut column = vec![0.0; size];
-            let unit: Vec<f64> = (0..free.len())
-                .map(|i| f64::from(u8::from(i == at)))
-                .collect();
-            factor
-                .solve(&unit)
-                .iter()
-                .zip(free)
-                .for_each(|(value, &i)| column[i] = *value);
-            // rows of the penalty have five entries
-            let near = |i: usize| i.saturating_sub(2)..(i + 3).min(size);
-            let rough = |i: usize| dot(&normal.penalty.row(i)[near(i)], &column[near(i)]);
-            let prior: f64 = free.iter().map(|&i| column[i] * rough(i)).sum();
-            unknowns -= lambda * rough(j);
-            let sampling = (column[j] - lambda * prior).max(0.0);
-            variance[j] = (column[j] * sampling * sampling).cbrt() + scale * solution.x[j].powi(2);
+        for (inverse, &j) in factor.inverse().iter().zip(free) {
+            let mut column = vec![0.0; x.len()];
+            free.iter()
+                .zip(inverse)
+                .for_each(|(&i, value)| column[i] = *value);
+            let rough = normal.penalty.times(&column);
+            unknowns -= lambda * rough[j];
+            let sampling = (column[j] - lambda * dot(&column, &rough)).max(0.0);
+            variance[j] = noise * (column[j] * sampling * sampling).cbrt() + scale * x[j].powi(2);
         }
-        for j in (0..size).filter(|&j| solution.x[j] == 0.0) {
+        for j in (0..x.len()).filter(|&j| x[j] == 0.0) {
             let entries: Vec<f64> = free.iter().map(|&i| matrix.row(j)[i]).collect();
             let known = factor.forward(&entries);
-            variance[j] = 1.0 / (matrix.row(j)[j] - dot(&known, &known));
+            variance[j] = noise / (matrix.row(j)[j] - dot(&known, &known));
         }
-        let sum = factor.forward(&vec![1.0; free.len()]);
-        let variance_of_sum = dot(&sum, &sum) + scale * solution.x.iter().sum::<f64>().powi(2);
-        let changed = [0.5, 2.0].map(|factor| normal.solve(all, factor * lambda, &solution.x));
-        let bias = match changed {
-            [Ok(rough), Ok(smooth)] => rough
-                .x
+        let ones = factor.forward(&vec![1.0; free.len()]);
+        let rough = normal.solve(all, 0.5 * lambda, x)?.x;
+        let smooth = normal.solve(all, 2.0 * lambda, x)?.x;
+        Ok(Self {
+            variance,
+            variance_of_sum: noise * dot(&ones, &ones) + scale * x.iter().sum::<f64>().powi(2),
+            unknowns,
+            bias: rough
                 .iter()
-                .zip(&smooth.x)
+                .zip(&smooth)
                 .map(|(a, b)| 0.5 * (a - b))
                 .collect(),
-            _ => vec![0.0; size],
-        };
-        Self {
-            normal,
-            lambda,
-            solution,
-            variance,
-            variance_of_sum,
-            unknowns,
-            bias,
-        }
+        })
     }
-
-    fn history(
-        &self,
-        problem: &Problem,
-        all: &Stacked,
-        gains: Vec<Estimate>,
-        noise: f64,
-        chi_squared: f64,
-    ) -> ForceHistory {
-        let x = &self.solution.x;
-        let tail = 0.5 * (1.0 - problem.confidence);
-        let width = quantile(tail);
-        let half = |j: usize| width * self.variance[j].sqrt() + self.bias[j].abs();
-        let high = (0..x.len()).map(|j| match x[j] > 0.0 {
-            true => x[j] + half(j),
-            false => self.pinned(j, 2.0 * tail) + self.bias[j].abs(),
-        });
-        let low = (0..x.len()).map(|j| (x[j] - half(j)).max(0.0));
-        let top = (0..x.len())
-            .max_by(|&i, &j| x[i].total_cmp(&x[j]))
-            .unwrap_or(0);
-        let step = problem.force_step_s();
-        let bias_of_sum: f64 = self.bias.iter().sum();
-        let squares: f64 = self.normal.parts.iter().map(|part| part.data[2]).sum();
-        let changed: f64 = self.normal.parts.iter().map(|part| part.data[0]).sum();
-        ForceHistory {
-            start_s: problem.force_time_s(self.normal.start as f64),
-            step_s: step,
-            low_n: low.collect(),
-            high_n: high.collect(),
-            peak_n: Estimate {
-                value: x[top],
-                sd: self.variance[top].sqrt().hypot(self.bias[top]),
-            },
-            impulse_n_s: Estimate {
-                value: step * x.iter().sum::<f64>(),
-                sd: step * self.variance_of_sum.sqrt().hypot(bias_of_sum),
-            },
-            gains,
-            lambda: self.lambda * noise,
-            l_curve: l_curve(self.normal, all, self.lambda, noise),
-            chi_squared,
-            degrees_of_freedom: (all.count - self.unknowns).max(1.0),
-            error_factor: noise.sqrt(),
-            variance_reduction: 1.0 - (chi_squared + squares - changed) / squares,
-            force_n: x.clone(),
-        }
-    }
-
-    /// The upper end of a pinned sample: its posterior is the tail of a normal law whose mean is negative.
-    fn pinned(&self, j: usize, tail: f64) -> f64 {
-        let sd = self.variance[j].sqrt();
-        // beyond 30 standard deviations the tail is below 1e-197
-        let mean = (self.solution.gradient[j] * sd).clamp(-30.0, 0.0);
-        (sd * (mean + quantile(tail * upper_tail(-mean)))).max(0.0)
-    }
-}
-
-/// Probability of a normal variable above z.
-fn upper_tail(z: f64) -> f64 {
-    0.5 * erfc(z * std::f64::consts::FRAC_1_SQRT_2)
 }
 
 /// Where the probability of a normal variable above it is `tail`, at most 1/2.
@@ -468,7 +386,7 @@ fn quantile(tail: f64) -> f64 {
     let (mut low, mut high) = (0.0, 40.0);
     for _ in 0..50 {
         let middle = 0.5 * (low + high);
-        match upper_tail(middle) > tail {
+        match 0.5 * erfc(middle * FRAC_1_SQRT_2) > tail {
             true => low = middle,
             false => high = middle,
         }

@@ -10,9 +10,10 @@
 //!
 //! Theory: `docs/theory.md` (T73).
 
-use crate::error::{Estimate, InverseError, outside};
+use crate::error::{Estimate, InverseError};
 use crate::nnls::{Factor, Symmetric, dot};
-use crate::problem::{Gain, Noise, Problem, Rows};
+use crate::problem::{Gain, Noise, Problem, Rows, last_shown};
+use fault::rounded;
 
 /// Peak, duration and start of a pulse with their errors.
 #[derive(Debug, Clone, PartialEq)]
@@ -60,6 +61,9 @@ const SHOWN: f64 = 0.1;
 const MOST_STEPS: usize = 60;
 const CONVERGED: f64 = 1e-7;
 
+/// Step of the slopes by each parameter, relative to it: central differences are exact to its square.
+const SLOPE_STEP: f64 = 1e-4;
+
 /// Shortest duration in force steps.
 const SHORTEST: f64 = 3.0;
 
@@ -81,28 +85,29 @@ pub(crate) fn fit(problem: &Problem, rows: &[Rows]) -> Result<PulseFit, InverseE
     let fitting = Fitting { problem, rows };
     let mut starts = fitting.net();
     starts.sort_by(|a, b| b.0.total_cmp(&a.0));
-    let refined = starts
-        .into_iter()
-        .take(REFINED)
-        .map(|(_, start)| fitting.refine(start));
-    let best = refined
-        .flatten()
-        .min_by(|a, b| a.chi_squared.total_cmp(&b.chi_squared));
+    let starts = starts.into_iter().take(REFINED);
+    let refined = starts.filter_map(|(_, start)| fitting.refine(start));
+    let best = refined.min_by(|a, b| a.chi_squared.total_cmp(&b.chi_squared));
     let noise: f64 = rows.iter().map(|rows| dot(&rows.data, &rows.data)).sum();
-    let found = best
-        .as_ref()
-        .map_or(0.0, |best| (noise - best.chi_squared).max(0.0).sqrt());
     let count: usize = rows.iter().map(|rows| rows.data.len()).sum();
-    match best.filter(|_| found >= LEAST_DETECTION) {
-        Some(best) => fitting.checked(&best, found),
-        None if noise > MOVING * count as f64 => Err(InverseError::StartNotShown),
-        None => Err(outside(
+    let explained = |best: &Point| (noise - best.chi_squared).max(0.0);
+    let detection = best.as_ref().map_or(0.0, explained).sqrt();
+    match best.filter(|_| detection >= LEAST_DETECTION) {
+        Some(best) => fitting.checked(&best, detection),
+        None if noise > MOVING * count as f64 => Err(start_not_shown()),
+        None => Err(InverseError::outside(
             "the peak of the best pulse over its uncertainty",
-            found,
-            format!("[{LEAST_DETECTION}, inf)"),
+            detection,
+            &format!("[{LEAST_DETECTION}, inf)"),
             ": no blow stands out of the noise; average repeated drops, or move the sensor closer",
         )),
     }
+}
+
+/// The wave of the start is not in a trace, or the response is another one.
+fn start_not_shown() -> InverseError {
+    let sentence = "the traces do not show the start of the blow: no pulse whose first wave is in them explains them; begin the traces earlier, pass a longer lead, or check the response and its sign";
+    InverseError::new("trace", None, sentence.to_owned())
 }
 
 struct Fitting<'a> {
@@ -121,42 +126,29 @@ struct Point {
 impl Fitting<'_> {
     /// The gain of each trace with its place among the parameters, where it has one.
     fn gains<'a>(&'a self, values: &'a [f64]) -> impl Iterator<Item = (f64, Option<usize>)> + 'a {
-        let mut next = 2;
+        let mut unknown = (3..).zip(&values[3..]);
         self.rows.iter().map(move |rows| match rows.gain {
             Gain::Known(gain) => (gain, None),
-            Gain::Unknown => {
-                next += 1;
-                (values[next], Some(next))
-            }
+            Gain::Unknown => unknown
+                .next()
+                .map_or((0.0, None), |(i, gain)| (*gain, Some(i))),
         })
     }
 
     /// For each duration of the net the best parameters, with the part of chi-squared that they explain.
     fn net(&self) -> Vec<(f64, Vec<f64>)> {
         let rho = self.problem.oversampling;
-        let longest = self
-            .rows
-            .iter()
-            .map(|rows| rows.data.len() * rho)
-            .max()
-            .unwrap_or(0) as f64;
-        let ends = self
-            .rows
-            .iter()
-            .filter_map(|rows| rows.last_shown(self.problem))
-            .max();
+        let longest = self.rows.iter().map(|rows| rows.data.len() * rho).max();
         let mut duration = SHORTEST.max(rho as f64);
         let mut found = Vec::new();
-        while duration < longest {
+        while duration < longest.unwrap_or(0) as f64 {
             let stride = rho * (duration / (STARTS_EACH * rho as f64)).ceil() as usize;
-            let pulse =
-                (0..=duration as usize + 1).map(|j| self.problem.pulse.at(j as f64 / duration)[0]);
-            let pulse: Vec<f64> = pulse.collect();
-            let template =
-                |rows: &Rows| rows.respond((0..rows.kernel.len()).step_by(rho).map(Some), &pulse);
+            let samples = (0..=duration as usize + 1).map(|j| j as f64 / duration);
+            let pulse: Vec<f64> = samples.map(|x| self.problem.pulse.at(x)[0]).collect();
+            let template = |rows: &Rows| rows.respond((1..=rows.kernel.len()).step_by(rho), &pulse);
             let templates: Vec<Vec<f64>> = self.rows.iter().map(template).collect();
-            let places = (0..=ends.unwrap_or(0)).step_by(stride);
-            let tried = places.map(|start| self.explained(duration, start, &templates));
+            let starts = (0..=last_shown(self.rows)).step_by(stride);
+            let tried = starts.filter_map(|start| self.explained(duration, start, &templates));
             found.extend(tried.max_by(|a, b| a.0.total_cmp(&b.0)));
             duration *= DURATION_RATIO;
         }
@@ -164,56 +156,55 @@ impl Fitting<'_> {
     }
 
     /// The best peak and gains of pulses that start at a force sample, and the part of chi-squared that they explain.
-    fn explained(&self, duration: f64, start: usize, templates: &[Vec<f64>]) -> (f64, Vec<f64>) {
-        let rho = self.problem.oversampling;
-        let (mut known, mut explained, mut gains, mut shown) = ([0.0; 2], 0.0, Vec::new(), false);
+    fn explained(
+        &self,
+        duration: f64,
+        start: usize,
+        templates: &[Vec<f64>],
+    ) -> Option<(f64, Vec<f64>)> {
+        let (mut sums, mut shown) = (Vec::new(), false);
         for (rows, template) in self.rows.iter().zip(templates) {
-            // row i shows the template at i + offset
-            let offset =
-                (rows.force_index(self.problem, 0) / rho) as isize - (start / rho) as isize;
+            // the row and the place of the template at which the later of both begins
+            let [first, start] = [rows.first, start].map(|time| time / rows.stride);
             let data = rows
                 .data
-                .get((-offset).max(0) as usize..)
+                .get(start.saturating_sub(first)..)
                 .unwrap_or_default();
-            let model = template.get(offset.max(0) as usize..).unwrap_or_default();
+            let model = template
+                .get(first.saturating_sub(start)..)
+                .unwrap_or_default();
             let count = data.len().min(model.len());
             let (data, model) = (&data[..count], &model[..count]);
-            let (product, square) = (dot(data, model), dot(model, model));
+            let square = dot(model, model);
             shown |= square > SHOWN * dot(template, template);
-            match rows.gain {
-                Gain::Known(gain) => {
-                    known = [known[0] + gain * product, known[1] + gain * gain * square];
-                }
-                Gain::Unknown if square > 0.0 => {
-                    gains.push(product / square);
-                    explained += product * product / square;
-                }
-                Gain::Unknown => gains.push(0.0),
+            sums.push([dot(data, model), square]);
+        }
+        let impulse = self.per_peak(duration);
+        let [peak, _] = self.problem.scale(self.rows, &sums, impulse, 1.0);
+        let mut values = vec![peak, duration, start as f64];
+        let mut explained = 0.0;
+        for (rows, [product, square]) in self.rows.iter().zip(sums) {
+            let factor = match rows.gain {
+                Gain::Known(gain) => peak * gain,
+                Gain::Unknown if square > 0.0 => product / square,
+                Gain::Unknown => 0.0,
+            };
+            explained += factor * (2.0 * product - factor * square);
+            if rows.gain == Gain::Unknown {
+                values.push(factor / peak);
             }
         }
-        let peak = match self.problem.impulse_n_s {
-            Some(impulse) if known[1] == 0.0 => impulse.value / self.per_peak(duration),
-            Some(_) | None => known[0] / known[1],
-        };
-        if !(shown && peak > 0.0 && peak.is_finite()) {
-            return (0.0, Vec::new());
-        }
-        let values = [peak, duration, start as f64]
-            .into_iter()
-            .chain(gains.iter().map(|gain| gain / peak));
-        (explained + peak * known[0], values.collect())
+        (shown && peak > 0.0 && peak.is_finite()).then_some((explained, values))
     }
 
     /// Steps of Gauss and Newton, damped by Marquardt, from the parameters of the net.
     fn refine(&self, start: Vec<f64>) -> Option<Point> {
-        let mut here = Some(start)
-            .filter(|start| !start.is_empty())
-            .map(|start| self.point(start))?;
+        let mut here = self.point(start);
         let mut damping = 1e-3;
         for _ in 0..MOST_STEPS {
-            let mut damped = here.matrix.clone();
-            (0..damped.size())
-                .for_each(|i| damped.set(i, i, here.matrix.row(i)[i] * (1.0 + damping)));
+            let damped = Symmetric::from_fn(here.values.len(), |i, j| {
+                here.matrix.row(i)[j] * if i == j { 1.0 + damping } else { 1.0 }
+            });
             let step = Factor::of(&damped)?.solve(&here.right);
             let moved: Vec<f64> = here
                 .values
@@ -245,143 +236,116 @@ impl Fitting<'_> {
         duration * self.problem.force_step_s() * self.problem.pulse.mean()
     }
 
-    fn point(&self, values: Vec<f64>) -> Point {
-        let size = values.len();
+    /// The residual of all rows, and that of the impulse.
+    fn residual(&self, values: &[f64]) -> Vec<f64> {
         let (peak, duration, start) = (values[0], values[1], values[2]);
-        let first = start.max(0.0).floor() as usize;
+        let first = start.max(0.0) as usize;
         let last = (start + duration).max(first as f64).ceil() as usize;
+        let pulse = |j: f64| peak * self.problem.pulse.at((j - start) / duration)[0];
         // a line between samples lies inside a curve: the samples are moved out by a twelfth of the second difference
         let sample = |j: usize| {
-            let parts = [(-1.0, -1.0), (0.0, 14.0), (1.0, -1.0)].map(|(offset, weight)| {
-                let fraction = (j as f64 + offset - start) / duration;
-                let [value, slope] = self.problem.pulse.at(fraction);
-                [value, fraction * slope, slope].map(|x| weight / 12.0 * x)
+            let parts = [(-1.0, -1.0), (0.0, 14.0), (1.0, -1.0)];
+            let parts = parts.map(|(offset, weight)| weight / 12.0 * pulse(j as f64 + offset));
+            parts.iter().sum::<f64>()
+        };
+        let force: Vec<f64> = (first..=last).map(sample).collect();
+        let mut residual = Vec::new();
+        for (rows, (gain, _)) in self.rows.iter().zip(self.gains(values)) {
+            let model = rows.predict(first, &force);
+            residual.extend(rows.data.iter().zip(model).map(|(d, x)| d - gain * x));
+        }
+        let impulse = self.problem.impulse_n_s.iter();
+        residual.extend(impulse.map(|own| (own.value - peak * self.per_peak(duration)) / own.sd));
+        residual
+    }
+
+    fn point(&self, values: Vec<f64>) -> Point {
+        let residual = self.residual(&values);
+        let slope = |i: usize| {
+            // the start has no scale of its own, nor has a gain of zero
+            let scale = if i == 2 { values[1] } else { values[i].abs() };
+            let step = SLOPE_STEP * if scale > 0.0 { scale } else { 1.0 };
+            let [low, high] = [-step, step].map(|step| {
+                let mut moved = values.clone();
+                moved[i] += step;
+                self.residual(&moved)
             });
-            [0, 1, 2].map(|c| parts[0][c] + parts[1][c] + parts[2][c])
+            let pairs = low.iter().zip(&high);
+            pairs
+                .map(|(low, high)| (low - high) / (2.0 * step))
+                .collect()
         };
-        let samples: Vec<[f64; 3]> = (first..=last).map(sample).collect();
-        let scale = [1.0, -peak / duration, -peak / duration];
-        let forces = [0, 1, 2].map(|c| {
-            samples
-                .iter()
-                .map(|s| scale[c] * s[c])
-                .collect::<Vec<f64>>()
-        });
-        let mut point = Point {
+        let slopes: Vec<Vec<f64>> = (0..values.len()).map(slope).collect();
+        Point {
+            chi_squared: dot(&residual, &residual),
+            matrix: Symmetric::from_fn(values.len(), |i, j| dot(&slopes[i], &slopes[j])),
+            right: slopes.iter().map(|slope| dot(slope, &residual)).collect(),
             values,
-            chi_squared: 0.0,
-            matrix: Symmetric::from_fn(size, |_, _| 0.0),
-            right: vec![0.0; size],
-        };
-        let gains: Vec<_> = self.gains(&point.values).collect();
-        for (rows, (gain, at)) in self.rows.iter().zip(gains) {
-            let columns = forces
-                .each_ref()
-                .map(|force| rows.predict(self.problem, first, force));
-            let residual: Vec<f64> = rows
-                .data
-                .iter()
-                .zip(&columns[0])
-                .map(|(d, q)| d - gain * peak * q)
-                .collect();
-            let scaled = [gain, gain, gain, peak];
-            let places = [Some(0), Some(1), Some(2), at];
-            for (a, place_a) in places.iter().enumerate() {
-                let Some(i) = *place_a else { continue };
-                point.right[i] += scaled[a] * dot(&columns[a % 3], &residual);
-                for (b, place_b) in places.iter().enumerate().take(a + 1) {
-                    let Some(j) = *place_b else { continue };
-                    let product = scaled[a] * scaled[b] * dot(&columns[a % 3], &columns[b % 3]);
-                    point.matrix.set(i, j, point.matrix.row(i)[j] + product);
-                }
-            }
-            point.chi_squared += dot(&residual, &residual);
         }
-        if let Some(impulse) = self.problem.impulse_n_s {
-            let per_peak = self.per_peak(duration) / impulse.sd;
-            let missing = impulse.value / impulse.sd - peak * per_peak;
-            let slopes = [per_peak, peak * per_peak / duration];
-            for i in 0..2 {
-                point.right[i] += slopes[i] * missing;
-                for j in 0..=i {
-                    let product = slopes[i] * slopes[j];
-                    point.matrix.set(i, j, point.matrix.row(i)[j] + product);
-                }
-            }
-            point.chi_squared += missing * missing;
-        }
-        point
     }
 
     /// The fit in SI units, if the traces show its start and its end.
     fn checked(&self, best: &Point, detection: f64) -> Result<PulseFit, InverseError> {
-        let count: usize = self.rows.iter().map(|rows| rows.data.len()).sum();
-        let degrees_of_freedom = count.saturating_sub(best.values.len()).max(1);
-        let factor = Factor::of(&best.matrix).ok_or(InverseError::NotSolved)?;
-        let scale = variance(best.chi_squared, degrees_of_freedom as f64);
+        let rows: usize = self.rows.iter().map(|rows| rows.data.len()).sum();
         let count = best.values.len();
-        let unit = |i| (0..count).map(move |j| f64::from(u8::from(i == j)));
-        let column = |i| factor.solve(&unit(i).collect::<Vec<_>>());
-        let inverse: Vec<Vec<f64>> = (0..count).map(column).collect();
+        let degrees_of_freedom = rows.saturating_sub(count).max(1);
+        let factor = Factor::of(&best.matrix).ok_or_else(InverseError::not_solved)?;
+        let scale = variance(best.chi_squared, degrees_of_freedom as f64);
+        let inverse = factor.inverse();
         let step = self.problem.force_step_s();
         let units = [1.0, step, step];
         let covariance: [[f64; 3]; 3] = std::array::from_fn(|i| {
             std::array::from_fn(|j| inverse[i][j] * units[i] * units[j] * scale)
         });
-        let of = |value, i: usize| Estimate {
+        let of = |value, variance: f64| Estimate {
             value,
-            sd: covariance[i][i].sqrt(),
+            sd: variance.max(0.0).sqrt(),
         };
         let (peak, duration) = (best.values[0], best.values[1] * step);
-        let start_s = self.problem.force_time_s(best.values[2]);
         let impulse_n_s = self.per_peak(best.values[1]) * peak;
         let relative = covariance[0][0] / (peak * peak)
             + covariance[1][1] / (duration * duration)
             + 2.0 * covariance[0][1] / (peak * duration);
-        let gains = self.gains(&best.values).map(|(value, at)| {
-            let sd = at.map_or(0.0, |i| (inverse[i][i] * scale).sqrt());
-            Estimate { value, sd }
-        });
+        let gains = self.gains(&best.values);
+        let gains = gains.map(|(gain, i)| of(gain, i.map_or(0.0, |i| inverse[i][i] * scale)));
         let fit = PulseFit {
-            peak_n: of(peak, 0),
-            duration_s: of(duration, 1),
-            start_s: of(start_s, 2),
+            peak_n: of(peak, covariance[0][0]),
+            duration_s: of(duration, covariance[1][1]),
+            start_s: of(self.problem.force_time_s(best.values[2]), covariance[2][2]),
             covariance,
-            impulse_n_s: Estimate {
-                value: impulse_n_s,
-                sd: impulse_n_s * relative.max(0.0).sqrt(),
-            },
+            impulse_n_s: of(impulse_n_s, impulse_n_s * impulse_n_s * relative),
             gains: gains.collect(),
             chi_squared: best.chi_squared,
             degrees_of_freedom,
             detection,
         };
-        self.shown(&fit, best).map(|()| fit)
+        self.shown(&fit).map(|()| fit)
     }
 
-    fn shown(&self, fit: &PulseFit, best: &Point) -> Result<(), InverseError> {
-        let start_s = fit.start_s.value;
-        // first arrival against the first row, in force samples
-        let seen = |rows: &Rows| {
-            best.values[2] + rows.arrival as f64 >= rows.force_index(self.problem, 0) as f64
-        };
-        if best.values[2] < 0.0 || !self.rows.iter().any(seen) {
-            return Err(InverseError::StartNotShown);
+    /// Rejects a pulse whose start or end is not in the traces, or whose wave is in a quiet part.
+    fn shown(&self, fit: &PulseFit) -> Result<(), InverseError> {
+        let (start_s, duration_s) = (fit.start_s.value, fit.duration_s.value);
+        let start = self.problem.force_place(start_s);
+        let seen = |rows: &Rows| start + rows.arrival as f64 >= rows.first as f64;
+        if start < 0.0 || !self.rows.iter().any(seen) {
+            return Err(start_not_shown());
         }
-        self.problem
-            .shown(self.rows, best.values[2] + best.values[1])?;
+        self.problem.shown(self.rows, start_s + duration_s)?;
         for (index, (rows, trace)) in self.rows.iter().zip(&self.problem.traces).enumerate() {
-            if let Noise::Quiet(range) = &trace.noise {
-                let quiet_s = range.end as f64 * self.problem.step_s;
-                let arrival_s = start_s + rows.arrival as f64 * self.problem.force_step_s();
-                // the foot of a pulse is below the noise
-                if arrival_s + 0.1 * fit.duration_s.value < quiet_s {
-                    return Err(InverseError::QuietMoves {
-                        index,
-                        quiet_s,
-                        arrival_s,
-                    });
-                }
+            let Noise::Quiet(range) = &trace.noise else {
+                continue;
+            };
+            let quiet_s = range.end as f64 * self.problem.step_s;
+            let arrival_s = start_s + rows.arrival as f64 * self.problem.force_step_s();
+            // the foot of a pulse is below the noise
+            if arrival_s + 0.1 * duration_s < quiet_s {
+                let sentence = format!(
+                    "the quiet part of trace {} ends at {} s, but the first wave of the blow arrives at {} s: end the quiet part before, or pass the standard deviation of the noise",
+                    index + 1,
+                    rounded(quiet_s),
+                    rounded(arrival_s)
+                );
+                return Err(InverseError::new("noise", quiet_s, sentence));
             }
         }
         Ok(())

@@ -1,9 +1,9 @@
 //! From traces to the force: a fit, a force history, and what they rest on.
 
 use crate::deconvolve::{ForceHistory, Normal, deconvolve};
-use crate::error::{Estimate, InverseError, outside};
+use crate::error::InverseError;
 use crate::fit::{PulseFit, fit};
-use crate::problem::{Noise, Problem, Rows, Trace};
+use crate::problem::{Noise, Problem, Rows, Trace, last_shown};
 use crate::several::{Jackknife, jackknife};
 use std::ops::Range;
 
@@ -57,19 +57,17 @@ pub fn infer(problem: &Problem) -> Result<Inferred, InverseError> {
     let fit = fit(problem, &rows)?;
     let (normal, history) = match problem.window_s {
         Some(window) => {
-            problem.shown(
-                &rows,
-                window[1] / problem.force_step_s() + problem.lead as f64,
-            )?;
+            problem.shown(&rows, window[1])?;
             over(problem, &rows, &fit, window)?
         }
         None => default_window(problem, &rows, &fit)?,
     };
-    let predicted: Vec<Vec<f64>> = predicted(problem, &history, normal.start);
-    let noise = problem.traces.iter().zip(&rows).zip(&predicted);
-    let noise = noise.map(|((trace, rows), predicted)| {
-        let peak = predicted.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
-        NoiseFound {
+    let (mut predicted, mut noise) = (Vec::new(), Vec::new());
+    for ((trace, rows), gain) in problem.traces.iter().zip(&rows).zip(&history.gains) {
+        let own = predict(problem, trace, normal.start, &history.force_n);
+        let own: Vec<f64> = own.iter().map(|x| gain.value * x).collect();
+        let peak = own.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
+        noise.push(NoiseFound {
             sigma: rows.whitening.sigma,
             order: rows.whitening.order(),
             quiet: match &trace.noise {
@@ -77,14 +75,15 @@ pub fn infer(problem: &Problem) -> Result<Inferred, InverseError> {
                 Noise::White(_) => None,
             },
             signal_to_noise: peak / rows.whitening.sigma,
-        }
-    });
+        });
+        predicted.push(own);
+    }
     Ok(Inferred {
-        noise: noise.collect(),
         jackknife: jackknife(&normal, &history)?,
         fit,
         history,
         predicted,
+        noise,
     })
 }
 
@@ -95,21 +94,17 @@ fn default_window(
     fit: &PulseFit,
 ) -> Result<(Normal, ForceHistory), InverseError> {
     let (start, duration) = (fit.start_s.value, fit.duration_s.value);
-    let mut first = None;
-    for margin in MARGINS {
-        let window = [start - margin * duration, start + (1.0 + margin) * duration];
-        let samples = (window[1] - window[0]) / problem.force_step_s();
-        if first.is_some() && samples > MOST_SAMPLES as f64 {
-            break;
-        }
-        let found = over(problem, rows, fit, window)?;
-        let history = &found.1;
-        if history.error_factor == 1.0 {
-            return Ok(found);
-        }
-        first.get_or_insert(found);
+    let windows =
+        MARGINS.map(|margin| [start - margin * duration, start + (1.0 + margin) * duration]);
+    let explains = |(_, history): &(Normal, ForceHistory)| history.error_factor == 1.0;
+    let first = over(problem, rows, fit, windows[0])?;
+    if explains(&first) {
+        return Ok(first);
     }
-    first.ok_or(InverseError::NotSolved)
+    let others = windows[1..]
+        .iter()
+        .filter_map(|window| over(problem, rows, fit, *window).ok());
+    Ok(others.into_iter().find(explains).unwrap_or(first))
 }
 
 /// The force history over a window in s, as far as the traces show it.
@@ -119,43 +114,32 @@ fn over(
     fit: &PulseFit,
     window: [f64; 2],
 ) -> Result<(Normal, ForceHistory), InverseError> {
-    let [start, end] = window.map(|t| (t / problem.force_step_s() + problem.lead as f64).max(0.0));
-    let last = rows
-        .iter()
-        .filter_map(|rows| rows.last_shown(problem))
-        .max()
-        .unwrap_or(0);
+    let [start, end] = window.map(|t| problem.force_place(t).max(0.0));
     let start = start.ceil() as usize;
-    let end = (end as usize).min(last).max(start + 2);
+    let end = (end as usize).min(last_shown(rows)).max(start + 2);
     let size = end + 1 - start;
     if size > MOST_SAMPLES {
         let key = "the number of force samples in the window";
+        let range = format!("[3, {MOST_SAMPLES}]");
         let remedy =
             ": shorten the window, or resample the traces to about a hundred samples in a contact";
-        return Err(outside(
-            key,
-            size as f64,
-            format!("[3, {MOST_SAMPLES}]"),
-            remedy,
-        ));
+        return Err(InverseError::outside(key, size as f64, &range, remedy));
     }
-    let normal = Normal::new(problem, rows, [start, end]);
+    let normal = Normal::new(rows, start, size);
     let history = deconvolve(problem, rows, fit, &normal)?;
     Ok((normal, history))
 }
 
-/// The traces of a force history in their own units.
-fn predicted(problem: &Problem, history: &ForceHistory, start: usize) -> Vec<Vec<f64>> {
-    let of = |(trace, gain): (&Trace, &Estimate)| {
-        let force = history.force_n.iter().enumerate();
-        let value = |sample: usize| {
-            let lag = |j| problem.force_index(sample).checked_sub(start + j);
-            let terms = force
-                .clone()
-                .filter_map(|(j, p)| Some(p * trace.response.get(lag(j)?)?));
-            gain.value * terms.sum::<f64>()
-        };
-        (0..trace.samples.len()).map(value).collect()
+/// The trace of a force for a gain of one, in its own unit.
+fn predict(problem: &Problem, trace: &Trace, start: usize, force: &[f64]) -> Vec<f64> {
+    let value = |sample: usize| {
+        let time = sample
+            .saturating_mul(problem.oversampling)
+            .saturating_add(problem.lead);
+        let lag = |j: usize| time.checked_sub(start + j);
+        let terms = force.iter().enumerate();
+        let terms = terms.filter_map(|(j, p)| Some(p * trace.response.get(lag(j)?)?));
+        terms.sum()
     };
-    problem.traces.iter().zip(&history.gains).map(of).collect()
+    (0..trace.samples.len()).map(value).collect()
 }

@@ -11,67 +11,52 @@
 /// A symmetric matrix with all its entries.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Symmetric {
-    size: usize,
-    entries: Vec<f64>,
+    rows: Vec<Vec<f64>>,
 }
 
 impl Symmetric {
     /// The matrix with these entries, of which only those with i >= j are asked for.
     pub fn from_fn(size: usize, entry: impl Fn(usize, usize) -> f64) -> Self {
-        let entries = vec![0.0; size * size];
-        let mut matrix = Self { size, entries };
-        for i in 0..size {
-            for j in 0..=i {
-                matrix.set(i, j, entry(i, j));
-            }
+        let lower = (0..size).map(|i| (0..=i).map(|j| entry(i, j)).collect());
+        let lower: Vec<Vec<f64>> = lower.collect();
+        let row = |i: usize| (0..size).map(|j| lower[i.max(j)][i.min(j)]).collect();
+        Self {
+            rows: (0..size).map(row).collect(),
         }
-        matrix
-    }
-
-    pub(crate) fn set(&mut self, i: usize, j: usize, value: f64) {
-        self.entries[i * self.size + j] = value;
-        self.entries[j * self.size + i] = value;
     }
 
     /// Rows of the matrix.
     pub fn size(&self) -> usize {
-        self.size
+        self.rows.len()
     }
 
     /// One row.
     pub fn row(&self, i: usize) -> &[f64] {
-        &self.entries[i * self.size..(i + 1) * self.size]
+        &self.rows[i]
     }
 
     /// Adds a multiple of another matrix of the same size.
     pub(crate) fn add(&mut self, factor: f64, other: &Self) {
-        for (a, b) in self.entries.iter_mut().zip(&other.entries) {
-            *a += factor * b;
-        }
+        let entries = self.rows.iter_mut().flatten();
+        let pairs = entries.zip(other.rows.iter().flatten());
+        pairs.for_each(|(a, b)| *a += factor * b);
     }
 
     /// The product with a vector.
     pub fn times(&self, x: &[f64]) -> Vec<f64> {
-        (0..self.size).map(|i| dot(self.row(i), x)).collect()
+        self.rows.iter().map(|row| dot(row, x)).collect()
     }
 }
 
 /// Scalar product in eight sums, which the compiler keeps in registers.
 pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
+    let ((a8, a_rest), (b8, b_rest)) = (a.as_chunks::<8>(), b.as_chunks::<8>());
     let mut sums = [0.0; 8];
-    let (a8, b8) = (a.chunks_exact(8), b.chunks_exact(8));
-    let rest: f64 = a8
-        .remainder()
-        .iter()
-        .zip(b8.remainder())
-        .map(|(x, y)| x * y)
-        .sum();
-    for (x, y) in a8.zip(b8) {
-        for (sum, (x, y)) in sums.iter_mut().zip(x.iter().zip(y)) {
-            *sum += x * y;
-        }
+    for (x, y) in a8.iter().zip(b8) {
+        (0..8).for_each(|i| sums[i] += x[i] * y[i]);
     }
-    sums.iter().sum::<f64>() + rest
+    let rest = a_rest.iter().zip(b_rest).map(|(x, y)| x * y);
+    sums.iter().sum::<f64>() + rest.sum::<f64>()
 }
 
 /// Pivot of a factor over the diagonal entry, below which a row depends on those before it.
@@ -87,7 +72,7 @@ impl Factor {
     /// The factor of a whole matrix; none if it is not positive definite.
     pub(crate) fn of(matrix: &Symmetric) -> Option<Self> {
         let mut factor = Self::default();
-        (0..matrix.size)
+        (0..matrix.size())
             .all(|i| factor.push(&matrix.row(i)[..i], matrix.row(i)[i]))
             .then_some(factor)
     }
@@ -108,11 +93,9 @@ impl Factor {
     fn remove(&mut self, at: usize) {
         self.rows.remove(at);
         for i in at..self.rows.len() {
-            let (below, size) = (
-                self.rows[i][i + 1],
-                self.rows[i][i].hypot(self.rows[i][i + 1]),
-            );
-            let (cosine, sine) = (self.rows[i][i] / size, below / size);
+            let (own, next) = (self.rows[i][i], self.rows[i][i + 1]);
+            let size = own.hypot(next);
+            let (cosine, sine) = (own / size, next / size);
             for row in &mut self.rows[i..] {
                 let (x, y) = (row[i], row[i + 1]);
                 (row[i], row[i + 1]) = (cosine * x + sine * y, cosine * y - sine * x);
@@ -146,6 +129,17 @@ impl Factor {
     /// The solution of L L^T x = b.
     pub(crate) fn solve(&self, right: &[f64]) -> Vec<f64> {
         self.backward(self.forward(right))
+    }
+
+    /// The inverse of L L^T.
+    pub(crate) fn inverse(&self) -> Vec<Vec<f64>> {
+        let count = self.rows.len();
+        let unit = |i| {
+            (0..count)
+                .map(|j| f64::from(u8::from(i == j)))
+                .collect::<Vec<_>>()
+        };
+        (0..count).map(|i| self.solve(&unit(i))).collect()
     }
 
     /// The logarithm of the determinant of L L^T.
@@ -188,7 +182,7 @@ const ROUNDING: f64 = 1e-13;
 /// # Ok::<(), &str>(())
 /// ```
 pub fn nnls(matrix: &Symmetric, right: &[f64], start: &[f64]) -> Option<Solution> {
-    let size = matrix.size;
+    let size = matrix.size();
     let (mut x, mut free, mut factor) = (vec![0.0; size], Vec::new(), Factor::default());
     for (j, &value) in start.iter().enumerate().filter(|(_, value)| **value > 0.0) {
         if freed(matrix, j, &mut free, &mut factor) {
@@ -196,46 +190,38 @@ pub fn nnls(matrix: &Symmetric, right: &[f64], start: &[f64]) -> Option<Solution
         }
     }
     let mut barred = vec![false; size];
-    let mut newest = None;
     for _ in 0..10 * size + 100 {
         let wanted = factor.solve(&free.iter().map(|&j| right[j]).collect::<Vec<_>>());
-        if newest.is_some() && wanted.last().is_some_and(|value| *value <= 0.0) {
-            // rounding alone made the gradient positive
-            barred[free.pop()?] = true;
-            factor.remove(free.len());
-            newest = None;
-            continue;
-        }
-        let step = free
+        // as far as no unknown becomes negative
+        let parts = free
             .iter()
             .zip(&wanted)
             .filter(|(_, wanted)| **wanted <= 0.0);
-        let step = step
-            .map(|(&j, wanted)| x[j] / (x[j] - wanted))
-            .fold(1.0, f64::min);
+        let parts = parts.map(|(&j, wanted)| x[j] / (x[j] - wanted).max(f64::MIN_POSITIVE));
+        let part = parts.fold(1.0, f64::min);
         for (&j, wanted) in free.iter().zip(&wanted) {
-            x[j] += step * (wanted - x[j]);
+            x[j] = (1.0 - part) * x[j] + part * wanted;
         }
-        newest = None;
-        if step < 1.0 || wanted.iter().any(|value| *value <= 0.0) {
+        if wanted.iter().any(|value| *value <= 0.0) {
             let largest = x.iter().fold(0.0, |a: f64, b| a.max(*b));
             for at in (0..free.len()).rev() {
                 if wanted[at] <= 0.0 && x[free[at]] <= 1e-15 * largest {
-                    x[free.remove(at)] = 0.0;
+                    let j = free.remove(at);
                     factor.remove(at);
+                    // of one that was freed in vain, rounding alone made the gradient positive
+                    (x[j], barred[j]) = (0.0, part == 0.0);
                 }
             }
             continue;
         }
         let product = matrix.times(&x);
         let gradient: Vec<f64> = right.iter().zip(&product).map(|(b, a)| b - a).collect();
-        let largest = right
-            .iter()
-            .chain(&product)
-            .fold(0.0, |a: f64, b| a.max(b.abs()));
+        let terms = right.iter().chain(&product);
+        let largest = terms.fold(0.0, |a: f64, b| a.max(b.abs()));
         let pinned = (0..size).filter(|&j| x[j] == 0.0 && !barred[j] && !free.contains(&j));
         let steepest = pinned.max_by(|&i, &j| gradient[i].total_cmp(&gradient[j]));
         match steepest.filter(|&j| gradient[j] > ROUNDING * largest) {
+            Some(j) => barred[j] = !freed(matrix, j, &mut free, &mut factor),
             None => {
                 return Some(Solution {
                     x,
@@ -244,8 +230,6 @@ pub fn nnls(matrix: &Symmetric, right: &[f64], start: &[f64]) -> Option<Solution
                     factor,
                 });
             }
-            Some(j) if freed(matrix, j, &mut free, &mut factor) => newest = Some(j),
-            Some(j) => barred[j] = true,
         }
     }
     None

@@ -10,6 +10,8 @@
 //!
 //! Theory: `docs/theory.md` (T74).
 
+use crate::nnls::dot;
+
 /// Fewest quiet samples from which noise is measured: the standard deviation of so many has an error of 18 %.
 pub(crate) const FEWEST_QUIET: usize = 16;
 
@@ -42,28 +44,24 @@ impl Whitening {
             let free = count as f64 - order as f64 - 2.0;
             count as f64 * (power.ln() + 2.0 * (order as f64 + 1.0) / free)
         };
-        let mut best = (criterion(power, 0), vec![1.0], power);
         let (mut filter, mut error) = (vec![1.0], power);
+        let mut best = (criterion(power, 0), filter.clone(), power);
         let (mut forward, mut backward) = (quiet.to_vec(), quiet.to_vec());
         for order in 1..=most {
             let (ahead, behind) = (&forward[order..], &backward[order - 1..count - 1]);
-            let pairs = || ahead.iter().zip(behind);
-            let product: f64 = pairs().map(|(f, b)| f * b).sum();
-            let square: f64 = pairs().map(|(f, b)| f * f + b * b).sum();
+            let square = dot(ahead, ahead) + dot(behind, behind);
             if square <= 0.0 {
                 break;
             }
-            let reflection = -2.0 * product / square;
+            let reflection = -2.0 * dot(ahead, behind) / square;
             for i in (order..count).rev() {
                 let (f, b) = (forward[i], backward[i - 1]);
                 (forward[i], backward[i]) = (f + reflection * b, b + reflection * f);
             }
             filter.push(0.0);
-            let turned: Vec<f64> = filter.iter().rev().copied().collect();
-            filter
-                .iter_mut()
-                .zip(turned)
-                .for_each(|(a, b)| *a += reflection * b);
+            let turned = filter.clone().into_iter().rev();
+            let pairs = filter.iter_mut().zip(turned);
+            pairs.for_each(|(a, b)| *a += reflection * b);
             error *= 1.0 - reflection * reflection;
             let found = criterion(error, order);
             if found < best.0 {
@@ -104,5 +102,5 @@ impl Whitening {
 
 /// Mean of the squares.
 pub(crate) fn mean_square(samples: &[f64]) -> f64 {
-    samples.iter().map(|x| x * x).sum::<f64>() / samples.len().max(1) as f64
+    dot(samples, samples) / samples.len().max(1) as f64
 }

@@ -1,9 +1,10 @@
 //! The traces of a blow, their rows in units of the noise.
 
-use crate::error::{Estimate, InverseError, check, finite, outside, positive};
+use crate::error::{Estimate, InverseError, check, finite, positive};
 use crate::nnls::dot;
 use crate::noise::{FEWEST_QUIET, Whitening, mean_square};
 use crate::pulse::Pulse;
+use fault::rounded;
 use std::ops::Range;
 
 /// Noise of a trace.
@@ -71,12 +72,14 @@ pub struct Problem<'a> {
 pub(crate) struct Rows {
     /// Whitened samples, those that the filter needs before it is complete left out.
     pub(crate) data: Vec<f64>,
-    /// Sample of the trace of the first row.
-    pub(crate) first: usize,
     /// Whitened response on the force step.
     pub(crate) kernel: Vec<f64>,
     /// Force steps from the middle of a hat to its first response.
     pub(crate) arrival: usize,
+    /// Force sample at the time of the first row.
+    pub(crate) first: usize,
+    /// Force samples between two rows.
+    pub(crate) stride: usize,
     pub(crate) whitening: Whitening,
     pub(crate) gain: Gain,
 }
@@ -111,151 +114,145 @@ impl<'a> Problem<'a> {
         self.step_s / self.oversampling as f64
     }
 
-    /// Force sample at the time of a sample of the traces.
-    pub(crate) fn force_index(&self, sample: usize) -> usize {
-        sample
-            .saturating_mul(self.oversampling)
-            .saturating_add(self.lead)
-    }
-
     /// Time of a force sample in s.
     pub(crate) fn force_time_s(&self, index: f64) -> f64 {
         (index - self.lead as f64) * self.force_step_s()
     }
 
-    /// Rejects a force whose last sample, a force index, has no wave in any trace.
-    pub(crate) fn shown(&self, rows: &[Rows], last: f64) -> Result<(), InverseError> {
-        let shown = rows
-            .iter()
-            .filter_map(|rows| rows.last_shown(self))
-            .max()
-            .unwrap_or(0) as f64;
-        if last <= shown {
+    /// Place of a time in s among the force samples.
+    pub(crate) fn force_place(&self, time_s: f64) -> f64 {
+        time_s / self.force_step_s() + self.lead as f64
+    }
+
+    /// Rejects a force whose end in s has no wave in any trace.
+    pub(crate) fn shown(&self, rows: &[Rows], end_s: f64) -> Result<(), InverseError> {
+        let shown_s = self.force_time_s(last_shown(rows) as f64);
+        if end_s <= shown_s {
             return Ok(());
         }
-        let ends = rows
-            .iter()
-            .map(|rows| rows.first + rows.data.len() - 1)
-            .max()
-            .unwrap_or(0);
-        Err(InverseError::NotShown {
-            wanted_s: self.force_time_s(last),
-            valid_s: ends as f64 * self.step_s,
-            shown_s: self.force_time_s(shown),
-        })
+        let last = rows.iter().map(Rows::last).max().unwrap_or(0);
+        let valid_s = self.force_time_s(last as f64);
+        let sentence = format!(
+            "the force until {} s is not in the traces: they are valid until {} s, which shows forces until {} s; shorten the window, or move the sensor closer",
+            rounded(end_s),
+            rounded(valid_s),
+            rounded(shown_s)
+        );
+        Err(InverseError::new("window_s", end_s, sentence))
+    }
+
+    /// The factor of a force from the products of its prediction with the rows and with itself, one pair a trace: from the
+    /// traces of known gain, or else from its impulse in N s. With its relative variance for rows of the variance `noise`.
+    pub(crate) fn scale(
+        &self,
+        rows: &[Rows],
+        sums: &[[f64; 2]],
+        impulse: f64,
+        noise: f64,
+    ) -> [f64; 2] {
+        let (mut product, mut square) = (0.0, 0.0);
+        for (rows, sums) in rows.iter().zip(sums) {
+            if let Gain::Known(gain) = rows.gain {
+                product += gain * sums[0];
+                square += gain * gain * sums[1];
+            }
+        }
+        match self.impulse_n_s {
+            Some(known) if square == 0.0 => {
+                [known.value / impulse, (known.sd / known.value).powi(2)]
+            }
+            Some(_) | None => [product / square, noise / square],
+        }
     }
 
     /// Checks all that can be checked before a fit, and whitens the traces.
     pub(crate) fn rows(&self) -> Result<Vec<Rows>, InverseError> {
         positive("step_s", self.step_s)?;
         positive("oversampling", self.oversampling as f64)?;
-        check(
-            (0.5..1.0).contains(&self.confidence),
-            "confidence",
-            self.confidence,
-            "[0.5, 1)",
-        )?;
-        self.lambda
-            .map_or(Ok(()), |lambda| positive("lambda", lambda))?;
+        let confidence = self.confidence;
+        let good = (0.5..1.0).contains(&confidence);
+        check(good, "confidence", confidence, "[0.5, 1)")?;
+        if let Some(lambda) = self.lambda {
+            positive("lambda", lambda)?;
+        }
         if let Some(impulse) = self.impulse_n_s {
             positive("impulse_n_s", impulse.value)?;
             positive("the error of impulse_n_s", impulse.sd)?;
         }
         if let Some([from, to]) = self.window_s {
-            check(
-                from.is_finite(),
-                "the start of window_s",
-                from,
-                "(-inf, inf)",
-            )?;
-            let least = from.max(self.force_time_s(0.0));
             let range = "(its start and that of the traces, inf)";
-            check(
-                to > least && to.is_finite(),
-                "the end of window_s",
-                to,
-                range,
-            )?;
+            let good = to > from && to > self.force_time_s(0.0) && to.is_finite();
+            check(good, "the end of window_s", to, range)?;
         }
-        check(
-            !self.traces.is_empty(),
-            "the number of traces",
-            0.0,
-            "[1, inf)",
-        )?;
-        let known = |trace: &Trace| matches!(trace.gain, Gain::Known(_));
-        if self.impulse_n_s.is_none() && !self.traces.iter().any(known) {
-            return Err(InverseError::NoScale);
+        let count = self.traces.len() as f64;
+        check(count > 0.0, "the number of traces", count, "[1, inf)")?;
+        if self.impulse_n_s.is_none() && self.traces.iter().all(|own| own.gain == Gain::Unknown) {
+            let sentence = "no gain is known, so only the shape of the force could be found: pass the gain of one trace or the impulse";
+            return Err(InverseError::new("gain", None, sentence.to_owned()));
         }
-        self.traces
-            .iter()
-            .enumerate()
-            .map(|(i, trace)| self.rows_of(i, trace))
-            .collect()
+        let traces = self.traces.iter().enumerate();
+        traces.map(|(i, trace)| self.rows_of(i, trace)).collect()
     }
 
     fn rows_of(&self, index: usize, trace: &Trace) -> Result<Rows, InverseError> {
         finite(&format!("trace {}", index + 1), &trace.samples)?;
         finite(&format!("response {}", index + 1), &trace.response)?;
         if let Gain::Known(gain) = trace.gain {
-            check(
-                gain != 0.0 && gain.is_finite(),
-                "gain",
-                gain,
-                "(-inf, inf) without 0",
-            )?;
+            let good = gain != 0.0 && gain.is_finite();
+            check(good, "gain", gain, "(-inf, inf) without 0")?;
         }
         let mut used = trace.samples.len();
         if let Some(valid) = trace.valid_until_s {
             positive("valid_until_s", valid)?;
             used = used.min(((valid / self.step_s) as usize).saturating_add(1));
         }
-        let (found, needed) = (
-            trace.response.len(),
-            self.force_index(used.max(1) - 1).saturating_add(1),
-        );
+        let steps = self.oversampling.saturating_mul(used.max(1) - 1);
+        let needed = steps.saturating_add(self.lead).saturating_add(1);
         let response = trace.response.get(..needed).ok_or_else(|| {
             let key = format!("the number of samples of response {}", index + 1);
+            let (found, range) = (trace.response.len() as f64, format!("[{needed}, inf)"));
             let remedy = ": compute it on the force step until the end of the trace";
-            outside(key, found as f64, format!("[{needed}, inf)"), remedy)
+            InverseError::outside(&key, found, &range, remedy)
         })?;
-        let whitening = self.whitening(index, trace)?;
-        let kernel = whitening.apply(response, self.oversampling);
         let largest = response.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
         let arrival = response.iter().position(|x| x.abs() > ARRIVED * largest);
         let arrival = arrival.ok_or_else(|| {
             let key = format!("the largest value of response {}", index + 1);
             let remedy =
                 ": no wave reaches the sensor before the end of the trace; check its place";
-            outside(key, largest, "(0, inf)", remedy)
+            InverseError::outside(&key, largest, "(0, inf)", remedy)
         })?;
-        let first = whitening.order();
-        let range = [first + FEWEST_QUIET, MOST_FORCE_STEPS / self.oversampling];
+        let whitening = self.whitening(index, trace)?;
+        let order = whitening.order();
+        let range = [order + FEWEST_QUIET, MOST_FORCE_STEPS / self.oversampling];
         if !(range[0]..=range[1]).contains(&used) {
             let key = format!("the number of valid samples of trace {}", index + 1);
             let remedy = ": cut the trace around the blow, or resample it to about a hundred samples in a contact";
-            return Err(outside(key, used as f64, format!("{range:?}"), remedy));
+            return Err(InverseError::outside(
+                &key,
+                used as f64,
+                &format!("{range:?}"),
+                remedy,
+            ));
         }
-        let data = whitening.apply(&trace.samples[..used], 1).split_off(first);
         Ok(Rows {
-            data,
-            first,
-            kernel,
+            data: whitening.apply(&trace.samples[..used], 1).split_off(order),
+            kernel: whitening.apply(response, self.oversampling),
             arrival,
+            first: self.lead + self.oversampling * order,
+            stride: self.oversampling,
             whitening,
             gain: trace.gain,
         })
     }
 
+    /// The whitening of a trace that begins at rest.
     fn whitening(&self, index: usize, trace: &Trace) -> Result<Whitening, InverseError> {
-        let under_load = |ratio| Err(InverseError::UnderLoad { index, ratio });
-        match &trace.noise {
+        let (whitening, ratio, most) = match &trace.noise {
             Noise::White(sigma) => {
                 positive("noise", *sigma)?;
-                match trace.samples.first().map(|x| x.abs() / sigma) {
-                    Some(ratio) if ratio > OFFSET => under_load(ratio),
-                    Some(_) | None => Ok(Whitening::white(*sigma)),
-                }
+                let first = trace.samples.first().map_or(0.0, |x| x.abs());
+                (Whitening::white(*sigma), first / sigma, OFFSET)
             }
             Noise::Quiet(range) => {
                 let found = range.len();
@@ -264,54 +261,59 @@ impl<'a> Problem<'a> {
                     let key = format!("the number of quiet samples of trace {}", index + 1);
                     let range = format!("[{FEWEST_QUIET}, {}]", trace.samples.len());
                     let remedy = ": record more before the trigger, or pass the standard deviation of the noise";
-                    outside(key, found as f64, range, remedy)
+                    InverseError::outside(&key, found as f64, &range, remedy)
                 })?;
                 let mean = quiet.iter().sum::<f64>() / found as f64;
-                let sigma = (mean_square(quiet) - mean * mean).max(0.0).sqrt();
-                if sigma <= 0.0 {
+                let centred: Vec<f64> = quiet.iter().map(|x| x - mean).collect();
+                let sigma = mean_square(&centred).sqrt();
+                // rounding alone
+                if sigma <= 1e-14 * mean.abs() {
                     let key = format!("the noise of the quiet part of trace {}", index + 1);
                     let remedy =
                         ": pass a standard deviation, at least 0.29 of a digit of the recorder";
-                    return Err(outside(key, sigma, "(0, inf)", remedy));
+                    return Err(InverseError::outside(&key, sigma, "(0, inf)", remedy));
                 }
-                let centred: Vec<f64> = quiet.iter().map(|x| x - mean).collect();
                 let error = Whitening::of_quiet(&centred).error_of_mean(found);
-                if mean.abs() > (OFFSET * error).max(0.5 * sigma) {
-                    return under_load(mean.abs() / sigma);
-                }
-                Ok(Whitening::of_quiet(quiet))
+                let most = (OFFSET * error / sigma).max(0.5);
+                (Whitening::of_quiet(quiet), mean.abs() / sigma, most)
             }
+        };
+        if ratio <= most {
+            return Ok(whitening);
         }
+        let sentence = format!(
+            "trace {} begins under load: its first samples are {} times the noise; begin before the blow, or subtract the offset of the quiet part",
+            index + 1,
+            rounded(ratio)
+        );
+        Err(InverseError::new("trace", ratio, sentence))
     }
 }
 
-impl Rows {
-    /// Force sample at the time of a row.
-    pub(crate) fn force_index(&self, problem: &Problem, row: usize) -> usize {
-        problem.force_index(self.first + row)
-    }
+/// The last force sample that has a wave in a trace.
+pub(crate) fn last_shown(rows: &[Rows]) -> usize {
+    let shown = rows
+        .iter()
+        .map(|rows| rows.last().saturating_sub(rows.arrival));
+    shown.max().unwrap_or(0)
+}
 
-    /// The last force sample that has a wave in the rows.
-    pub(crate) fn last_shown(&self, problem: &Problem) -> Option<usize> {
-        self.force_index(problem, self.data.len() - 1)
-            .checked_sub(self.arrival)
+impl Rows {
+    /// Force sample at the time of the last row.
+    fn last(&self) -> usize {
+        self.first + self.stride * (self.data.len() - 1)
     }
 
     /// The whitened trace of a force whose first sample is `start`, for a gain of one.
-    pub(crate) fn predict(&self, problem: &Problem, start: usize, force: &[f64]) -> Vec<f64> {
-        let place = |row| self.force_index(problem, row).checked_sub(start);
-        self.respond((0..self.data.len()).map(place), force)
+    pub(crate) fn predict(&self, start: usize, force: &[f64]) -> Vec<f64> {
+        let times = (self.first..=self.last()).step_by(self.stride);
+        self.respond(times.map(|time| (time + 1).saturating_sub(start)), force)
     }
 
-    /// The whitened response to a force at times in force steps after its first sample, if they are.
-    pub(crate) fn respond(
-        &self,
-        times: impl Iterator<Item = Option<usize>>,
-        force: &[f64],
-    ) -> Vec<f64> {
+    /// The whitened response to a force, so many force steps after the one before its first sample.
+    pub(crate) fn respond(&self, times: impl Iterator<Item = usize>, force: &[f64]) -> Vec<f64> {
         let turned: Vec<f64> = force.iter().rev().copied().collect();
-        let at = |time: Option<usize>| {
-            let end = time.map_or(0, |time| time + 1);
+        let at = |end: usize| {
             let count = force.len().min(end.saturating_sub(self.arrival));
             dot(
                 &self.kernel[end - count..end],

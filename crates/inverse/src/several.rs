@@ -1,7 +1,7 @@
 //! Several traces: the force without each of them, and the mean of repeated drops.
 
 use crate::deconvolve::{ForceHistory, Normal};
-use crate::error::{InverseError, check, finite, outside, positive};
+use crate::error::{InverseError, check, finite, positive};
 use crate::nnls::dot;
 
 /// Results without each of the traces, with the gains and the smoothness of all.
@@ -22,35 +22,27 @@ pub(crate) fn jackknife(
     normal: &Normal,
     history: &ForceHistory,
 ) -> Result<Option<Jackknife>, InverseError> {
-    let gains = &history.gains;
+    let (gains, lambda) = (&history.gains, history.lambda);
     if gains.len() < 2 {
         return Ok(None);
     }
-    let without = |k| {
-        let stacked = normal.stacked(gains, Some(k), 1.0);
-        normal
-            .solve(&stacked, history.lambda, &history.force_n)
-            .map(|found| found.x)
-    };
-    let forces: Vec<Vec<f64>> = (0..gains.len()).map(without).collect::<Result<_, _>>()?;
-    let peak_n: Vec<f64> = forces
-        .iter()
-        .map(|x| x.iter().fold(0.0, |a: f64, b| a.max(*b)))
-        .collect();
-    let impulse_n_s: Vec<f64> = forces
-        .iter()
-        .map(|x| history.step_s * x.iter().sum::<f64>())
-        .collect();
-    let [peak_sd_n, impulse_sd_n_s] = [&peak_n, &impulse_n_s].map(|values| {
+    let (mut peak_n, mut impulse_n_s) = (Vec::new(), Vec::new());
+    for k in 0..gains.len() {
+        let others = normal.stacked(gains, Some(k));
+        let force = normal.solve(&others, lambda, &history.force_n)?.x;
+        peak_n.push(force.iter().copied().fold(0.0, f64::max));
+        impulse_n_s.push(history.step_s * force.iter().sum::<f64>());
+    }
+    let sd = |values: &[f64]| {
         let count = values.len() as f64;
         let mean = values.iter().sum::<f64>() / count;
         ((count - 1.0) / count * values.iter().map(|x| (x - mean).powi(2)).sum::<f64>()).sqrt()
-    });
+    };
     Ok(Some(Jackknife {
+        peak_sd_n: sd(&peak_n),
+        impulse_sd_n_s: sd(&impulse_n_s),
         peak_n,
         impulse_n_s,
-        peak_sd_n,
-        impulse_sd_n_s,
     }))
 }
 
@@ -70,8 +62,7 @@ const LEAST_CORRELATION: f64 = 0.5;
 
 /// The mean of repeated drops of the same ball from the same height, aligned by correlation.
 ///
-/// Each trace is shifted to the largest correlation with the first, and again with the mean; between samples it is read by
-/// cubic interpolation. Samples that a shift brings in from outside a trace are zero.
+/// Each trace is shifted to the largest correlation with the first; between samples it is read by cubic interpolation. Samples that a shift brings in from outside a trace are zero.
 ///
 /// # Errors
 /// [`InverseError`] for fewer than two drops, drops of different lengths, samples that are not finite, and a drop that does
@@ -80,86 +71,54 @@ pub fn average(drops: &[Vec<f64>], step_s: f64) -> Result<Averaged, InverseError
     positive("step_s", step_s)?;
     let (count, size) = (drops.len() as f64, drops.first().map_or(0, Vec::len));
     check(drops.len() > 1, "the number of drops", count, "[2, inf)")?;
-    check(
-        size > 3,
-        "the number of samples of a drop",
-        size as f64,
-        "[4, inf)",
-    )?;
+    let key = "the number of samples of a drop";
+    check(size > 3, key, size as f64, "[4, inf)")?;
     for (index, drop) in drops.iter().enumerate() {
         finite(&format!("drop {}", index + 1), drop)?;
         if drop.len() != size {
             let key = format!("the number of samples of drop {}", index + 1);
-            let range = format!("[{size}, {size}]");
-            return Err(outside(
-                key,
-                drop.len() as f64,
-                range,
-                ": cut all drops to the same length",
-            ));
+            let (found, range) = (drop.len() as f64, format!("[{size}, {size}]"));
+            let remedy = ": cut all drops to the same length";
+            return Err(InverseError::outside(&key, found, &range, remedy));
         }
     }
-    let (mut mean, mut shifts) = (drops[0].clone(), Vec::new());
-    let mut aligned = Vec::new();
-    for _ in 0..2 {
-        let found = drops
-            .iter()
-            .enumerate()
-            .map(|(index, drop)| match delay(drop, &mean) {
-                (_, found) if found < LEAST_CORRELATION => {
-                    let key = format!("the correlation of drop {} with the others", index + 1);
-                    let remedy =
-                        ": remove it, or average drops of the same ball, height and place only";
-                    Err(outside(
-                        key,
-                        found,
-                        format!("[{LEAST_CORRELATION}, 1]"),
-                        remedy,
-                    ))
-                }
-                (shift, _) => Ok(shift),
-            });
-        shifts = found.collect::<Result<Vec<f64>, _>>()?;
-        let origin = shifts[0];
-        shifts.iter_mut().for_each(|shift| *shift -= origin);
-        let shifted = drops.iter().zip(&shifts).map(|(drop, shift)| {
-            (0..drop.len())
-                .map(|i| at(drop, i as f64 + shift))
-                .collect()
-        });
-        aligned = shifted.collect::<Vec<Vec<f64>>>();
-        mean = (0..size)
-            .map(|i| aligned.iter().map(|drop| drop[i]).sum::<f64>() / count)
-            .collect();
+    let (mut shifts, mut aligned) = (Vec::new(), Vec::new());
+    for (index, drop) in drops.iter().enumerate() {
+        let (shift, correlation) = delay(drop, &drops[0]);
+        if correlation < LEAST_CORRELATION {
+            let key = format!("the correlation of drop {} with the first", index + 1);
+            let range = format!("[{LEAST_CORRELATION}, 1]");
+            let remedy = ": remove it, or average drops of the same ball, height and place only";
+            return Err(InverseError::outside(&key, correlation, &range, remedy));
+        }
+        let samples = (0..size).map(|i| at(drop, i as f64 + shift));
+        aligned.push(samples.collect::<Vec<f64>>());
+        shifts.push(shift);
     }
-    let scatter = |i: usize| {
-        aligned
-            .iter()
-            .map(|drop| (drop[i] - mean[i]).powi(2))
-            .sum::<f64>()
+    let sample = |i: usize| aligned.iter().map(|drop| drop[i]).sum::<f64>() / count;
+    let mean: Vec<f64> = (0..size).map(sample).collect();
+    let sd = |i: usize| {
+        let squares = aligned.iter().map(|drop| (drop[i] - mean[i]).powi(2));
+        (squares.sum::<f64>() / (count * (count - 1.0))).sqrt()
     };
-    let sd = (0..mean.len())
-        .map(|i| (scatter(i) / (count * (count - 1.0))).sqrt())
-        .collect();
-    let shifts_s = shifts.iter().map(|shift| shift * step_s).collect();
-    Ok(Averaged { mean, sd, shifts_s })
+    Ok(Averaged {
+        sd: (0..size).map(sd).collect(),
+        shifts_s: shifts.iter().map(|shift| shift * step_s).collect(),
+        mean,
+    })
 }
 
 /// Samples by which a trace is later than another, with the correlation there.
 fn delay(trace: &[f64], other: &[f64]) -> (f64, f64) {
-    let count = trace.len();
-    let product = |lag: isize| match usize::try_from(lag) {
-        Ok(lag) => dot(&trace[lag..], &other[..count - lag]),
-        Err(_) => dot(
-            &trace[..count - lag.unsigned_abs()],
-            &other[lag.unsigned_abs()..],
-        ),
+    let (count, most) = (trace.len(), trace.len() / 2);
+    // a lag of -most is the place 0
+    let product = |place: usize| {
+        let (late, early) = (place.saturating_sub(most), most.saturating_sub(place));
+        dot(&trace[late..count - early], &other[early..count - late])
     };
-    let most = count as isize / 2;
-    let products: Vec<f64> = (-most..=most).map(product).collect();
-    let best = (1..products.len() - 1)
-        .max_by(|&i, &j| products[i].total_cmp(&products[j]))
-        .unwrap_or(0);
+    let products: Vec<f64> = (0..=2 * most).map(product).collect();
+    let best = (1..2 * most).max_by(|&i, &j| products[i].total_cmp(&products[j]));
+    let best = best.unwrap_or(most);
     let [a, b, c] = [products[best - 1], products[best], products[best + 1]];
     let curvature = a - 2.0 * b + c;
     let between = if curvature < 0.0 {

@@ -17,17 +17,21 @@
 //!
 //! Theory: `docs/theory.md` (T72).
 
+mod fir;
 mod poles;
 mod section;
 mod spectrum;
 mod table;
 
+pub use fir::Fir;
 pub use poles::PolesZeros;
-pub use spectrum::{Fir, band_pass};
-pub use table::{MOST_ROWS, Tabulated};
+pub use spectrum::band_pass;
+pub use table::Tabulated;
 
-use fault::{Class, Culprit, Fault, number};
+use fault::{Class, Culprit, Fault, number, rounded};
 use num_complex::Complex64;
+use spectrum::{ROUNDED, check_band, filtered, in_band, taper};
+use std::ops::RangeInclusive;
 use thiserror::Error;
 
 /// A linear response that is constant in time.
@@ -87,34 +91,45 @@ impl Fault for ResponseError {
 /// The first number that does not fit its range, as an error.
 fn within(
     key: &'static str,
-    numbers: impl IntoIterator<Item = f64>,
+    numbers: &[f64],
     fits: impl Fn(f64) -> bool,
     range: &'static str,
 ) -> Result<(), ResponseError> {
-    match numbers.into_iter().find(|&x| !fits(x)) {
-        None => Ok(()),
-        Some(value) => {
-            let sentence = format!("{key} = {} is outside {range}", number(value));
-            Err(ResponseError::new(key, value, sentence))
-        }
-    }
+    let Some(&value) = numbers.iter().find(|x| !fits(**x)) else {
+        return Ok(());
+    };
+    let sentence = format!("{key} = {} is outside {range}", number(value));
+    Err(ResponseError::new(key, value, sentence))
+}
+
+/// Rejects numbers that are not finite.
+fn finite(key: &'static str, numbers: &[f64]) -> Result<(), ResponseError> {
+    within(key, numbers, f64::is_finite, "(-inf, inf)")
+}
+
+/// Rejects a number that is not positive and finite.
+fn positive(key: &'static str, value: f64) -> Result<(), ResponseError> {
+    within(key, &[value], |x| x > 0.0 && x.is_finite(), "(0, inf)")
 }
 
 /// Rejects a list with a wrong number of elements.
-fn counted(key: &'static str, count: usize, fits: bool, needed: &str) -> Result<(), ResponseError> {
-    if fits {
+fn counted(
+    key: &'static str,
+    count: usize,
+    needed: RangeInclusive<usize>,
+) -> Result<(), ResponseError> {
+    if needed.contains(&count) {
         return Ok(());
     }
-    let sentence = format!("{key} has {count} elements, but {needed} are required");
+    let (least, most) = needed.into_inner();
+    let sentence = format!("{key} has {count} elements, but {least} to {most} are required");
     Err(ResponseError::new(key, count as f64, sentence))
 }
 
 /// Checks the step and the samples of a history.
 fn history(step_s: f64, samples: &[f64]) -> Result<(), ResponseError> {
-    let is_step = |x: f64| x > 0.0 && x.is_finite();
-    within("step_s", [step_s], is_step, "(0, inf)")?;
-    let finite = f64::is_finite;
-    within("samples", samples.iter().copied(), finite, "(-inf, inf)")
+    positive("step_s", step_s)?;
+    finite("samples", samples)
 }
 
 /// Strides of samples whose output is compared with that of all, from each sample that they can begin with, and factors of
@@ -162,7 +177,16 @@ impl Response {
     /// [`ResponseError`] for a step or a sample that is not a number.
     pub fn outside(&self, step_s: f64, samples: &[f64]) -> Result<f64, ResponseError> {
         history(step_s, samples)?;
-        Ok(spectrum::outside(step_s, samples, self.limits_hz()))
+        let [least, most] = self.limits_hz();
+        let energy = |of: &dyn Fn(f64) -> f64| {
+            let all = filtered(step_s, samples, 0, |f| of(f).into());
+            all.iter().map(|x| x * x).sum::<f64>()
+        };
+        let is_outside = |f: f64| f < least || f > most * (1.0 + ROUNDED);
+        Ok(match energy(&|_| 1.0) {
+            0.0 => 0.0,
+            all => (energy(&|f| f64::from(u8::from(is_outside(f)))) / all).min(1.0),
+        })
     }
 
     /// The output for equidistant samples of an input that was zero before the first sample.
@@ -180,50 +204,57 @@ impl Response {
     /// [`ResponseError`] for such numbers, and for a step that is too large for a resonance or too small for a filter.
     pub fn apply(&self, step_s: f64, samples: &[f64]) -> Result<Output, ResponseError> {
         history(step_s, samples)?;
-        let (samples_out, before, largest_gain) = self.output(step_s, samples)?;
-        let mut differences = vec![0.0_f64; samples_out.len()];
+        let (output, before, largest_gain) = self.output(step_s, samples)?;
+        let mut differences = vec![0.0_f64; output.len()];
         for (stride, factor) in DIFFERENCES {
             for first in 0..stride {
-                let few: Vec<f64> = samples
-                    .iter()
-                    .copied()
-                    .skip(first)
-                    .step_by(stride)
-                    .collect();
+                let few = samples.iter().skip(first).step_by(stride);
+                let few: Vec<f64> = few.copied().collect();
                 // too coarse for these only: the estimate is then the output itself
-                let coarse = self.output(stride as f64 * step_s, &few).ok();
-                for (i, n) in (first..samples_out.len()).step_by(stride).enumerate() {
-                    let of_few = coarse.as_ref().map_or(0.0, |(few, ..)| few[i]);
-                    let difference = factor * (samples_out[n] - of_few).abs();
+                let coarse = self.output(stride as f64 * step_s, &few);
+                let coarse = coarse.map_or(vec![0.0; few.len()], |(coarse, ..)| coarse);
+                for (n, of_few) in (first..).step_by(stride).zip(coarse) {
+                    let difference = factor * (output[n] - of_few).abs();
                     differences[n] = differences[n].max(difference);
                 }
             }
         }
-        let mut largest = before;
-        let error = (0..samples_out.len()).map(|n| {
-            let near = &differences[n..(n + NEAR).min(differences.len())];
-            largest = near.iter().fold(largest, |a, &b| a.max(b));
-            largest
+        let mut error = before;
+        let error = (0..output.len()).map(|n| {
+            let near = differences[n..].iter().take(NEAR);
+            error = near.fold(error, |a, &b| a.max(b));
+            error
         });
         Ok(Output {
             error: error.collect(),
-            samples: samples_out,
+            samples: output,
             largest_gain,
         })
     }
 
     /// Samples of the output, the largest one before the first, and the largest gain.
     fn output(&self, step_s: f64, samples: &[f64]) -> Result<(Vec<f64>, f64, f64), ResponseError> {
+        if let Self::PolesZeros(rational) = self {
+            let (output, gain) = rational.output(step_s, samples)?;
+            return Ok((output, 0.0, gain));
+        }
+        let length = self.length(step_s)?;
+        let mut output = filtered(step_s, samples, length, |f| self.at(f));
+        // the last quarter of the transform comes before the record
+        let before = output[output.len() - output.len() / 4..].iter();
+        let before = before.fold(0.0, |a: f64, b| a.max(b.abs()));
+        output.truncate(samples.len());
+        let mut impulse = vec![0.0; samples.len()];
+        impulse.iter_mut().take(1).for_each(|x| *x = 1.0);
+        let gain = filtered(step_s, &impulse, length, |f| self.at(f));
+        Ok((output, before, gain.iter().map(|x| x.abs()).sum()))
+    }
+
+    /// Steps by which a digital filter makes a record longer.
+    fn length(&self, step_s: f64) -> Result<usize, ResponseError> {
         match self {
-            Self::PolesZeros(rational) => {
-                let (output, gain) = rational.output(step_s, samples)?;
-                Ok((output, 0.0, gain))
-            }
-            Self::Tabulated(table) => Ok(spectrum::output(step_s, samples, 0, |f| table.at(f))),
-            Self::Fir(filter) => {
-                let steps = filter.steps(step_s)?;
-                Ok(spectrum::output(step_s, samples, steps, |f| filter.at(f)))
-            }
+            Self::PolesZeros(_) | Self::Tabulated(_) => Ok(0),
+            Self::Fir(filter) => filter.length(step_s),
         }
     }
 
@@ -254,19 +285,28 @@ impl Response {
         band_hz: [f64; 4],
     ) -> Result<Vec<f64>, ResponseError> {
         history(step_s, samples)?;
-        spectrum::check_band(step_s, band_hz, self.limits_hz())?;
-        match self {
-            Self::PolesZeros(rational) => {
-                let input = rational.input(step_s, samples)?;
-                Ok(spectrum::in_band(step_s, &input, band_hz))
-            }
-            Self::Tabulated(table) => {
-                spectrum::divided(step_s, samples, 0, band_hz, |f| table.at(f))
-            }
-            Self::Fir(filter) => {
-                let steps = filter.steps(step_s)?;
-                spectrum::divided(step_s, samples, steps, band_hz, |f| filter.at(f))
-            }
+        check_band(step_s, band_hz, self.limits_hz())?;
+        if let Self::PolesZeros(rational) = self {
+            let input = rational.input(step_s, samples)?;
+            return Ok(in_band(step_s, &input, band_hz));
         }
+        let mut zero = None;
+        let mut input = filtered(step_s, samples, self.length(step_s)?, |f| {
+            let (part, factor) = (taper(band_hz, f), self.at(f));
+            if part == 0.0 {
+                return part.into();
+            }
+            zero = zero.or((factor.norm() == 0.0).then_some(f));
+            part / factor
+        });
+        if let Some(frequency_hz) = zero {
+            let sentence = format!(
+                "the response is zero at {} Hz and cannot be removed there: use a band without this frequency",
+                rounded(frequency_hz)
+            );
+            return Err(ResponseError::new("band", frequency_hz, sentence));
+        }
+        input.truncate(samples.len());
+        Ok(input)
     }
 }

@@ -1,10 +1,11 @@
 //! A rational response of poles and zeros.
 
 use super::section::{Section, Way};
-use super::{ResponseError, within};
+use super::{ResponseError, finite, within};
 use fault::rounded;
 use num_complex::Complex64;
 use std::f64::consts::TAU;
+use std::iter::repeat;
 
 /// H(s) = gain prod(s - z)/prod(s - p), s = i w in rad/s.
 #[derive(Debug, Clone, PartialEq)]
@@ -19,6 +20,18 @@ const CONJUGATE: f64 = 1e-5;
 /// Samples before an impulse and before the end whose gains are summed one by one: filters that look ahead have decayed to
 /// 1e-8 there (the test `the_largest_gain_bounds_the_output` fails at 1).
 const NEAR: usize = 16;
+/// Weights of the last samples, from the last one back, in the value of the polynomial through them one step later. One of a
+/// lower degree would cost an order of accuracy (the test `the_end_of_the_record_changes_nothing_before_it` fails at degree 2).
+const CONTINUED: [&[f64]; 5] = [
+    &[1.0],
+    &[2.0, -1.0],
+    &[3.0, -3.0, 1.0],
+    &[4.0, -6.0, 4.0, -1.0],
+    &[5.0, -10.0, 10.0, -5.0, 1.0],
+];
+/// Samples after which the inverse of a filter that looks ahead has decayed below rounding, by a factor of 4 each (the test
+/// `removing_a_response_returns_the_input_in_its_band` fails at 5).
+const FORGOTTEN: usize = 40;
 
 impl PolesZeros {
     /// A response of poles and zeros in rad/s and a real factor; the order of the roots is free.
@@ -32,10 +45,10 @@ impl PolesZeros {
         gain: f64,
     ) -> Result<Self, ResponseError> {
         let fits = |x: f64| x.is_finite() && x != 0.0;
-        within("response.gain", [gain], fits, "(-inf, inf) without 0")?;
+        within("response.gain", &[gain], fits, "(-inf, inf) without 0")?;
         for (key, roots) in [("response.poles", &poles), ("response.zeros", &zeros)] {
             let parts = roots.iter().flat_map(|root| [root.re, root.im]);
-            within(key, parts, f64::is_finite, "(-inf, inf)")?;
+            finite(key, &parts.collect::<Vec<_>>())?;
         }
         if let Some(&pole) = poles.iter().find(|pole| pole.re >= 0.0) {
             let sentence = format!(
@@ -70,34 +83,15 @@ impl PolesZeros {
         self.gain
     }
 
-    /// The same response to the derivative of its input, so many times: as many zeros at 0 less, as from SAC's displacement
-    /// to velocity.
-    ///
-    /// # Errors
-    /// [`ResponseError`] if there are fewer zeros at 0.
-    pub fn of_derivative(mut self, times: usize) -> Result<Self, ResponseError> {
-        for _ in 0..times {
-            let origin = self.zeros.iter().position(|zero| zero.norm() == 0.0);
-            let origin = origin.ok_or_else(|| {
-                let sentence = format!("response.zeros has fewer than {times} zeros at 0, so that the response does not refer to an integral of its input");
-                ResponseError::new("response.zeros", None, sentence)
-            })?;
-            self.zeros.remove(origin);
-        }
-        Ok(self)
-    }
-
     /// H at a frequency.
     pub(super) fn at(&self, frequency_hz: f64) -> Complex64 {
         let s = Complex64::new(0.0, TAU * frequency_hz);
         // one factor after the other, so that large numbers of both signs of the exponent do not meet
-        let mut zeros = self.zeros.iter();
-        let each = self.poles.iter().map(|pole| match zeros.next() {
-            Some(zero) => (s - zero) / (s - pole),
-            None => 1.0 / (s - pole),
-        });
-        each.fold(Complex64::from(self.gain), |product, factor| {
-            product * factor
+        let zeros = self.zeros.iter().map(|zero| s - zero);
+        let zeros = zeros.chain(repeat(1.0.into()));
+        let each = self.poles.iter().zip(zeros);
+        each.fold(self.gain.into(), |product, (pole, zero)| {
+            product * (zero / (s - pole))
         })
     }
 
@@ -108,9 +102,7 @@ impl PolesZeros {
         samples: &[f64],
     ) -> Result<(Vec<f64>, f64), ResponseError> {
         let chain = Chain::new(self, step_s)?;
-        let mut output = samples.to_vec();
-        chain.forward(&mut output);
-        Ok((output, chain.largest_gain(samples.len())))
+        Ok((chain.forward(samples), chain.largest_gain(samples.len())))
     }
 
     /// The input at the samples of an output: the inverse of [`PolesZeros::output`] to rounding.
@@ -121,75 +113,78 @@ impl PolesZeros {
             );
             return Err(ResponseError::new("response.zeros", zero.re, sentence));
         }
-        let mut input = samples.to_vec();
-        Chain::new(self, step_s)?.backward(&mut input);
-        Ok(input)
+        Ok(Chain::new(self, step_s)?.back(samples))
     }
 }
 
 /// The sections of all poles and zeros: a zero differentiates, a pole integrates.
+///
+/// The samples between two sections are complex; after both of a conjugate pair they are real up to rounding.
 struct Chain {
-    sections: Vec<(Section, Way)>,
+    sections: Vec<Section>,
     gain: f64,
 }
 
 impl Chain {
     fn new(response: &PolesZeros, step_s: f64) -> Result<Self, ResponseError> {
-        let of = |root: Complex64, way: Way| {
-            let section = Section::new(root, step_s).ok_or_else(|| {
+        let of = |root: Complex64, is_pole: bool| {
+            Section::new(root, is_pole, step_s).ok_or_else(|| {
                 let frequency_hz = root.norm() / TAU;
                 let [step, at, least] = [step_s, frequency_hz, 0.1 / frequency_hz].map(rounded);
                 let sentence = format!("step_s = {step} is too large for the resonance of the response at {at} Hz: use a step of at most {least} s");
                 ResponseError::new("step_s", step_s, sentence)
-            })?;
-            Ok((section, way))
+            })
         };
-        let poles = paired("response.poles", &response.poles)?;
-        let zeros = paired("response.zeros", &response.zeros)?;
-        let degree = |root: &Complex64| if root.im == 0.0 { 1 } else { 2 };
+        let mut zeros = paired("response.zeros", &response.zeros)?.into_iter();
         let mut sections = Vec::new();
-        let mut zeros = zeros.into_iter();
         // A zero comes before the pole that makes up for it: differences of smooth samples keep their digits, but those of
         // an integral lose the square of its length in steps. Not all zeros come first, for those of rough samples.
-        let (mut differences, mut integrals) = (0, 0);
-        for pole in poles {
-            while differences <= integrals
-                && let Some(zero) = zeros.next()
-            {
-                differences += degree(&zero);
-                sections.push(of(zero, Way::Inverse)?);
+        for pole in paired("response.poles", &response.poles)? {
+            if let Some(zero) = zeros.next() {
+                sections.push(of(zero, false)?);
             }
-            integrals += degree(&pole);
-            sections.push(of(pole, Way::Integral)?);
-        }
-        for zero in zeros {
-            sections.push(of(zero, Way::Inverse)?);
+            sections.push(of(pole, true)?);
         }
         let gain = response.gain;
         Ok(Self { sections, gain })
     }
 
-    fn forward(&self, samples: &mut [f64]) {
-        for (section, way) in &self.sections {
-            section.causal(samples, *way);
+    fn forward(&self, samples: &[f64]) -> Vec<f64> {
+        let mut values: Vec<Complex64> = samples.iter().map(|&x| x.into()).collect();
+        for section in &self.sections {
+            section.causal(&mut values, Way::Forward);
         }
-        for (section, way) in &self.sections {
-            section.looking_ahead(samples, *way);
+        self.continued(&mut values);
+        for section in &self.sections {
+            section.looking_ahead(&mut values, Way::Forward);
         }
-        samples.iter_mut().for_each(|x| *x *= self.gain);
+        let output = values.iter().take(samples.len());
+        output.map(|y| self.gain * y.re).collect()
     }
 
-    fn backward(&self, samples: &mut [f64]) {
-        samples.iter_mut().for_each(|x| *x /= self.gain);
-        let inverse = |way: &Way| match way {
-            Way::Integral => Way::Inverse,
-            Way::Inverse => Way::Integral,
-        };
-        for (section, way) in self.sections.iter().rev() {
-            section.looking_ahead(samples, inverse(way));
+    fn back(&self, samples: &[f64]) -> Vec<f64> {
+        let mut values: Vec<Complex64> = samples.iter().map(|y| (y / self.gain).into()).collect();
+        self.continued(&mut values);
+        for section in self.sections.iter().rev() {
+            section.looking_ahead(&mut values, Way::Back);
         }
-        for (section, way) in self.sections.iter().rev() {
-            section.causal(samples, inverse(way));
+        for section in self.sections.iter().rev() {
+            section.causal(&mut values, Way::Back);
+        }
+        let input = values.iter().take(samples.len());
+        input.map(|x| x.re).collect()
+    }
+
+    /// Continues samples by the polynomial of degree four through the last five.
+    ///
+    /// A filter that looks ahead turns a polynomial into another one of its degree, so that an inverse continues the
+    /// samples in the same way.
+    fn continued(&self, values: &mut Vec<Complex64>) {
+        let known = CONTINUED.len().min(values.len());
+        let weights = known.checked_sub(1).map_or(&[][..], |i| CONTINUED[i]);
+        for _ in 0..FORGOTTEN + 2 * self.sections.len() {
+            let last = values.iter().rev().zip(weights);
+            values.push(last.map(|(x, weight)| x * weight).sum());
         }
     }
 
@@ -200,8 +195,7 @@ impl Chain {
         let impulse = |length: usize, at: usize| {
             let mut samples = vec![0.0; length];
             samples[at] = 1.0;
-            self.forward(&mut samples);
-            samples
+            self.forward(&samples)
         };
         let sum = |samples: &[f64]| samples.iter().map(|x| x.abs()).sum::<f64>();
         let response = impulse(NEAR + count, NEAR.min(count));
@@ -212,11 +206,12 @@ impl Chain {
     }
 }
 
-/// Real roots, and one of each conjugate pair.
+/// The roots in conjugate pairs and real ones.
 fn paired(key: &'static str, roots: &[Complex64]) -> Result<Vec<Complex64>, ResponseError> {
     let mut left = roots.to_vec();
     let mut found = Vec::new();
     while let Some(root) = left.pop() {
+        found.push(root);
         if root.im != 0.0 {
             let fits = |other: &Complex64| (other - root.conj()).norm() <= CONJUGATE * root.norm();
             let partner = left.iter().position(fits);
@@ -224,8 +219,8 @@ fn paired(key: &'static str, roots: &[Complex64]) -> Result<Vec<Complex64>, Resp
                 let sentence = format!("{key} contains {root} without its conjugate {}: the output would not be real; list both", root.conj());
                 ResponseError::new(key, root.im, sentence)
             })?);
+            found.push(root.conj());
         }
-        found.push(root);
     }
     Ok(found)
 }
