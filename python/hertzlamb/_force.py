@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import os
+import warnings
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
 
 from hertzlamb import _core
-from hertzlamb._errors import SceneError
+from hertzlamb._errors import HertzlambWarning, SceneError
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -181,6 +182,11 @@ def infer_force(
     SceneError
         The scene or the traces are invalid, or the traces do not determine a force; the message has the way out.
 
+    Warns
+    -----
+    HertzlambWarning
+        The contact of the scene is beyond its law, or no force explains the traces. ``report["warnings"]`` has all messages.
+
     Examples
     --------
     >>> import numpy as np, hertzlamb as hl
@@ -208,7 +214,7 @@ def infer_force(
             )
             raise SceneError(message, key="time")
         time = np.arange(len(found[0][0][0])) * steps.pop()
-    return Force(
+    force = Force(
         _core.force(
             scene,
             np.ascontiguousarray(time, dtype=float),
@@ -222,3 +228,6 @@ def infer_force(
             restitution,
         )
     )
+    for message in force.report["warnings"]:
+        warnings.warn(message, HertzlambWarning, stacklevel=2)
+    return force

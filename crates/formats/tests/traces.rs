@@ -82,6 +82,12 @@ fn a_force_comes_back() {
             "{off:?}"
         );
         assert!((fit.start_s.value - 4e-5).abs() < 2e-7, "{:?}", fit.start_s);
+        assert!(found.warnings.iter().any(|own| own.contains("yield")));
+        assert!(
+            !found.warnings.iter().any(|own| own.contains("explain")),
+            "{:?}",
+            found.warnings
+        );
         let ball = found.ball.unwrap();
         assert!((ball.velocity_m_s.value / 0.3 - 1.0).abs() < 2.0 * allowed);
         let mass_kg = scene.strike().unwrap().striker.mass_kg;
@@ -109,6 +115,34 @@ fn several_sensors_and_repeated_drops() {
     let mean = infer_force(&scene, &drops, &Given::default()).unwrap();
     assert_eq!(mean.shifts_s.len(), 4);
     assert!((mean.found.fit.peak_n.value / peak_n - 1.0).abs() < 0.03);
+}
+
+/// A sensor of another radius and quantity than its scene says, and one of the wrong sign: no force explains the traces, and it says
+/// so or finds none.
+#[test]
+fn traces_that_are_not_explained_cause_a_warning() {
+    let (near, far) = (
+        sensor(0.04, 2e-3, "velocity_z"),
+        sensor(0.044, 2e-3, "velocity_z"),
+    );
+    let scene_of = scene(&near);
+    let (moved, _) = traces(&scene(&far), 0.003, 9);
+    let (mut turned, _) = traces(&scene_of, 0.01, 9);
+    turned.samples[0].iter_mut().for_each(|x| *x = -*x);
+    let told =
+        [moved, turned].map(
+            |traces| match infer_force(&scene_of, &[traces], &Given::default()) {
+                Ok(found) => found.warnings.join("; "),
+                Err(error) => error.to_string(),
+            },
+        );
+    println!("{told:?}");
+    for own in &told {
+        assert!(
+            own.contains("explains the traces") || own.contains("in the traces"),
+            "{own}"
+        );
+    }
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! `hertzlamb infer`: yield pressure or velocity from a measured rebound.
 
 use crate::arguments::Overwrite;
-use crate::failure::{Failure, lines, show};
+use crate::failure::{Failure, lines, say, show};
 use crate::report::{short, si};
 use clap::builder::PossibleValuesParser;
 use clap::{ArgGroup, Args};
@@ -142,6 +142,9 @@ fn run_traces(arguments: &Arguments, scene: &Scene) -> Result<(), Failure> {
     let force = infer_force(scene, &blows, &given)?;
     if let Some(output) = &output {
         stage_force(output, &resolved(scene), &force)?.commit()?;
+    }
+    for warning in &force.warnings {
+        say(format!("warning: {warning}"));
     }
     show(arguments.json, &ForceReport(force))
 }

@@ -124,6 +124,8 @@ pub struct InferredForce {
     pub momentum_n_s: Option<Estimate>,
     /// Shifts in s by which repeated drops were aligned; empty for one.
     pub shifts_s: Vec<f64>,
+    /// Warnings for the user.
+    pub warnings: Vec<String>,
 }
 
 /// Why there is no force.
@@ -172,7 +174,7 @@ pub fn infer_force(
     given: &Given,
 ) -> Result<InferredForce, TraceError> {
     let (traces, sds, shifts_s) = averaged(scene, blows, given)?;
-    let (pulse, contact_s) = pulse(scene)?;
+    let (pulse, contact_s, mut warnings) = pulse(scene)?;
     let oversampling = match contact_s {
         None => 1,
         Some(contact_s) => {
@@ -223,6 +225,7 @@ pub fn infer_force(
     }
     let found = inverse::infer(&problem)?;
     let (made, momentum_n_s) = behind(scene, &found, given)?;
+    warnings.extend(unexplained(&found));
     Ok(InferredForce {
         found,
         start_s: traces.start_s,
@@ -230,7 +233,29 @@ pub fn infer_force(
         ball: made,
         momentum_n_s,
         shifts_s,
+        warnings,
     })
+}
+
+/// A warning about traces that neither the pulse of the law nor any force explains.
+fn unexplained(found: &Inferred) -> Option<String> {
+    /// Chi-squared over the degrees of freedom.
+    const MUCH: f64 = 4.0;
+    let (fit, history) = (&found.fit, &found.history);
+    let of_fit = fit.chi_squared / fit.degrees_of_freedom.max(1) as f64;
+    let of_history = history.chi_squared / history.degrees_of_freedom.max(1.0);
+    let who = match (of_fit > MUCH, of_history > MUCH) {
+        (false, false) => return None,
+        (true, false) => {
+            "the pulse of the contact law does not explain the traces, but the history does: use its peak and impulse"
+        }
+        (_, true) => {
+            "no force explains the traces: check the response and its sign, the distance, the wave speeds and the noise"
+        }
+    };
+    Some(format!(
+        "{who} (chi-squared over the degrees of freedom {of_fit:.3} with the fit, {of_history:.3} with the history)"
+    ))
 }
 
 /// The traces of all blows as one, with the standard deviation of the noise of each mean where there are several, and their shifts.
@@ -281,25 +306,26 @@ fn averaged(scene: &Scene, blows: &[Traces], given: &Given) -> Result<Means, Tra
     Ok((mean, sds, shifts_s))
 }
 
-/// The pulse of the contact law, and about how long the contact takes in s; Hertz's pulse of unknown length without a striker.
-fn pulse(scene: &Scene) -> Result<(Pulse, Option<f64>), TraceError> {
+/// The pulse of the contact law, about how long the contact takes in s, and warnings about it; Hertz's pulse of unknown length without
+/// a striker.
+fn pulse(scene: &Scene) -> Result<(Pulse, Option<f64>, Vec<String>), TraceError> {
     /// Samples of the pulse of a contact that yields.
     const SAMPLES: usize = 400;
     let Some(strike) = scene.strike() else {
-        return Ok((Pulse::hertz(), None));
+        return Ok((Pulse::hertz(), None, Vec::new()));
     };
     let run = Impact::of(scene, strike).solve();
     let run = run.map_err(ImpactError::Contact)?;
     let contact_s = run.results.contact_time_s;
     if scene.settings.plasticity == Plasticity::None {
-        return Ok((Pulse::hertz(), Some(contact_s)));
+        return Ok((Pulse::hertz(), Some(contact_s), run.warnings));
     }
     let at = |i: usize| {
         run.excitation()
             .force_n(contact_s * i as f64 / SAMPLES as f64)
     };
     let force_n: Vec<f64> = (0..=SAMPLES).map(at).collect();
-    Ok((Pulse::sampled(&force_n)?, Some(contact_s)))
+    Ok((Pulse::sampled(&force_n)?, Some(contact_s), run.warnings))
 }
 
 /// The noise that is given for a trace.
@@ -416,5 +442,6 @@ pub fn force_report(force: &InferredForce) -> Value {
         })),
         "momentum_n_s": force.momentum_n_s.as_ref().map(of),
         "shifts_s": force.shifts_s,
+        "warnings": force.warnings,
     })
 }
