@@ -131,6 +131,9 @@ fn every_dataset_is_described_and_every_description_is_written() {
             "[output]",
             "[[probe]]\nr_m = 0.0\nz_m = 0.02\n[output]\nlow_pass_hz = 2e5",
         );
+    let sensor =
+        "[[sensor]]\nr_m = 0.01\nz_m = 0.0\nface_radius_m = 1e-3\n[output]\nlow_pass_hz = 2e5";
+    let plate = plate.replace("[output]\nlow_pass_hz = 2e5", sensor);
     let of_plate = other.with_file_name("plate.h5");
     write(&plate, &of_plate);
     let of_plate = hdf5::File::open(&of_plate).unwrap();
