@@ -42,7 +42,7 @@ enum Command {
     Impact(impact::Arguments),
     /// Computes many scenes that differ in some keys and writes the results as one table.
     Sweep(sweep::Arguments),
-    /// Infers the yield pressure or the velocity from a measured rebound, contact time or peak force.
+    /// Infers the yield pressure or the velocity from a measured rebound, contact time or peak force, or the force from traces of sensors.
     Infer(infer::Arguments),
     /// Writes inputs for particle codes, or a table of the rebound over velocity.
     Export(export::Arguments),

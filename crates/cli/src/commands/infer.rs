@@ -27,7 +27,7 @@ const EXAMPLES: &str = "Examples:
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES, group(ArgGroup::new("measured").required(true)))]
 pub(crate) struct Arguments {
-    /// Scene file (TOML) with contact.plasticity; its value of the unknown is ignored.
+    /// Scene file (TOML): with contact.plasticity, and its value of the unknown is ignored; or with the sensors of the traces.
     scene: PathBuf,
     /// Measured ratio of the rebound velocity to the impact velocity.
     #[arg(long, group = "measured", value_name = "E")]
@@ -46,8 +46,6 @@ pub(crate) struct Arguments {
     /// again for each repeated drop; the drops are aligned and averaged.
     #[arg(long, group = "measured", value_name = "TRACE")]
     trace: Vec<PathBuf>,
-    #[command(flatten)]
-    force: ForceArguments,
     /// Absolute error of the measured value; for bounces, of each of the two times.
     #[arg(long, default_value_t = 0.0)]
     error: f64,
@@ -57,6 +55,8 @@ pub(crate) struct Arguments {
     /// Print one JSON object instead of text.
     #[arg(long)]
     json: bool,
+    #[command(flatten)]
+    force: ForceArguments,
 }
 
 /// Options for a force from traces.

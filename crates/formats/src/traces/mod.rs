@@ -207,6 +207,9 @@ pub fn infer_force(
         let quiet = ((1.0 - left_out) * arrives_s / traces.step_s).max(0.0) as usize;
         let is_unknown = given.unknown_gains.contains(&(i + 1));
         let echo_s = own.echo_s + begins_s;
+        if echo_s <= 0.0 || arrives_s <= 0.0 && given.noise.is_empty() && sds.is_empty() {
+            return Err(early(i + 1, begins_s + traces.start_s));
+        }
         problem.traces.push(Trace {
             samples: samples.clone(),
             response: own.samples.clone(),
@@ -326,6 +329,14 @@ fn pulse(scene: &Scene) -> Result<(Pulse, Option<f64>, Vec<String>), TraceError>
     };
     let force_n: Vec<f64> = (0..=SAMPLES).map(at).collect();
     Ok((Pulse::sampled(&force_n)?, Some(contact_s), run.warnings))
+}
+
+/// A trace whose blow began long before it.
+fn early(trace: usize, begins_s: f64) -> TraceError {
+    let sentence = format!(
+        "by its largest sample the blow of trace {trace} begins at {begins_s:.3e} s, so that its waves arrive before the trace begins: record more before the trigger, pass the noise, or check the scene"
+    );
+    TraceError::Scene(SceneError::of(sentence, "trace"))
 }
 
 /// The noise that is given for a trace.
