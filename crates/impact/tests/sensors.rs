@@ -173,7 +173,7 @@ fn drawn(round: usize, random: &mut random::Stream) -> Scene {
     asked
 }
 
-/// The mean by a sum over 60 to 500 circles ten times more accurate, and the largest error of these.
+/// The mean by a sum over 60 to 1,200 circles ten times more accurate, and the largest error of these.
 fn by_circles(asked: &Scene) -> (Vec<f64>, f64) {
     let Sensor {
         r_m,
@@ -188,7 +188,7 @@ fn by_circles(asked: &Scene) -> (Vec<f64>, f64) {
     let arcs = face.arcs(match (r_m < 1.5 * face_radius_m, is_needle) {
         (true, _) => 60,
         (false, false) => 160,
-        (false, true) => 500,
+        (false, true) => 1200,
     });
     let mut fine = asked.clone();
     (fine.settings.tolerance, fine.sensors) = (0.1 * asked.settings.tolerance, vec![]);
