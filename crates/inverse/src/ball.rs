@@ -39,7 +39,7 @@ pub struct Ball {
 /// Valid for Hertz's pulse: a contact that yields or radiates much has another peak and duration.
 ///
 /// # Errors
-/// [`InverseError::Range`] for a modulus or property that is not positive.
+/// [`InverseError`] for a modulus or property that is not positive.
 pub fn ball(fit: &PulseFit, effective_modulus_pa: f64, known: Known) -> Result<Ball, InverseError> {
     positive("the effective modulus in Pa", effective_modulus_pa)?;
     match known {
@@ -81,7 +81,7 @@ pub fn ball(fit: &PulseFit, effective_modulus_pa: f64, known: Known) -> Result<B
 /// Momentum m V in N s before a blow of known restitution, from its impulse m V (1 + e); holds for every contact law.
 ///
 /// # Errors
-/// [`InverseError::Range`] for a restitution outside [0, 1].
+/// [`InverseError`] for a restitution outside [0, 1].
 pub fn momentum(fit: &PulseFit, restitution: f64) -> Result<Estimate, InverseError> {
     let good = (0.0..=1.0).contains(&restitution);
     check(good, "restitution", restitution, "[0, 1]")?;
