@@ -244,7 +244,7 @@ fn an_option_that_a_kind_does_not_use_is_refused_with_the_kinds_that_do() {
         (
             PictureKind::Loop,
             span,
-            "the picture loop does not use span: impact, probes, waves, x-t and depth-t do",
+            "the picture loop does not use span: impact, probes, sensors, waves, x-t and depth-t do",
         ),
         (
             PictureKind::Loop,
