@@ -1,4 +1,4 @@
-//! `hertzlamb infer`: yield pressure or velocity from a measured rebound.
+//! `hertzlamb infer`: yield pressure or velocity from a measured rebound, or the force from traces of sensors.
 
 use crate::arguments::Overwrite;
 use crate::failure::{Failure, lines, say, show};
@@ -164,14 +164,10 @@ impl Display for ForceReport {
         let of = |own: &Estimate, unit: &str| {
             format!("{} +- {}", si(own.value, unit), short(own.sd, unit))
         };
-        let start = Estimate {
-            value: fit.start_s.value + self.0.start_s,
-            ..fit.start_s
-        };
         let mut text = vec![
             ("peak force", of(&fit.peak_n, "N")),
             ("contact time", of(&fit.duration_s, "s")),
-            ("start", of(&start, "s")),
+            ("start", of(&self.0.blow_start_s(), "s")),
             ("impulse", of(&fit.impulse_n_s, "N s")),
             (
                 "history",

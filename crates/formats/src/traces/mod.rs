@@ -128,6 +128,17 @@ pub struct InferredForce {
     pub warnings: Vec<String>,
 }
 
+impl InferredForce {
+    /// When the fitted pulse begins in s, in the clock of the traces.
+    pub fn blow_start_s(&self) -> Estimate {
+        let fitted = self.found.fit.start_s;
+        Estimate {
+            value: self.start_s + fitted.value,
+            ..fitted
+        }
+    }
+}
+
 /// Why there is no force.
 #[derive(Debug, Error)]
 pub enum TraceError {
@@ -279,6 +290,12 @@ fn averaged(scene: &Scene, blows: &[Traces], given: &Given) -> Result<Means, Tra
             "there are {found} values of the noise, but the scene has {sensors} sensors: give one for all, or one for each"
         )));
     }
+    let sensors = scene.sensors.len();
+    if let Some(other) = (given.unknown_gains.iter()).find(|i| !(1..=sensors).contains(*i)) {
+        return Err(wrong(format!(
+            "unknown_gains has {other}, but the sensors of the scene are numbered from 1 to {sensors}"
+        )));
+    }
     for blow in blows {
         let (traces, sensors) = (blow.samples.len(), scene.sensors.len());
         if traces != sensors {
@@ -410,15 +427,11 @@ fn behind(
 pub fn force_report(force: &InferredForce) -> Value {
     let of = |own: &Estimate| json!({ "value": own.value, "sd": own.sd });
     let (fit, history) = (&force.found.fit, &force.found.history);
-    let start_s = Estimate {
-        value: fit.start_s.value + force.start_s,
-        ..fit.start_s
-    };
     json!({
         "fit": {
             "peak_force_n": of(&fit.peak_n),
             "contact_time_s": of(&fit.duration_s),
-            "start_s": of(&start_s),
+            "start_s": of(&force.blow_start_s()),
             "impulse_n_s": of(&fit.impulse_n_s),
             "chi_squared": fit.chi_squared,
             "degrees_of_freedom": fit.degrees_of_freedom,

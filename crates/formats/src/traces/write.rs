@@ -31,13 +31,14 @@ fn fill(file: &File, scene: &str, force: &InferredForce) -> Result<(), hdf5::Err
         text(file, name, value)?;
     }
     let (fit, history) = (&force.found.fit, &force.found.history);
+    let start_s = force.blow_start_s();
     let values = [
         fit.peak_n.value,
         fit.peak_n.sd,
         fit.duration_s.value,
         fit.duration_s.sd,
-        fit.start_s.value + force.start_s,
-        fit.start_s.sd,
+        start_s.value,
+        start_s.sd,
         fit.impulse_n_s.value,
         fit.impulse_n_s.sd,
         history.impulse_n_s.value,
