@@ -174,6 +174,12 @@ fn traces_that_cannot_tell_are_rejected_in_a_sentence() {
         )
         .contains("valid until")
     );
+    let unknown_gains = vec![2];
+    let given = Given {
+        unknown_gains,
+        ..Given::default()
+    };
+    assert!(rejected(good.clone(), &given).contains("numbered from 1 to 1"));
     let unknown_gains = vec![1];
     assert!(
         rejected(
