@@ -49,10 +49,10 @@ pub(crate) fn jackknife(
 /// The mean of repeated drops.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Averaged {
-    /// Mean of the aligned traces.
-    pub mean: Vec<f64>,
-    /// Standard deviation of the mean, from the scatter of the drops.
-    pub sd: Vec<f64>,
+    /// Mean of the aligned samples of each sensor.
+    pub mean: Vec<Vec<f64>>,
+    /// Standard deviation of the mean of each sensor, from the scatter of the drops.
+    pub sd: Vec<Vec<f64>>,
     /// Time in s by which each drop is later than the first.
     pub shifts_s: Vec<f64>,
 }
@@ -60,75 +60,105 @@ pub struct Averaged {
 /// Correlation below which a drop is another event.
 const LEAST_CORRELATION: f64 = 0.5;
 
-/// The mean of repeated drops of the same ball from the same height, aligned by correlation.
+/// The mean of repeated drops of the same ball from the same height, each with a trace of every sensor, aligned by correlation.
 ///
-/// Each trace is shifted to the largest correlation with the first; between samples it is read by cubic interpolation. Samples that a shift brings in from outside a trace are zero.
+/// All traces of a drop have one shift, at which their correlation with those of the first drop is largest; between samples they are read by cubic interpolation. Samples that a shift brings in from outside a trace are zero.
 ///
 /// # Errors
-/// [`InverseError`] for fewer than two drops, drops of different lengths, samples that are not finite, and a drop that does
-/// not resemble the others.
-pub fn average(drops: &[Vec<f64>], step_s: f64) -> Result<Averaged, InverseError> {
+/// [`InverseError`] for fewer than two drops, drops without traces, traces of different lengths or numbers, samples that are not
+/// finite, and a drop that does not resemble the first.
+pub fn average(drops: &[Vec<Vec<f64>>], step_s: f64) -> Result<Averaged, InverseError> {
     positive("step_s", step_s)?;
-    let (count, size) = (drops.len() as f64, drops.first().map_or(0, Vec::len));
+    let count = drops.len() as f64;
     check(drops.len() > 1, "the number of drops", count, "[2, inf)")?;
+    let (sensors, size) = (drops[0].len(), drops[0].first().map_or(0, Vec::len));
     let key = "the number of samples of a drop";
     check(size > 3, key, size as f64, "[4, inf)")?;
-    for (index, drop) in drops.iter().enumerate() {
-        finite(&format!("drop {}", index + 1), drop)?;
-        if drop.len() != size {
-            let key = format!("the number of samples of drop {}", index + 1);
-            let (found, range) = (drop.len() as f64, format!("[{size}, {size}]"));
-            let remedy = ": cut all drops to the same length";
-            return Err(InverseError::outside(&key, found, &range, remedy));
+    for (drop, number) in drops.iter().zip(1..) {
+        let key = format!("the number of traces of drop {number}");
+        let range = format!("[{sensors}, {sensors}]");
+        check(drop.len() == sensors, &key, drop.len() as f64, &range)?;
+        for trace in drop {
+            finite(&format!("drop {number}"), trace)?;
+            if trace.len() != size {
+                let key = format!("the number of samples of drop {number}");
+                let (found, range) = (trace.len() as f64, format!("[{size}, {size}]"));
+                let remedy = ": cut all drops to the same length";
+                return Err(InverseError::outside(&key, found, &range, remedy));
+            }
         }
     }
-    let (mut shifts, mut aligned) = (Vec::new(), Vec::new());
-    for (index, drop) in drops.iter().enumerate() {
+    let mut shifts = Vec::new();
+    for (drop, number) in drops.iter().zip(1..) {
         let (shift, correlation) = delay(drop, &drops[0]);
         if correlation < LEAST_CORRELATION {
-            let key = format!("the correlation of drop {} with the first", index + 1);
+            let key = format!("the correlation of drop {number} with the first");
             let range = format!("[{LEAST_CORRELATION}, 1]");
             let remedy = ": remove it, or average drops of the same ball, height and place only";
             return Err(InverseError::outside(&key, correlation, &range, remedy));
         }
-        let samples = (0..size).map(|i| at(drop, i as f64 + shift));
-        aligned.push(samples.collect::<Vec<f64>>());
         shifts.push(shift);
     }
-    let sample = |i: usize| aligned.iter().map(|drop| drop[i]).sum::<f64>() / count;
-    let mean: Vec<f64> = (0..size).map(sample).collect();
-    let sd = |i: usize| {
-        let squares = aligned.iter().map(|drop| (drop[i] - mean[i]).powi(2));
-        (squares.sum::<f64>() / (count * (count - 1.0))).sqrt()
-    };
+    let (mut mean, mut sd) = (Vec::new(), Vec::new());
+    for sensor in 0..sensors {
+        let drops = drops.iter().zip(&shifts);
+        let aligned = drops.map(|(drop, shift)| {
+            let sample = |i: usize| at(&drop[sensor], i as f64 + shift);
+            (0..size).map(sample).collect()
+        });
+        let aligned: Vec<Vec<f64>> = aligned.collect();
+        let sample = |i: usize| aligned.iter().map(|drop| drop[i]).sum::<f64>() / count;
+        let own: Vec<f64> = (0..size).map(sample).collect();
+        let scatter = |i: usize| {
+            let squares = aligned.iter().map(|drop| (drop[i] - own[i]).powi(2));
+            (squares.sum::<f64>() / (count * (count - 1.0))).sqrt()
+        };
+        sd.push((0..size).map(scatter).collect());
+        mean.push(own);
+    }
     Ok(Averaged {
-        sd: (0..size).map(sd).collect(),
-        shifts_s: shifts.iter().map(|shift| shift * step_s).collect(),
         mean,
+        sd,
+        shifts_s: shifts.iter().map(|shift| shift * step_s).collect(),
     })
 }
 
-/// Samples by which a trace is later than another, with the correlation there.
-fn delay(trace: &[f64], other: &[f64]) -> (f64, f64) {
-    let (count, most) = (trace.len(), trace.len() / 2);
-    // a lag of -most is the place 0
-    let product = |place: usize| {
-        let (late, early) = (place.saturating_sub(most), most.saturating_sub(place));
-        dot(&trace[late..count - early], &other[early..count - late])
+/// Samples by which the traces of a drop are later than those of another, with their correlation there. Sensors count by the inverse
+/// of the variance of their noise, of which the second differences tell.
+fn delay(drop: &[Vec<f64>], other: &[Vec<f64>]) -> (f64, f64) {
+    let count = other[0].len();
+    let most = count / 2;
+    let weight = |trace: &Vec<f64>| {
+        let bends = trace.windows(3).map(|w| (w[0] - 2.0 * w[1] + w[2]).powi(2));
+        let square = bends.sum::<f64>();
+        if square > 0.0 { square.recip() } else { 0.0 }
     };
-    let products: Vec<f64> = (0..=2 * most).map(product).collect();
-    let best = (1..2 * most).max_by(|&i, &j| products[i].total_cmp(&products[j]));
+    let weights: Vec<f64> = other.iter().map(weight).collect();
+    let sum = |product: &dyn Fn(&[f64], &[f64]) -> f64| -> f64 {
+        let pairs = drop.iter().zip(other).zip(&weights);
+        pairs
+            .map(|((own, other), weight)| weight * product(own, other))
+            .sum()
+    };
+    let size = (sum(&|own, _| dot(own, own)) * sum(&|_, other| dot(other, other))).sqrt();
+    // a lag of -most is the place 0
+    let correlation = |place: usize| {
+        let (late, early) = (place.saturating_sub(most), most.saturating_sub(place));
+        let product =
+            sum(&|own, other| dot(&own[late..count - early], &other[early..count - late]));
+        if size > 0.0 { product / size } else { 0.0 }
+    };
+    let correlations: Vec<f64> = (0..=2 * most).map(correlation).collect();
+    let best = (1..2 * most).max_by(|&i, &j| correlations[i].total_cmp(&correlations[j]));
     let best = best.unwrap_or(most);
-    let [a, b, c] = [products[best - 1], products[best], products[best + 1]];
+    let [a, b, c] = [-1, 0, 1].map(|one| correlations[best.saturating_add_signed(one)]);
     let curvature = a - 2.0 * b + c;
     let between = if curvature < 0.0 {
         (0.5 * (a - c) / curvature).clamp(-0.5, 0.5)
     } else {
         0.0
     };
-    let size = (dot(trace, trace) * dot(other, other)).sqrt();
-    let correlation = if size > 0.0 { b / size } else { 0.0 };
-    (best as f64 - most as f64 + between, correlation)
+    (best as f64 - most as f64 + between, b)
 }
 
 /// A trace between its samples, by the cubic of Catmull and Rom through four; zero outside.

@@ -131,7 +131,7 @@ fn an_impulse_in_place_of_gains() {
 #[test]
 fn repeated_drops() {
     let pulse = Pulse::hertz();
-    let drops = |snr: f64| -> Vec<Vec<f64>> {
+    let drops = |snr: f64| -> Vec<Vec<Vec<f64>>> {
         (0..16)
             .map(|k| {
                 let late = if k == 0 {
@@ -140,11 +140,10 @@ fn repeated_drops() {
                     5.37 * (f64::from(k) * 1.7).sin()
                 };
                 let noise = normal(u64::from(k as u32) + 40, 200);
-                (0..200)
-                    .map(|i| {
-                        pulse.at((f64::from(i) - 60.0 - late) / 70.0)[0] + noise[i as usize] / snr
-                    })
-                    .collect()
+                let sample = |i: u32| {
+                    pulse.at((f64::from(i) - 60.0 - late) / 70.0)[0] + noise[i as usize] / snr
+                };
+                vec![(0..200).map(sample).collect()]
             })
             .collect()
     };
@@ -157,10 +156,10 @@ fn repeated_drops() {
         );
     }
     let errors: Vec<f64> = (0..200)
-        .map(|i| found.mean[i] - pulse.at((i as f64 - 60.0) / 70.0)[0])
+        .map(|i| found.mean[0][i] - pulse.at((i as f64 - 60.0) / 70.0)[0])
         .collect();
     let quiet = (errors[20..50].iter().map(|e| e * e).sum::<f64>() / 30.0).sqrt();
-    let claimed = found.sd[20..50].iter().sum::<f64>() / 30.0;
+    let claimed = found.sd[0][20..50].iter().sum::<f64>() / 30.0;
     println!(
         "noise of the mean of 16: {quiet:.4}, claimed {claimed:.4}, of one {:.4}",
         1.0 / 30.0
@@ -169,12 +168,42 @@ fn repeated_drops() {
     assert!(peak(&errors) < 0.04, "{}", peak(&errors));
 
     let mut other = drops(30.0);
-    let said = |drops: &[Vec<f64>]| average(drops, 1e-6).expect_err("an error").to_string();
-    other[5] = normal(9, 200);
+    let said = |drops: &[Vec<Vec<f64>>]| average(drops, 1e-6).expect_err("an error").to_string();
+    other[5] = vec![normal(9, 200)];
     assert!(said(&other).contains("the correlation of drop 6 with the first = "));
-    other[5].truncate(150);
+    other[5][0].truncate(150);
     assert!(said(&other).contains("drop 6 = 150 is outside [200, 200]"));
     assert!(average(&other[..1], 1e-6).is_err());
+}
+
+/// A sensor with much noise follows the shift that a good one shows.
+#[test]
+fn sensors_of_a_drop_have_one_shift() {
+    let pulse = Pulse::hertz();
+    let lates = [0.0, 3.4, -4.7, 1.2, 2.9, -2.2];
+    let drop = |(k, late): (usize, f64)| -> Vec<Vec<f64>> {
+        let trace = |sensor: usize, sigma: f64| {
+            let noise = normal((100 + 10 * k + sensor) as u64, 200);
+            let sample = |i: usize| pulse.at((i as f64 - 60.0 - late) / 70.0)[0] + sigma * noise[i];
+            (0..200).map(sample).collect()
+        };
+        vec![trace(0, 0.003), trace(1, 0.3)]
+    };
+    let drops: Vec<Vec<Vec<f64>>> = lates.into_iter().enumerate().map(drop).collect();
+    let both = average(&drops, 1e-6).expect("a mean");
+    let noisy: Vec<Vec<Vec<f64>>> = drops.iter().map(|drop| vec![drop[1].clone()]).collect();
+    let alone = average(&noisy, 1e-6).expect("a mean");
+    let worst = |shifts_s: &[f64]| {
+        let late = lates.iter().zip(shifts_s);
+        late.fold(0.0, |most: f64, (late, found)| {
+            most.max((found * 1e6 - late).abs())
+        })
+    };
+    let [both, alone] = [both, alone].map(|found| worst(&found.shifts_s));
+    println!(
+        "shifts are off by {both:.2} samples with both sensors, {alone:.2} with the noisy one"
+    );
+    assert!(both < 0.3 && both < 0.2 * alone, "{both} {alone}");
 }
 
 #[test]

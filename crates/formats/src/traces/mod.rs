@@ -314,16 +314,16 @@ fn averaged(scene: &Scene, blows: &[Traces], given: &Given) -> Result<Means, Tra
     if blows.len() == 1 {
         return Ok((first.clone(), Vec::new(), Vec::new()));
     }
-    let (mut mean, mut sds, mut shifts_s) = (first.clone(), Vec::new(), Vec::new());
-    for (i, samples) in mean.samples.iter_mut().enumerate() {
-        let drops: Vec<Vec<f64>> = blows.iter().map(|blow| blow.samples[i].clone()).collect();
-        let found = average(&drops, first.step_s)?;
-        let square = found.sd.iter().map(|sd| sd * sd).sum::<f64>() / found.sd.len() as f64;
-        sds.push(Some(square.sqrt()));
-        *samples = found.mean;
-        shifts_s = found.shifts_s;
-    }
-    Ok((mean, sds, shifts_s))
+    let drops: Vec<Vec<Vec<f64>>> = blows.iter().map(|blow| blow.samples.clone()).collect();
+    let found = average(&drops, first.step_s)?;
+    let of_mean = |sd: &Vec<f64>| {
+        let square = sd.iter().map(|sd| sd * sd).sum::<f64>() / sd.len() as f64;
+        Some(square.sqrt())
+    };
+    let sds = found.sd.iter().map(of_mean).collect();
+    let samples = found.mean;
+    let mean = Traces { samples, ..*first };
+    Ok((mean, sds, found.shifts_s))
 }
 
 /// The pulse of the contact law, about how long the contact takes in s, and warnings about it; Hertz's pulse of unknown length without
