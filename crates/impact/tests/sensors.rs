@@ -5,10 +5,11 @@
 use contact::{Choice, HalfSpace, Material, Settings, Striker};
 use halfspace::{Arc, Face, random};
 use impact::{
-    FaceMean, ForceRecord, KernelChoice, Load, Measured, Outcome, Probe, Quantity, Scene, Sensor,
-    Strike, simulate,
+    Allowance, FaceMean, ForceRecord, KernelChoice, Load, Measured, Outcome, Probe, Quantity,
+    Scene, Section, Sensor, Strike, simulate, simulate_within,
 };
 use std::f64::consts::PI;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 fn block(poisson_ratio: f64) -> HalfSpace {
     HalfSpace::new(Material::elastic(70e9, poisson_ratio, 2700.0).unwrap()).unwrap()
@@ -253,4 +254,40 @@ fn means_over_faces_are_within_their_estimates() {
     );
     assert!(above == 0, "{above}");
     assert!(median < 100.0, "{median}");
+}
+
+/// Progress is that of the points, with or without peaks, whose further instants are not points.
+#[test]
+fn each_point_counts_once() {
+    let mut asked = scene(block(0.3), ball(2e-3, 0.5), 1e-2);
+    asked.probes = vec![
+        Probe {
+            r_m: 0.01,
+            z_m: 0.0,
+        },
+        Probe {
+            r_m: 0.0,
+            z_m: 0.01,
+        },
+    ];
+    asked.sensors = vec![sensor(0.02, 0.0, 2e-3, Measured::VelocityZ)];
+    asked.section = Some(Section {
+        r_max_m: 0.01,
+        z_max_m: 0.01,
+        points: [3, 2],
+        frames: 4,
+        times_s: vec![],
+    });
+    for peaks in [false, true] {
+        asked.peaks = peaks;
+        let seen = AtomicUsize::new(0);
+        let allowance = Allowance {
+            watch: &|| {
+                seen.fetch_add(1, Ordering::Relaxed);
+            },
+            ..Allowance::default()
+        };
+        simulate_within(&asked, &KernelChoice::Direct, &allowance).unwrap();
+        assert_eq!(seen.into_inner(), asked.points());
+    }
 }

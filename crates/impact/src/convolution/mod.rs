@@ -242,7 +242,6 @@ impl<'a> Convolution<'a> {
                 add_traces(all, own);
             }
         }
-        (self.watch)();
         Ok(self.with_quantities(sums))
     }
 
@@ -252,19 +251,20 @@ impl<'a> Convolution<'a> {
             let mut derivatives = self.forcings.iter().map(|own| own.derivative);
             derivatives.position(|own| own == derivative)
         };
-        let filter = self.grid.low_pass_hz;
-        let filter = filter.map(|cutoff_hz| LowPassed::new(self.grid.all_s().collect(), cutoff_hz));
-        let fields = sums[0].clone();
+        let filtered = self.grid.low_pass_hz.map(|cutoff_hz| {
+            let filter = LowPassed::new(self.grid.all_s().collect(), cutoff_hz);
+            (filter, sums[0].clone())
+        });
         let seen = |component: usize, derivative: Derivative| {
+            let (filter, fields) = filtered.as_ref()?;
             let Trace { samples, error } = &fields[component];
             let order = match derivative {
                 Derivative::Field => 0,
                 Derivative::First => 1,
                 Derivative::Second => 2,
             };
-            let found = |filter: &LowPassed| filter.of((samples, *error), order, self.wanted);
-            let found = filter.as_ref().map(found);
-            found.map(|(samples, error)| Trace { samples, error })
+            let (samples, error) = filter.of((samples, *error), order, self.wanted);
+            Some(Trace { samples, error })
         };
         for (component, shown) in sums[0].iter_mut().enumerate() {
             if let Some(own) = seen(component, Derivative::Field) {

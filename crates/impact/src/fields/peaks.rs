@@ -15,6 +15,7 @@
 use crate::convolution::{Convolution, Point, Trace};
 use crate::error::ImpactError;
 use crate::excitation::{Excitation, PressureRadius};
+use crate::sampled::projection::largest;
 
 /// The largest value of an output over continuous time.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -504,8 +505,4 @@ fn top(time_s: &[f64], values: &[f64], [from_s, to_s]: [f64; 2]) -> [f64; 2] {
         true => [from_s + crest * unit_s, found],
         false => [time_s[middle], known],
     }
-}
-
-fn largest(values: &[f64]) -> f64 {
-    values.iter().fold(0.0, |most, value| most.max(value.abs()))
 }
