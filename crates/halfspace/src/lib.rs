@@ -71,17 +71,20 @@ mod domain;
 mod numeric;
 mod medium;
 mod arrivals;
+mod attenuation;
 mod potentials;
 pub mod kausel;
 mod statics;
 mod surface;
 mod integral;
 mod kernel;
+mod spectrum;
 mod trace;
 mod face;
 mod plate;
 
 pub use arrivals::Arrivals;
+pub use attenuation::Attenuation;
 pub use domain::{DomainError, check};
 pub use face::{Arc, Face};
 pub use field::{Estimate, FIELDS, Field, Six};
@@ -92,5 +95,6 @@ pub use numeric::polynomial::{chebyshev, chebyshev_each, lagrange, leja_nodes, l
 pub use numeric::{bisected, gauss, random};
 pub use plate::{Echo, Plate, Rays};
 pub use profile::Profile;
+pub use spectrum::Spectrum;
 pub use surface::{Deflection, LoadedDisc, SurfaceResponse, surface_measure};
 pub use trace::Trace;

@@ -1,7 +1,8 @@
-//! Numerical tools: arithmetic in twice the precision (`double`), Gauss-Legendre rules (`gauss`), polynomials
+//! Numerical tools: Bessel functions (`bessel`), arithmetic in twice the precision (`double`), Gauss-Legendre rules (`gauss`), polynomials
 //! (`polynomial`), seeded random numbers (`random`), vector registers (`lanes`), and a common interface to numbers and
 //! registers with complex roots and logarithms without cancellation (`scalar`).
 
+pub(crate) mod bessel;
 pub(crate) mod double;
 pub mod gauss;
 pub(crate) mod lanes;
