@@ -9,7 +9,7 @@
 //! v is 3 for displacements and 1 for stresses, and g the exponent of the law. The density q_v is near a stable one, whose
 //! width in x is of order 1 for any quality factor; for g to 0 it is Landau's.
 //!
-//! Theory: `docs/theory.md` (T78).
+//! Theory: `docs/theory.md` (T80).
 
 use crate::attenuation::Attenuation;
 use crate::numeric::gauss;
