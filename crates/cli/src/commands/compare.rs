@@ -6,7 +6,7 @@ use crate::report::short;
 use clap::Args;
 use figure::{Axis, Figure, Panel, Style, to_svg};
 use formats::lamb::{Compared, compare_files};
-use oracle::Limits;
+use oracle::{Comparison, Limits};
 use serde::Serialize;
 use serde_json::{Value, json};
 use std::fmt::{self, Display, Formatter};
@@ -89,7 +89,7 @@ impl Display for Report {
             .fold(6, usize::max);
         write!(
             f,
-            "{:width$}    error  amplitude      shift  without shift  spectrum",
+            "{:width$}     error  amplitude      shift  without shift  spectrum",
             "column"
         )?;
         for own in &self.columns {
@@ -99,21 +99,30 @@ impl Display for Report {
             } else {
                 "  above the tolerance"
             };
-            let percent = [found.error, found.shifted_error, found.spectral_error]
-                .map(|x| format!("{:.3} %", 100.0 * x));
-            let shift = short(found.shift_s, "s");
+            let [error, shifted, spectral] =
+                [found.error, found.shifted_error, found.spectral_error]
+                    .map(|x| format!("{x:.2e}"));
+            let shift = shift(found);
+            let name = line(&own.theirs);
             write!(
                 f,
-                "\n{:width$} {:>8} {:10.4} {shift:>10} {:>14} {:>9}{verdict}",
-                line(&own.theirs),
-                percent[0],
-                found.amplitude,
-                percent[1],
-                percent[2]
+                "\n{name:width$} {error:>9} {:10.4} {shift:>10} {shifted:>14} {spectral:>9}{verdict}",
+                found.amplitude
             )?;
         }
         Ok(())
     }
+}
+
+/// The shift with its unit; one that rounding leaves is zero.
+fn shift(found: &Comparison) -> String {
+    /// Part of the time between two samples below which a shift is zero.
+    const NONE: f64 = 1e-6;
+    let [first, second] = [found.time_s[0], found.time_s[1]];
+    if found.shift_s.abs() < NONE * (second - first) {
+        return "0 s".to_owned();
+    }
+    short(found.shift_s, "s")
 }
 
 /// Both histories and the difference of each column.

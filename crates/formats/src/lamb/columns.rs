@@ -47,12 +47,11 @@ pub fn compare_files(
     }
     let (mut found, mut alone) = (Vec::new(), Vec::new());
     for (name, samples) in a.names.iter().zip(&a.samples) {
-        let mapped = map
-            .iter()
-            .find(|(own, _)| same(own, name))
-            .map_or(name, |(_, other)| other);
-        let partner = place(&b, mapped).filter(|_| !name.to_ascii_lowercase().ends_with("_error"));
-        let Some(partner) = partner else {
+        if name.to_ascii_lowercase().ends_with("_error") {
+            continue;
+        }
+        let mapped = map.iter().find(|(own, _)| same(own, name));
+        let Some(partner) = place(&b, mapped.map_or(name, |(_, other)| other)) else {
             alone.push(name.clone());
             continue;
         };
