@@ -14,7 +14,7 @@
 //!
 //! whose integrand is even and periodic, so that the trapezoidal rule converges like a power of its number of punches.
 //!
-//! Theory: `docs/theory.md` (T76 to T78).
+//! Theory: `docs/theory.md` (T76, T77).
 
 use crate::error::OracleError;
 use crate::panels::Panels;
