@@ -1,4 +1,4 @@
-"""Section 2.9 of docs/theory.md: a uniform pressure as a sum of punches, and forces on a response that is a distribution."""
+"""Section 2.10 of docs/theory.md: a uniform pressure as a sum of punches, and forces on a response that is a distribution."""
 
 import numpy as np
 from scipy.integrate import quad

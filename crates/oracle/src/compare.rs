@@ -262,8 +262,7 @@ fn shift(theirs: Record<'_>, a: &[f64], b: &[f64], (from_s, step_s): (f64, f64))
             .map(|(slope, own)| slope - along * own)
             .collect();
         let change_s = dot(&moved, &across) / dot(&across, &across);
-        // not a number ends it as well
-        if !(change_s.abs() <= step_s) {
+        if change_s.is_nan() || change_s.abs() > step_s {
             break;
         }
         shift_s -= change_s;

@@ -128,6 +128,6 @@ impl LambCase {
             return None;
         };
         let part = self.force.smooth_n(0.0).abs() / force_n.abs();
-        (part > BEGINS).then(|| format!("the force is {:.1e} of its peak at time 0, and not zero before: a code that begins at time 0 has a step there; use a longer source.delay_s", part))
+        (part > BEGINS).then(|| format!("the force is {part:.1e} of its peak at time 0, and not zero before: a code that begins at time 0 has a step there; use a longer source.delay_s"))
     }
 }
