@@ -5,7 +5,7 @@
 - scikit-fem: axisymmetric finite elements, the block of `docs/cases/wave-code.md` that is not run there, on two meshes.
 - pygrt-kit: its functions lamb1 (surface) and lamb2 (below it), the closed form of the step response.
 
-The exit code is 1 if one of them is outside its tolerance: 10 % on the coarse mesh, 2.5 % on the fine one, 1e-6 for the closed forms.
+The exit code is 1 if one of them is outside its tolerance: 30 % on the coarse mesh, 2.5 % on the fine one, 1e-6 for the closed forms.
 """
 
 import re
@@ -60,7 +60,7 @@ def main():
     program, codes = str(Path(sys.argv[1]).resolve()), []
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        for size, tolerance in [(40.0, "0.1"), (20.0, "0.025")]:
+        for size, tolerance in [(40.0, "0.3"), (20.0, "0.025")]:
             print(f"scikit-fem, elements of {size:g} m", flush=True)
             elements(folder, size)
             codes.append(compared(program, folder, CASE, "fem.csv", tolerance))
