@@ -249,7 +249,8 @@ def spectrum(
     r, z : array_like
         Distance from the axis and depth in r0, each in [0, 1e20]; broadcast together with ``f``.
     f : array_like
-        Frequency in c1/r0, from 0, above 0 with attenuation, up to 1e4 c1 over the distance from the load.
+        Frequency in c1/r0, from 0, above 0 with attenuation, up to 1e4 Rayleigh speeds over the
+        distance from the load.
     profile : {"hertz", "punch", "point"}
         Distribution of the force over the disc. For a point force the unit of length r0 is arbitrary.
     quality_factor : float, optional

@@ -180,6 +180,14 @@ impl Kernel {
         check_place_under(self.profile(), r, z)?;
         check_time(t)?;
         let arrival = self.first_arrival(r, z);
+        if t < arrival && self.profile() == Profile::Point {
+            // at the arrival itself the integral of a stress jumps
+            let rest = self.static_field(r, z)?;
+            return Ok(Estimate {
+                value: rest.map(|s| -s * t),
+                error: rest.map(|s| f64::EPSILON * s.abs() * t),
+            });
+        }
         let late = t.max(arrival);
         let mut estimate = (self.setting).evaluate::<STEP_INTEGRAL>(Point { r, z, t: late });
         if t < arrival {

@@ -346,3 +346,30 @@ fn length_is_arbitrary() {
     assert!(displacement.max < 1e-9, "{displacement}");
     assert!(stress.p90 < 1e-7 && stress.p99 < 1e-5, "{stress}");
 }
+
+/// The time integral of a stress jumps at the first arrival; before it the integral is that of minus the static field, with the
+/// same constant, as displacements show, which do not jump.
+#[test]
+fn integrals_before_the_first_arrival_are_of_the_static_field() {
+    for nu in [0.1, 0.3] {
+        let kernel = point(nu, 1e-10);
+        for [r, z] in [[0.6, 0.8], [0.3, 2.0], [2.0, 0.5]] {
+            let (arrival, rest) = (f64::hypot(r, z), kernel.static_field(r, z).unwrap());
+            let before = kernel.step_integral(r, z, 0.7 * arrival).unwrap().value;
+            let after = kernel
+                .step_integral(r, z, arrival * (1.0 + 1e-9))
+                .unwrap()
+                .value;
+            for f in 0..6 {
+                assert!(
+                    (before[f] + 0.7 * arrival * rest[f]).abs() < 1e-14 * (1.0 + rest[f].abs())
+                );
+            }
+            for f in [U, W] {
+                let off = (after[f] + arrival * rest[f]).abs();
+                assert!(off < 1e-7, "{nu} {r} {z} {f}: {off:.1e}");
+            }
+            assert!((after[SZZ] + arrival * rest[SZZ]).abs() > 1e-2);
+        }
+    }
+}

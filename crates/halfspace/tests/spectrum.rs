@@ -108,6 +108,10 @@ fn responses_are_those_of_traces() {
         (0.45, [1.2, 0.05], 1.5),
         (0.3, [30.0, 10.0], 1.0),
         (0.0, [0.9, 1e-3], 3.0),
+        (0.3, [1.0, 0.0], 2.0),
+        (0.3, [1.001, 1e-3], 2.0),
+        (0.3, [0.9999, 0.2], 5.0),
+        (0.2, [2.0, 0.3], 3.0),
     ] {
         let medium = Medium::new(nu).unwrap();
         let kernel = Kernel::new(&medium, Profile::Hertz, 1e-12).unwrap();

@@ -9,7 +9,7 @@ use num_complex::Complex64;
 use std::f64::consts::{FRAC_PI_4, PI};
 
 /// Modulus from which Hankel's expansion for large arguments has all digits: its smallest term is e^(-2|z|).
-const LARGE: f64 = 18.0;
+pub(crate) const LARGE: f64 = 18.0;
 
 /// Number of terms beyond |z| at which the backward recurrence starts; with fewer, `wronskians_hold` fails below LARGE.
 const START: f64 = 30.0;
@@ -36,7 +36,7 @@ pub(crate) fn scaled_bessel(z: Complex64) -> ([Complex64; 2], Complex64) {
     ([of(0), of(1)], turn * z)
 }
 
-/// Hankel functions H^(1) of orders 0 and 1 times e^(-iz), with Re z >= 0, Im z >= 0 and |z| >= [`LEAST_HANKEL`].
+/// Hankel functions H^(1) of orders 0 and 1 times e^(-iz), with Re z >= 0 and |z| >= [`LARGE`], or [`LEAST_HANKEL`] with Im z >= 0.
 pub(crate) fn scaled_hankel(z: Complex64) -> [Complex64; 2] {
     if z.norm() >= LARGE {
         return expanded(z);
