@@ -277,7 +277,7 @@ impl Integrand {
             let distance = scale * (FRAC_PI_2 * x.sinh()).exp();
             let weight = STEP * FRAC_PI_2 * x.cosh() * distance;
             let k = turn + distance * direction;
-            if !(k.norm() * reach < 1e3) {
+            if !(distance * reach < 1e3) {
                 break;
             }
             let fields = self.divided(k, road);

@@ -1,0 +1,369 @@
+//! The half-space under a vertical point force at one frequency, as a function of distance.
+//!
+//! With omega = 2 pi f, the shear wave speed c2 and m the factor of the moduli by attenuation (1 without), a displacement is
+//!
+//! ```text
+//! G(r, z, f) = omega/(mu c) H(x, zeta),    x = omega r/c,  zeta = omega z/c,  c = c2 sqrt|m|,  mu |m| for mu
+//! ```
+//!
+//! H depends on x and zeta alone, because the phase of m is the same at all frequencies: on the surface one table serves all
+//! frequencies. Tabulated is H without the phase of the Rayleigh wave and without its spreading, which is smooth.
+
+use crate::error::NoiseError;
+use crate::spacing::Spacing;
+use contact::HalfSpace;
+use halfspace::{Attenuation, Kernel, Medium, Profile};
+use num_complex::Complex64;
+use rayon::prelude::*;
+use std::borrow::Cow;
+use std::f64::consts::TAU;
+
+/// A displacement for a unit force: away from the force, and down.
+pub type Response = [Complex64; 2];
+
+/// Steps between nodes: a part of x close to the force, and in x far out. Cubic interpolation is within 1e-4 then
+/// (`responses_are_those_of_the_kernel`, which fails with twice these).
+pub(crate) const STEP: f64 = 0.1;
+pub(crate) const FAR_STEP: f64 = 0.5;
+
+/// x from which a surface response is a Rayleigh wave: body waves are below 4e-3 of it (`responses_are_those_of_the_kernel`).
+const RAYLEIGH_ONLY: f64 = 500.0;
+
+/// Every so many intervals a table is compared with the kernel.
+const CHECKED: usize = 7;
+
+/// Part of the depth of a receiver within which responses do not depend on distance: they change by its square.
+const ABOVE: f64 = 1e-3;
+
+/// Part of the largest tabulated value below which an error is not relative to the value itself.
+const FLOOR: f64 = 1e-4;
+
+/// Most nodes of a table.
+const MOST_NODES: usize = 200_000;
+
+/// A half-space, perhaps with attenuation.
+#[derive(Debug, Clone)]
+pub struct Ground {
+    kernel: Kernel,
+    shear_modulus_pa: f64,
+    shear_speed_m_s: f64,
+    attenuation: Option<Attenuation>,
+    /// The attenuation where omega/c is 1, at which |m| is 1.
+    unit_law: Option<Attenuation>,
+}
+
+impl Ground {
+    /// Of a half-space, with a law of attenuation whose reference frequency is in Hz.
+    ///
+    /// # Errors
+    /// [`NoiseError`] for a Poisson's ratio outside the physics.
+    pub fn new(block: &HalfSpace, attenuation: Option<Attenuation>) -> Result<Self, NoiseError> {
+        /// The tolerance has no effect on spectra.
+        const TOLERANCE: f64 = 1e-10;
+        let medium = Medium::new(block.material().poisson_ratio)?;
+        let kernel = Kernel::new(&medium, Profile::Point, TOLERANCE)?;
+        let unit_law =
+            attenuation.map(|law| Attenuation::new(law.quality_factor(), unit_frequency(&medium)));
+        Ok(Self {
+            shear_modulus_pa: block.material().shear_modulus_pa(),
+            shear_speed_m_s: block.longitudinal_speed_m_s() * medium.kappa(),
+            kernel,
+            attenuation,
+            unit_law: unit_law.transpose()?,
+        })
+    }
+
+    /// The Rayleigh wave speed in m/s at a frequency in Hz.
+    pub fn rayleigh_speed_m_s(&self, frequency_hz: f64) -> f64 {
+        self.speed_m_s(frequency_hz) / self.rayleigh_slowness()
+    }
+
+    /// Slowness of the Rayleigh wave in that of the shear wave.
+    fn rayleigh_slowness(&self) -> f64 {
+        let medium = self.kernel.medium();
+        medium.kappa() / medium.rayleigh_speed()
+    }
+
+    /// c in m/s.
+    fn speed_m_s(&self, frequency_hz: f64) -> f64 {
+        let factor = self
+            .attenuation
+            .map_or(1.0, |law| law.speed_factor(frequency_hz).norm());
+        self.shear_speed_m_s * factor
+    }
+
+    /// omega/c in 1/m.
+    pub(crate) fn wave_number(&self, frequency_hz: f64) -> f64 {
+        TAU * frequency_hz / self.speed_m_s(frequency_hz)
+    }
+
+    /// omega/(mu |m| c) in m/N.
+    fn unit_m_n(&self, frequency_hz: f64) -> f64 {
+        let speed = self.speed_m_s(frequency_hz);
+        let stiffer = (speed / self.shear_speed_m_s).powi(2);
+        TAU * frequency_hz / (self.shear_modulus_pa * stiffer * speed)
+    }
+
+    /// H(x, zeta) of the kernel with its estimated error.
+    fn exact(&self, x: f64, depth: f64) -> Result<(Response, f64), NoiseError> {
+        let frequency = unit_frequency(self.kernel.medium());
+        let found = self
+            .kernel
+            .spectrum(x, depth, frequency, self.unit_law.as_ref())?;
+        Ok((
+            [found.value[0], found.value[1]],
+            found.error[0].max(found.error[1]),
+        ))
+    }
+}
+
+/// The frequency in c1/r0 at which omega r0/c2 is 1.
+fn unit_frequency(medium: &Medium) -> f64 {
+    medium.kappa() / TAU
+}
+
+/// H as a function of x at one zeta.
+#[derive(Debug, Clone)]
+pub(crate) struct Curve {
+    spacing: Spacing,
+    /// H e^{i k x} x/sqrt(1 + x) at the nodes, with k the Rayleigh wave number over that of the shear wave, and R for x in
+    /// the fraction, R^2 = x^2 + zeta^2.
+    nodes: Vec<Response>,
+    depth: f64,
+    slowness: f64,
+    lowest: f64,
+    /// End of the table, and the factor of the values per unit of x behind it.
+    end: f64,
+    decay: Complex64,
+    /// Largest error of a tabulated value, relative.
+    pub(crate) error: f64,
+}
+
+impl Curve {
+    /// Between two x at a depth.
+    pub(crate) fn new(
+        ground: &Ground,
+        depth: f64,
+        [low, high]: [f64; 2],
+    ) -> Result<Self, NoiseError> {
+        let low = low.max(ABOVE * depth).min(high);
+        let end = if depth > 0.0 {
+            high
+        } else {
+            high.min(RAYLEIGH_ONLY.max(low))
+        };
+        let spacing = Spacing::new([low, end], STEP, STEP / FAR_STEP);
+        NoiseError::unless(
+            spacing.count <= MOST_NODES,
+            "the distance in wavelengths",
+            high / TAU,
+            "(0, 1600)",
+            ": use lower frequencies, or a smaller area",
+        )?;
+        let loss = ground.unit_law.map_or(Complex64::from(1.0), |law| {
+            law.speed_factor(unit_frequency(ground.kernel.medium()))
+                .inv()
+        });
+        let slowness = ground.rayleigh_slowness();
+        let mut curve = Self {
+            spacing,
+            nodes: Vec::new(),
+            depth,
+            slowness,
+            lowest: low,
+            end,
+            decay: -Complex64::i() * slowness * (loss - 1.0),
+            error: 0.0,
+        };
+        let scaled = |x: f64| -> Result<(Response, f64), NoiseError> {
+            let (value, error) = ground.exact(x, depth)?;
+            let factor = curve.scale(x) * Complex64::from_polar(1.0, slowness * x);
+            Ok((value.map(|h| h * factor), error * curve.scale(x)))
+        };
+        let nodes = (0..spacing.count).into_par_iter();
+        let nodes: Result<Vec<_>, NoiseError> = nodes
+            .map(|i| Ok(scaled(spacing.node(i as f64))?.0))
+            .collect();
+        let far = (high > end).then_some(high.min(4.0 * RAYLEIGH_ONLY));
+        let between = (1..spacing.count - 2).into_par_iter().step_by(CHECKED);
+        let places = between.map(|i| spacing.node(i as f64 + 0.5)).chain(far);
+        let checks: Result<Vec<_>, NoiseError> = places.map(|x| Ok((x, scaled(x)?))).collect();
+        let (nodes, checks) = (nodes?, checks?);
+        curve.nodes = nodes;
+        curve.error = curve.worst(&checks);
+        Ok(curve)
+    }
+
+    /// Largest relative error of the table at values of the kernel.
+    fn worst(&self, checks: &[(f64, (Response, f64))]) -> f64 {
+        let size = |value: &Response| value[0].norm().hypot(value[1].norm());
+        let largest = self
+            .nodes
+            .iter()
+            .map(size)
+            .fold(f64::MIN_POSITIVE, f64::max);
+        let errors = checks.iter().map(|(x, (value, error))| {
+            let found = self.scaled(*x);
+            let off = size(&[found[0] - value[0], found[1] - value[1]]) + error;
+            off / size(value).max(FLOOR * largest)
+        });
+        errors.fold(0.0, f64::max)
+    }
+
+    /// The spreading that is removed, R/sqrt(1 + R).
+    fn scale(&self, x: f64) -> f64 {
+        let distance = x.hypot(self.depth);
+        distance / (1.0 + distance).sqrt()
+    }
+
+    /// A tabulated value.
+    fn scaled(&self, x: f64) -> Response {
+        let (first, weights) = self.spacing.at(x.clamp(self.lowest, self.end));
+        let mut sum = Response::default();
+        for (node, weight) in self.nodes[first..].iter().zip(weights) {
+            sum[0] += weight * node[0];
+            sum[1] += weight * node[1];
+        }
+        if x > self.end {
+            let decay = (self.decay * (x - self.end)).exp();
+            sum = sum.map(|value| value * decay);
+        }
+        sum
+    }
+
+    /// |H|^2 of both components.
+    pub(crate) fn power(&self, x: f64) -> [f64; 2] {
+        let over = self.scale(x.max(self.lowest)).powi(2).recip();
+        self.scaled(x).map(|value| value.norm_sqr() * over)
+    }
+
+    /// H.
+    pub(crate) fn value(&self, x: f64) -> Response {
+        let x = x.max(self.lowest);
+        let factor = Complex64::from_polar(self.scale(x).recip(), -self.slowness * x);
+        self.scaled(x).map(|value| value * factor)
+    }
+}
+
+/// The response at one frequency and depth, as a function of distance.
+#[derive(Debug)]
+pub(crate) struct AtFrequency<'a> {
+    pub(crate) curve: Cow<'a, Curve>,
+    pub(crate) wave_number: f64,
+    unit_m_n: f64,
+}
+
+impl<'a> AtFrequency<'a> {
+    /// For a depth and distances in m; on the surface by a table that covers them.
+    pub(crate) fn new(
+        ground: &Ground,
+        frequency_hz: f64,
+        depth_m: f64,
+        distances_m: [f64; 2],
+        surface: Option<&'a Curve>,
+    ) -> Result<Self, NoiseError> {
+        let wave_number = ground.wave_number(frequency_hz);
+        let made = || {
+            Curve::new(
+                ground,
+                wave_number * depth_m,
+                distances_m.map(|r| r * wave_number),
+            )
+        };
+        let curve = match surface.filter(|_| depth_m == 0.0) {
+            Some(curve) => Cow::Borrowed(curve),
+            None => Cow::Owned(made()?),
+        };
+        Ok(Self {
+            curve,
+            wave_number,
+            unit_m_n: ground.unit_m_n(frequency_hz),
+        })
+    }
+
+    /// |G|^2 in (m/N)^2, away from the force and down.
+    pub(crate) fn power(&self, distance_m: f64) -> [f64; 2] {
+        let square = self.unit_m_n * self.unit_m_n;
+        self.curve
+            .power(self.wave_number * distance_m)
+            .map(|power| power * square)
+    }
+
+    /// G in m/N.
+    pub(crate) fn value(&self, distance_m: f64) -> Response {
+        self.curve
+            .value(self.wave_number * distance_m)
+            .map(|value| value * self.unit_m_n)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use contact::Material;
+    use halfspace::random::Stream;
+
+    fn ground(poisson_ratio: f64, quality_factor: Option<f64>) -> Ground {
+        let mut rock = Material::named("granite").unwrap();
+        rock.poisson_ratio = poisson_ratio;
+        let law = quality_factor.map(|q| Attenuation::new(q, 10.0).unwrap());
+        Ground::new(&HalfSpace::new(rock).unwrap(), law).unwrap()
+    }
+
+    /// mu |G| c2/omega of an independent program (a complex integral over wave number): elastic and nu 0.25.
+    #[test]
+    fn the_response_is_that_of_the_reference() {
+        let ground = ground(0.25, None);
+        let curve = Curve::new(&ground, 0.0, [1e-3, 200.0]).unwrap();
+        for (kr, known) in [
+            (0.1, 1.298523),
+            (0.3, 0.4334266),
+            (1.0, 0.1319925),
+            (3.0, 0.04900194),
+            (6.0, 0.03002806),
+            (10.0, 0.02243527),
+            (20.0, 0.01713442),
+            (30.0, 0.01457482),
+            (60.0, 0.01049811),
+        ] {
+            let found = curve.power(kr / ground.rayleigh_slowness())[1].sqrt();
+            println!("kr {kr}: {found:.7} {known:.7}");
+            assert!((found / known - 1.0).abs() < 1e-4 + curve.error, "{kr}");
+        }
+    }
+
+    /// Tables against the kernel at other places, and their own estimates.
+    #[test]
+    fn responses_are_those_of_the_kernel() {
+        let mut random = Stream::new(7);
+        for (quality, depth, allowed) in [
+            (None, 0.0, 1e-4),
+            (Some(20.0), 0.0, 1e-4),
+            (Some(100.0), 0.0, 1e-4),
+            (None, 0.7, 1e-4),
+            (Some(20.0), 4.0, 1e-4),
+        ] {
+            let ground = ground(0.3, quality);
+            let high = if depth > 0.0 { 60.0 } else { 1500.0 };
+            let curve = Curve::new(&ground, depth, [1e-3, high]).unwrap();
+            let mut worst = 0.0_f64;
+            for _ in 0..200 {
+                let x = random.log(1e-3_f64.max(ABOVE * depth), high);
+                let (exact, _) = ground.exact(x, depth).unwrap();
+                let found = curve.value(x);
+                let off = (found[0] - exact[0])
+                    .norm()
+                    .hypot((found[1] - exact[1]).norm());
+                let size = exact[0].norm().hypot(exact[1].norm());
+                let elastic = 0.1 * (1.0 + x).sqrt() / x.hypot(depth);
+                let floor = if x > RAYLEIGH_ONLY { 4e-3 } else { allowed };
+                worst = worst.max(off / size.max(FLOOR * elastic) / floor * allowed);
+            }
+            println!(
+                "Q {quality:?}, depth {depth}: {worst:.1e}, stated {:.1e}, {} nodes",
+                curve.error, curve.spacing.count
+            );
+            assert!(worst < allowed && curve.error < 4e-3);
+        }
+    }
+}
