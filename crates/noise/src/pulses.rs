@@ -152,6 +152,11 @@ impl Pulses {
         })
     }
 
+    /// The pulse of a node.
+    pub fn pulse(&self, node: usize) -> &Pulse {
+        &self.nodes[node]
+    }
+
     /// Number of contacts that were solved.
     pub fn solved(&self) -> usize {
         self.nodes.len() + self.checks.len()

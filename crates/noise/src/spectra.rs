@@ -9,7 +9,7 @@
 
 use crate::area::Area;
 use crate::error::NoiseError;
-use crate::ground::{AtFrequency, Curve};
+use crate::ground::{AtFrequency, Sheet};
 use crate::source::{Bins, Noise, Receiver, Source, distance_m};
 use halfspace::gauss::rule;
 use rayon::prelude::*;
@@ -69,6 +69,25 @@ struct Row {
     errors: Errors,
 }
 
+impl Row {
+    /// Empty, with room for shares.
+    fn new(shares: usize) -> Self {
+        let share = vec![0.0; shares];
+        Self {
+            share,
+            ..Self::default()
+        }
+    }
+
+    /// Divides sums by the vertical power.
+    fn over_power(&mut self) {
+        let all = self.power[1].max(f64::MIN_POSITIVE);
+        self.share.iter_mut().for_each(|share| *share /= all);
+        self.errors.response /= all;
+        self.errors.quadrature /= all;
+    }
+}
+
 impl Spectra {
     /// Power in m^2/Hz of a displacement, in (m/s)^2/Hz after one derivative, in (m/s^2)^2/Hz after two; one-sided.
     pub fn power(&self, receiver: usize, motion: Motion, derivatives: i32) -> Vec<f64> {
@@ -109,7 +128,7 @@ const CONTACT_SIZE: f64 = 0.2;
 /// Distances and responses around the receivers.
 struct Around {
     bins: Vec<Bins>,
-    surface: Option<Curve>,
+    sheets: Vec<Sheet>,
     ends_m: Vec<[f64; 2]>,
     edges_m: Vec<Vec<f64>>,
 }
@@ -124,17 +143,18 @@ impl Noise {
     /// [`NoiseError`] for an impact too close to a receiver, and for frequencies or an area too large for a table.
     pub fn spectra(&self, frequency_hz: &[f64]) -> Result<Spectra, NoiseError> {
         let ends = [frequency_hz[0], frequency_hz[frequency_hz.len() - 1]];
-        let surface = self.surface(ends)?;
+        let sheets = self.sheets(ends)?;
         let ends_m = self.receivers.iter().map(|one| self.distances_m(one));
         let ends_m: Vec<[f64; 2]> = ends_m.collect::<Result<_, _>>()?;
         let edges_m: Vec<Vec<f64>> = (self.receivers.iter().zip(&ends_m))
             .map(|(receiver, ends_m)| edges(receiver.depth_m, *ends_m))
             .collect();
         let wave_number = self.ground.wave_number(ends[1]);
-        let bins = ends_m.iter().map(|ends_m| Bins::new(*ends_m, wave_number));
+        let bins = self.receivers.iter().zip(&ends_m);
+        let bins = bins.map(|(one, ends_m)| Bins::new(one.depth_m, *ends_m, wave_number));
         let around = Around {
             bins: bins.collect(),
-            surface,
+            sheets,
             ends_m,
             edges_m,
         };
@@ -161,8 +181,7 @@ impl Noise {
         let row = |i: usize, j: usize| {
             let (receiver, f) = (&self.receivers[i], chunk[j]);
             let (ends_m, edges_m) = (around.ends_m[i], &around.edges_m[i]);
-            let surface = around.surface.as_ref();
-            let at = AtFrequency::new(&self.ground, f, receiver.depth_m, ends_m, surface)?;
+            let at = self.at(&around.sheets, i, f);
             let mut row = match &self.source {
                 Source::Poisson {
                     area,
@@ -179,12 +198,13 @@ impl Noise {
                 }
                 Source::Listed { duration_s, .. } => {
                     let powers = listed[i].iter().skip(j).step_by(chunk.len());
-                    let nodes = powers.enumerate();
-                    let nodes = nodes.map(|(node, power)| (around.bins[i].node_m(node), *power));
-                    summed(&at, nodes, edges_m, 2.0 / duration_s)
+                    let powers = powers
+                        .map(|power| 2.0 / duration_s * power)
+                        .collect::<Vec<f64>>();
+                    summed(&at, &around.bins[i], &powers, edges_m)
                 }
             };
-            self.add_errors(&mut row.errors, f, &forces[j], &at);
+            self.add_errors(&mut row.errors, f, &forces[j]);
             Ok(row)
         };
         let all = (0..chunk.len()).map(|j| {
@@ -225,14 +245,8 @@ impl Noise {
         (sums, listed)
     }
 
-    /// Adds the errors of forces and responses to that of the integral.
-    fn add_errors(
-        &self,
-        errors: &mut Errors,
-        frequency_hz: f64,
-        forces: &Forces,
-        at: &AtFrequency<'_>,
-    ) {
+    /// Adds the errors of the forces.
+    fn add_errors(&self, errors: &mut Errors, frequency_hz: f64, forces: &Forces) {
         let [power, square, sized] = *forces;
         let count = self.blows.len() as f64;
         let spread = (count * square / (power * power) - 1.0).max(0.0);
@@ -243,7 +257,6 @@ impl Noise {
         errors.pulses = self.pulses.error(&self.blows, frequency_hz);
         let k = TAU * frequency_hz / self.ground.rayleigh_speed_m_s(frequency_hz);
         errors.contact_size = CONTACT_SIZE * k * k * sized / power.max(f64::MIN_POSITIVE);
-        errors.response = 2.0 * at.curve.error;
     }
 }
 
@@ -260,29 +273,30 @@ fn edges(depth_m: f64, [low, high]: [f64; 2]) -> Vec<f64> {
         .collect()
 }
 
-/// The row of impacts whose power is that at nodes in distance.
-fn summed(
-    at: &AtFrequency<'_>,
-    nodes: impl Iterator<Item = (f64, f64)>,
-    edges_m: &[f64],
-    factor: f64,
-) -> Row {
-    let mut row = Row {
-        share: vec![0.0; edges_m.len()],
-        ..Row::default()
-    };
-    for (distance_m, power) in nodes {
-        let own = at
-            .power(distance_m)
-            .map(|response| factor * power * response);
+/// The row of impacts whose power |F|^2 is that at nodes in distance.
+fn summed(at: &AtFrequency<'_>, bins: &Bins, powers: &[f64], edges_m: &[f64]) -> Row {
+    let mut row = Row::new(edges_m.len());
+    let responses = (0..powers.len()).map(|i| at.power(bins.node_m(i as f64)));
+    let responses: Vec<[f64; 2]> = responses.collect();
+    for (i, (power, response)) in powers.iter().zip(&responses).enumerate() {
+        let (distance_m, own) = (
+            bins.node_m(i as f64),
+            response.map(|response| power * response),
+        );
         row.power = [0, 1].map(|c| row.power[c] + own[c]);
+        row.errors.response += own[1] * at.error(distance_m);
         for (share, edge) in row.share.iter_mut().zip(edges_m) {
             *share += if distance_m <= *edge { own[1] } else { 0.0 };
         }
     }
-    row.share
-        .iter_mut()
-        .for_each(|share| *share /= row.power[1]);
+    // the interpolation in the middle between nodes is as wrong as anywhere
+    for (i, around) in responses.windows(4).enumerate() {
+        let cubic = [-1.0, 9.0, 9.0, -1.0].iter().zip(around);
+        let cubic: f64 = cubic.map(|(weight, node)| weight * node[1] / 16.0).sum();
+        let exact = at.power(bins.node_m(i as f64 + 1.5))[1];
+        row.errors.quadrature += powers[i + 1].abs() * (cubic - exact).abs();
+    }
+    row.over_power();
     row
 }
 
@@ -306,14 +320,12 @@ impl Cuts<'_> {
         cuts.extend(self.ends_m);
         cuts.retain(|cut| (low..=high).contains(cut));
         cuts.sort_by(f64::total_cmp);
-        let mut row = Row {
-            share: vec![0.0; self.edges_m.len()],
-            ..Row::default()
-        };
+        let mut row = Row::new(self.edges_m.len());
         let mut coarse = 0.0;
         for ends in cuts.windows(2).filter(|ends| ends[1] > ends[0]) {
             let [own, other] = self.between([ends[0], ends[1]], at);
             row.power = [0, 1].map(|c| row.power[c] + factor * own[c]);
+            row.errors.response += factor * own[2];
             coarse += factor * other[1];
             for (share, edge) in row.share.iter_mut().zip(self.edges_m) {
                 *share += if ends[1] <= *edge {
@@ -323,21 +335,19 @@ impl Cuts<'_> {
                 };
             }
         }
-        row.share
-            .iter_mut()
-            .for_each(|share| *share /= row.power[1]);
-        row.errors.quadrature = (coarse / row.power[1] - 1.0).abs();
+        row.errors.quadrature = (coarse - row.power[1]).abs();
+        row.over_power();
         row
     }
 
-    /// The integral of |G|^2 between two distances by both rules.
-    fn between(&self, [from, to]: [f64; 2], at: &AtFrequency<'_>) -> [[f64; 2]; 2] {
+    /// The integrals of |G|^2, and of its error downwards, between two distances by both rules.
+    fn between(&self, [from, to]: [f64; 2], at: &AtFrequency<'_>) -> [[f64; 3]; 2] {
         let above = |r: f64| r.max(self.receiver.depth_m * 0.5).max(f64::MIN_POSITIVE);
         let octaves = (above(to) / above(from)).log(RATIO);
         let beats = at.wave_number * (to - from) / BEAT;
         let count = octaves.max(beats).ceil().max(1.0) as usize;
         NODES.map(|nodes| {
-            let mut sum = [0.0; 2];
+            let mut sum = [0.0; 3];
             for i in 0..count {
                 let end = |i: usize| from + (to - from) * i as f64 / count as f64;
                 let [middle, half] = [0.5 * (end(i) + end(i + 1)), 0.5 * (end(i + 1) - end(i))];
@@ -346,8 +356,9 @@ impl Cuts<'_> {
                     let r = middle - half * angle.cos();
                     let width =
                         weight * half * angle.sin() * r * self.area.arc(self.receiver.place_m, r);
-                    let power = at.power(r);
-                    sum = [0, 1].map(|c| sum[c] + width * power[c]);
+                    let [across, down] = at.power(r);
+                    let terms = [across, down, down * at.error(r)];
+                    sum = [0, 1, 2].map(|c| sum[c] + width * terms[c]);
                 }
             }
             sum

@@ -11,7 +11,7 @@
 //! the other tiles.
 
 use crate::error::NoiseError;
-use crate::ground::{AtFrequency, Curve};
+use crate::ground::Sheet;
 use crate::source::{Bins, Noise, Source, distance_m};
 use halfspace::random::{Stream, mix};
 use num_complex::Complex64;
@@ -63,8 +63,7 @@ pub struct Tiles<'a> {
     count: usize,
     /// Tiles before the first sample.
     before: usize,
-    surface: Option<Curve>,
-    ends_m: Vec<[f64; 2]>,
+    sheets: Vec<Sheet>,
     bins: Vec<Bins>,
     /// c in m/s.
     speed_m_s: f64,
@@ -122,11 +121,11 @@ impl<'a> Tiles<'a> {
         let own = length - fading.ceil() as usize;
         let before = (fading / own as f64).ceil() as usize;
         let lowest_hz = 1.0 / (length as f64 * step_s);
-        let bins = ends_m
-            .iter()
-            .map(|ends| Bins::new(*ends, noise.ground.wave_number(highest_hz)));
+        let bins = noise.receivers.iter().zip(&ends_m);
+        let highest = noise.ground.wave_number(highest_hz);
+        let bins = bins.map(|(one, ends_m)| Bins::new(one.depth_m, *ends_m, highest));
         Ok(Self {
-            surface: noise.surface([lowest_hz, highest_hz])?,
+            sheets: noise.sheets([lowest_hz, highest_hz])?,
             bins: bins.collect(),
             count: before + samples.div_ceil(own),
             noise,
@@ -135,7 +134,6 @@ impl<'a> Tiles<'a> {
             length,
             own,
             before,
-            ends_m,
             speed_m_s,
         })
     }
@@ -279,22 +277,16 @@ impl<'a> Tiles<'a> {
             }
         }
         let mut found = Vec::with_capacity(width * noise.receivers.len());
-        for (i, receiver) in noise.receivers.iter().enumerate() {
+        for i in 0..noise.receivers.len() {
             for j in 0..width {
                 let frequency_hz = unit_hz * (from + j) as f64;
                 let omega = TAU * frequency_hz;
-                let at = AtFrequency::new(
-                    &noise.ground,
-                    frequency_hz,
-                    receiver.depth_m,
-                    self.ends_m[i],
-                    self.surface.as_ref(),
-                )?;
+                let at = noise.at(&self.sheets, i, frequency_hz);
                 let nodes = sums[i].iter().skip(j).step_by(width).enumerate();
                 let nodes = nodes.filter(|(_, sum)| **sum != Complex64::default());
                 let displacement: Complex64 = nodes
                     .map(|(node, sum)| {
-                        let r_m = self.bins[i].node_m(node);
+                        let r_m = self.bins[i].node_m(node as f64);
                         at.value(r_m)[1]
                             * Complex64::from_polar(1.0, omega * r_m / self.speed_m_s)
                             * sum
