@@ -14,7 +14,7 @@ use clap::error::ErrorKind;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use clap_complete::{Shell, generate};
 use commands::{
-    chart, demo, export, impact, infer, materials, paper, plot, sweep, table, tabulate,
+    chart, demo, export, impact, infer, materials, noise, paper, plot, sweep, table, tabulate,
 };
 use failure::Failure;
 use std::process::ExitCode;
@@ -44,6 +44,8 @@ enum Command {
     Sweep(sweep::Arguments),
     /// Infers the yield pressure or the velocity from a measured rebound, contact time or peak force, or the force from traces of sensors.
     Infer(infer::Arguments),
+    /// Computes the ground motion of many impacts: spectra and traces at receivers.
+    Noise(noise::Arguments),
     /// Writes inputs for particle codes, or a table of the rebound over velocity.
     Export(export::Arguments),
     /// Draws the results of impacts, sweeps and tables.
@@ -87,6 +89,7 @@ fn run(command: Command) -> Result<(), Failure> {
         Command::Impact(arguments) => impact::run(&arguments),
         Command::Sweep(arguments) => sweep::run(&arguments),
         Command::Infer(arguments) => infer::run(&arguments),
+        Command::Noise(arguments) => noise::run(&arguments),
         Command::Export(arguments) => export::run(&arguments),
         Command::Plot(arguments) => plot::run(&arguments),
         Command::Demo(arguments) => demo::run(&arguments),

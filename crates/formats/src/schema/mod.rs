@@ -1,5 +1,6 @@
 //! Names and versions on disk, one file per format.
 
 pub mod force;
+pub mod noise;
 pub mod results;
 pub mod sweep;
