@@ -32,6 +32,7 @@ __all__ = [
     "plan_of_columns",
     "resolved",
     "sections_of",
+    "spectrum",
     "static_field",
     "surface",
     "surface_centre",
@@ -157,6 +158,16 @@ def kernel(
     threads: int | None = None,
     progress: _Tell = None,
 ) -> tuple[_Floats, _Floats]: ...
+def spectrum(
+    nu: float,
+    r: _Floats,
+    z: _Floats,
+    f: _Floats,
+    profile: str,
+    attenuation: tuple[float, float | None] | None = None,
+    threads: int | None = None,
+    progress: _Tell = None,
+) -> tuple[_Floats, _Floats, _Floats]: ...
 def static_field(nu: float, r: _Floats, z: _Floats, profile: str) -> _Floats: ...
 def surface(order: str, nu: float, t: _Floats, deflection: str) -> _Floats: ...
 def surface_centre(nu: float, t: _Floats) -> _Floats: ...

@@ -15,16 +15,19 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
+import numpy as np
+
 from hertzlamb import _core
 from hertzlamb._arrays import numbers
+from hertzlamb._errors import SceneError
 from hertzlamb._fields import Fields
 from hertzlamb._progress import Progress, told
 
 if TYPE_CHECKING:
-    import numpy as np
     from numpy.typing import ArrayLike, NDArray
 
     Floats = NDArray[np.float64]
+    Complexes = NDArray[np.complex128]
 
 Profile = Literal["hertz", "punch", "point"]
 """Distribution of the force: the pressure under a sphere, the pressure under a flat punch, or a point force."""
@@ -36,9 +39,11 @@ __all__ = [
     "Arrivals",
     "Kernel",
     "Medium",
+    "Spectrum",
     "impulse",
     "medium",
     "remainder",
+    "spectrum",
     "static",
     "step",
     "step_integral",
@@ -186,6 +191,112 @@ def step_integral(
     between them, they are the means of `remainder`. Parameters, shapes and errors are those of `step`.
     """
     return _of("step_integral", nu, {"r": r, "z": z, "t": t}, profile, tolerance, threads, progress)
+
+
+class Spectrum(Fields):
+    """Six complex fields by name, each of the broadcast shape, with their estimated errors and the velocities."""
+
+    __slots__ = ("error", "frequency")
+
+    error: Fields
+    """Likely bounds on the modulus of the error of each value, by field, in its unit and shape."""
+    frequency: Floats
+    """The frequencies in c1/r0, in the broadcast shape."""
+
+    def __init__(self, array: Complexes, error: Floats, frequency: Floats) -> None:
+        super().__init__(array)  # type: ignore[arg-type]
+        self.error = Fields(error)
+        frequency.setflags(write=False)
+        self.frequency = frequency
+
+    @property
+    def velocity_r(self) -> Complexes:
+        """Radial velocity (...) in P c1/(mu r0^2)."""
+        return 2j * np.pi * self.frequency * self.displacement_r
+
+    @property
+    def velocity_z(self) -> Complexes:
+        """Axial velocity (...) in P c1/(mu r0^2), positive into the half-space."""
+        return 2j * np.pi * self.frequency * self.displacement_z
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {"array": self.array, "error": self.error.array, "frequency": self.frequency}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self.__init__(**state)  # type: ignore[misc]
+
+
+def spectrum(
+    nu: float,
+    r: ArrayLike,
+    z: ArrayLike,
+    f: ArrayLike,
+    *,
+    profile: Profile = "hertz",
+    quality_factor: float | None = None,
+    reference_frequency: float | None = None,
+    threads: int | None = None,
+    progress: Progress = None,
+) -> Spectrum:
+    """Frequency response: complex fields under a force exp(i omega t) of unit amplitude, omega = 2 pi f.
+
+    It is the Fourier transform, with exp(-i omega t), of the response to a unit impulse.
+
+    Parameters
+    ----------
+    nu : float
+        Poisson's ratio in (-1, 0.5).
+    r, z : array_like
+        Distance from the axis and depth in r0, each in [0, 1e20]; broadcast together with ``f``.
+    f : array_like
+        Frequency in c1/r0, from 0, above 0 with attenuation, up to 1e4 c1 over the distance from the load.
+    profile : {"hertz", "punch", "point"}
+        Distribution of the force over the disc. For a point force the unit of length r0 is arbitrary.
+    quality_factor : float, optional
+        Constant quality factor Q of P and S waves in [1, 1e15], by the causal law of Kjartansson (1979): all moduli are
+        multiplied by (i f/f0)^(2 atan(1/Q)/pi). Default: no attenuation.
+    reference_frequency : float, optional
+        f0, the frequency in c1/r0 at which nu, mu and c1 are measured. Default: each f is its own, so that speeds do not
+        depend on frequency.
+    threads : int, optional
+        Number of threads in [1, 1024]. Default: one for each available processor.
+    progress : bool or callable, optional
+        True shows a progress bar. A function is called with the number of finished frequencies and the total.
+
+    Returns
+    -------
+    Spectrum
+        Displacements in P/(mu r0) and stresses in P/r0^2, complex and of the broadcast shape, with ``error``,
+        ``frequency``, ``velocity_r`` and ``velocity_z``.
+
+    Raises
+    ------
+    DomainError
+        An argument is outside its range or not a number, or the field is infinite there.
+    ValueError
+        The arrays cannot be broadcast together.
+    TooMuchMemory
+        The points need more memory than is free.
+
+    Examples
+    --------
+    >>> import hertzlamb as hl
+    >>> medium = hl.kernels.medium(0.25)
+    >>> G = hl.kernels.spectrum(0.25, 1.0, 0.0, 3 * medium.shear_speed / (2 * np.pi), profile="point", quality_factor=20)
+    >>> complex(G.displacement_z.round(9))
+    (-0.106359436+0.067466425j)
+    """
+    shape, (flat_r, flat_z, flat_f) = numbers(r=r, z=z, f=f)
+    if quality_factor is None:
+        if reference_frequency is not None:
+            raise SceneError("reference_frequency is given without quality_factor", key="reference_frequency")
+        law = None
+    else:
+        law = (quality_factor, reference_frequency)
+    with told(progress) as tell:
+        real, imaginary, error = _core.spectrum(nu, flat_r, flat_z, flat_f, profile, law, threads, tell)
+    value = (real + 1j * imaginary).reshape((*shape, 6))
+    return Spectrum(value, error.reshape((*shape, 6)), np.array(flat_f.reshape(shape)))
 
 
 def static(nu: float, r: ArrayLike, z: ArrayLike, *, profile: Profile = "hertz") -> Fields:

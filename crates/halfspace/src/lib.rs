@@ -79,12 +79,14 @@ mod surface;
 mod integral;
 mod kernel;
 mod spectrum;
+mod damping;
 mod trace;
 mod face;
 mod plate;
 
 pub use arrivals::Arrivals;
 pub use attenuation::Attenuation;
+pub use damping::Damping;
 pub use domain::{DomainError, check};
 pub use face::{Arc, Face};
 pub use field::{Estimate, FIELDS, Field, Six};

@@ -99,6 +99,15 @@ pub enum ImpactError {
         /// Last time of the output in s.
         end_s: f64,
     },
+    /// Kernels of a table for a block with attenuation.
+    #[error(
+        "target.quality_factor = {}: a kernel table is of an elastic block; remove the key or compute the kernels",
+        fault::rounded(*quality_factor)
+    )]
+    DampedTable {
+        /// The quality factor.
+        quality_factor: f64,
+    },
     /// An output in which the echoes of a plate cannot be computed to the end.
     #[error(
         "output.duration_s = {} is outside (0, {}]: after 16 transits of the plate no digit of its echoes is left; use a smaller duration_s, and the modes of the plate (Rayleigh-Lamb) for later times",
@@ -200,6 +209,9 @@ impl Fault for ImpactError {
                 limits: Some([0.0, *latest_s]),
                 ..culprit.key("output.duration_s").number(*duration_s)
             },
+            Self::DampedTable { quality_factor } => {
+                culprit.key("target.quality_factor").number(*quality_factor)
+            }
             Self::LowPass { cutoff_hz, limits } => Culprit {
                 limits: Some(*limits),
                 ..culprit.key("output.low_pass_hz").number(*cutoff_hz)

@@ -14,7 +14,9 @@ use contact::{
     CollisionUnits, HalfSpace, History, KernelUnits, Resampler, SolvedContact, StaticShare,
     WaveSpeeds, Weights,
 };
-use halfspace::{Deflection, DomainError, Medium, Profile, Six, SurfaceResponse, bisected, gauss};
+use halfspace::{
+    Attenuation, Deflection, DomainError, Medium, Profile, Six, SurfaceResponse, bisected, gauss,
+};
 
 /// Consecutive samples.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -38,6 +40,8 @@ pub struct Excitation {
     radius: PressureRadius,
     /// Estimated relative error of the force.
     pub(crate) relative_error: f64,
+    /// Attenuation of the waves, with its reference frequency in Hz.
+    pub(crate) attenuation: Option<Attenuation>,
 }
 
 /// Radius of Hertz's pressure under a force.
@@ -193,6 +197,7 @@ impl Excitation {
             force,
             radius,
             relative_error,
+            attenuation: half_space.attenuation,
         })
     }
 

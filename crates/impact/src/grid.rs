@@ -120,8 +120,11 @@ impl Wanted {
     /// Time in s after which the fields of a constant force count as static.
     ///
     /// The remainder at later times is omitted: up to 2e-4 of the peak was observed after a lasting change of force,
-    /// far less after a pulse. The errors of the fields include it.
+    /// far less after a pulse. The errors of the fields include it. With attenuation they never do.
     fn settling_s(&self, excitation: &Excitation) -> f64 {
+        if excitation.attenuation.is_some() {
+            return f64::INFINITY;
+        }
         let crossing_s = excitation.units().disc_radius_m / excitation.speeds().rayleigh;
         SETTLED * (self.passing_s(excitation) + crossing_s)
     }

@@ -1,7 +1,7 @@
 //! Kernels as cell averages at a point: computed, or looked up.
 
 use crate::error::ImpactError;
-use halfspace::{DomainError, Kernel, Medium, Profile, Six, Trace};
+use halfspace::{Damping, DomainError, Kernel, Medium, Profile, Six, Trace};
 use lookup::{LookupError, Moments, Table};
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -37,7 +37,7 @@ impl Cells {
     pub(crate) fn of_trace(
         trace: Trace,
         static_part: Six,
-        wanted: &CellPlan,
+        wanted: &CellPlan<'_>,
     ) -> Result<Self, DomainError> {
         let mut moments = Moments::with_capacity(wanted.count);
         let keep = |_, cell| moments.push(cell);
@@ -194,16 +194,18 @@ impl KernelSource {
         poisson_ratio: f64,
         [r, z]: [f64; 2],
         disc_radius_m: f64,
-        wanted: CellPlan,
+        wanted: CellPlan<'_>,
     ) -> Result<Cells, ImpactError> {
         let (step, count, pulse) = (wanted.step, wanted.count, wanted.pulse);
         let [r_m, z_m] = [r, z].map(|x| x * disc_radius_m);
         match self {
             Self::Direct(kernel) => {
                 let domain = |source| ImpactError::OutsideBlock { r_m, z_m, source };
-                let trace = wanted.trace(|end, wanted| kernel.trace_under(r, z, end, wanted));
-                let trace = trace.map_err(domain)?;
                 let static_part = kernel.static_field(r, z).map_err(domain)?;
+                let trace = wanted.trace(&static_part, |end, wanted| {
+                    kernel.trace_under(r, z, end, wanted)
+                });
+                let trace = trace.map_err(domain)?;
                 Cells::of_trace(trace, static_part, &wanted).map_err(domain)
             }
             Self::Table(table) => {
@@ -237,7 +239,7 @@ impl KernelSource {
 
 /// Cells that a convolution needs; lengths of time in r0/c1.
 #[derive(Debug, Clone, Copy)]
-pub struct CellPlan {
+pub struct CellPlan<'a> {
     /// Width of a cell.
     pub step: f64,
     /// Number of cells, including [`lookup::BEYOND`].
@@ -250,12 +252,16 @@ pub struct CellPlan {
     pub rates: bool,
     /// Relative tolerance on the fields.
     pub tolerance: f64,
+    /// Attenuation, and its reference frequency.
+    pub damping: Option<(&'a Damping, f64)>,
 }
 
-impl CellPlan {
-    /// A trace until the last cell ends, made `of` that end, and of tolerances and rises for each field.
+impl CellPlan<'_> {
+    /// A trace until the last cell ends, made `of` that end, and of tolerances and rises for each field; damped, if there is
+    /// attenuation, as the rest of a static part.
     pub(crate) fn trace(
         &self,
+        static_part: &Six,
         of: impl FnOnce(f64, (Six, &dyn Fn(f64) -> Six)) -> Result<Trace, DomainError>,
     ) -> Result<Trace, DomainError> {
         let has_rate = |f: usize| self.rates && f < 2;
@@ -268,7 +274,12 @@ impl CellPlan {
         let part = |f: usize| if has_rate(f) { RATES } else { at_instants };
         let tolerance = std::array::from_fn(|f| self.tolerance * part(f));
         // the last cell ends a rounding error before the trace
-        of(self.step * self.count as f64, (tolerance, &rise))
+        let end = self.step * self.count as f64;
+        let Some((damping, reference)) = self.damping else {
+            return of(end, (tolerance, &rise));
+        };
+        let elastic = of(damping.reach(end, reference), (tolerance, &rise))?;
+        elastic.damped(static_part, (damping, reference), end, (tolerance, &rise))
     }
 }
 

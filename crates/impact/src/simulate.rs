@@ -215,6 +215,12 @@ fn begin<'e>(
         return Err(ImpactError::GivenUp { seconds });
     }
     let time_s: Vec<f64> = grid.times_s().collect();
+    if excitation.attenuation.is_some() {
+        warnings.push(
+            "target.quality_factor damps the waves in the block; the contact is that of an elastic block"
+                .to_owned(),
+        );
+    }
     if grid.step_s > grid.wanted_s {
         warnings.push(format!(
                 "the output step is {:.3e} s, the width of the table's time cells, although at most {:.3e} s was requested",

@@ -182,6 +182,13 @@ pub(crate) fn choose_source(
         let kernel = KernelSource::for_fields(medium, tolerance)?;
         Ok(Some((KernelSource::Direct(kernel), reason)))
     };
+    if let Some(law) = &excitation.attenuation {
+        let quality_factor = law.quality_factor();
+        return match kernels {
+            KernelChoice::Table(_) => Err(ImpactError::DampedTable { quality_factor }),
+            _ => direct("tables are of elastic blocks: computed".to_owned()),
+        };
+    }
     let radius_m = excitation.units().disc_radius_m;
     let faces = faces(scene, radius_m);
     let of_points = points.iter().map(|place_m| place_m.map(|x| x / radius_m));

@@ -4,8 +4,8 @@ use crate::errors::{check_memory, one_of, plain, raise};
 use crate::values::{Array, fields, numbers, vector};
 use crate::work::{Threads, Ticker, run, run_short};
 use halfspace::{
-    Arrivals, Deflection, DomainError, Estimate, Kernel, Medium, Profile, Six, SurfaceResponse,
-    kausel,
+    Arrivals, Attenuation, Deflection, DomainError, Estimate, Kernel, Medium, Profile, Six,
+    Spectrum, SurfaceResponse, kausel,
 };
 use numpy::PyReadonlyArray1;
 use pyo3::prelude::*;
@@ -109,6 +109,59 @@ pub(crate) fn kernel<'py>(
     let found = found.map_err(raise)?;
     let (values, limits) = found.iter().map(|e| (e.value, e.error)).unzip();
     Ok((fields(py, values)?, fields(py, limits)?))
+}
+
+/// Real and imaginary parts of frequency responses and errors, all (place, 6), at the places and frequencies (r, z, f), which have
+/// equal lengths.
+///
+/// Without a reference frequency each frequency is its own.
+#[pyfunction]
+#[pyo3(signature = (nu, r, z, f, profile, attenuation=None, threads=None, progress=None))]
+pub(crate) fn spectrum<'py>(
+    py: Python<'py>,
+    nu: f64,
+    r: PyReadonlyArray1<'py, f64>,
+    z: PyReadonlyArray1<'py, f64>,
+    f: PyReadonlyArray1<'py, f64>,
+    profile: &str,
+    attenuation: Option<(f64, Option<f64>)>,
+    threads: Option<Threads>,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<(Array<'py>, Array<'py>, Array<'py>)> {
+    let profile = one_of("profile", profile, &PROFILES)?;
+    // the tolerance has no effect
+    let kernel = Kernel::new(&medium_of(nu)?, profile, 1e-6).map_err(raise)?;
+    let rows = r.len()?;
+    if z.len()? != rows || f.len()? != rows {
+        return Err(plain("SceneError", "r, z and f differ in their lengths"));
+    }
+    check_memory(rows, "places", 3 * 8 + size_of::<Spectrum>() + 3 * 6 * 8)?;
+    let (r, z, f) = (numbers(&r), numbers(&z), numbers(&f));
+    let one = move |i: usize| {
+        let law = attenuation
+            .map(|(quality, reference)| Attenuation::new(quality, reference.unwrap_or(f[i])));
+        kernel.spectrum(r[i], z[i], f[i], law.transpose()?.as_ref())
+    };
+    let found: Result<Vec<Spectrum>, DomainError> = run(py, threads, progress, move |ticker| {
+        ticker.total("frequencies", rows as u64);
+        let each = (0..rows).into_par_iter().map(|i| {
+            ticker.advance(1);
+            one(i)
+        });
+        each.collect()
+    })?;
+    let found = found.map_err(raise)?;
+    Ok((
+        fields(
+            py,
+            found.iter().map(|own| own.value.map(|v| v.re)).collect(),
+        )?,
+        fields(
+            py,
+            found.iter().map(|own| own.value.map(|v| v.im)).collect(),
+        )?,
+        fields(py, found.iter().map(|own| own.error).collect())?,
+    ))
 }
 
 /// The static fields (place, 6) at the places (r, z).

@@ -37,7 +37,7 @@ mod _core {
     use crate::{
         force::{Force, infer_force_of},
         impact_outcome::{Outcome, infer, run_impact},
-        kernels::{arrivals, kernel, medium, static_field, surface, surface_centre},
+        kernels::{arrivals, kernel, medium, spectrum, static_field, surface, surface_centre},
         library::{describe, materials},
         response::Response,
         scene::{resolved, sections_of},

@@ -11,7 +11,7 @@ pub(crate) mod wave_speeds;
 
 use crate::bodies::material::{BodyError, Material, positive};
 use crate::bodies::shape::Shape;
-use halfspace::{Plate, check};
+use halfspace::{Attenuation, Plate, check};
 
 /// How far the waves of a block are followed between its upper and lower face.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -33,6 +33,8 @@ pub struct HalfSpace {
     pub radius_m: Option<f64>,
     /// Waves between the faces of a plate of the thickness, if they are asked for.
     pub echoes: Option<Echoes>,
+    /// Attenuation of the waves in the block, with its reference frequency in Hz; contacts are those of an elastic block.
+    pub attenuation: Option<Attenuation>,
 }
 
 /// A plate whose echoes are asked for.
@@ -59,6 +61,7 @@ impl HalfSpace {
             thickness_m: None,
             radius_m: None,
             echoes: None,
+            attenuation: None,
         })
     }
 

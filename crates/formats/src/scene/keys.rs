@@ -31,6 +31,7 @@ pub(crate) const NOT_NEGATIVE: Range =
     Range::new("[0, inf)", |x| (0.0..f64::INFINITY).contains(&x));
 pub(crate) const SIGN: Range = Range::new("{-1, 1}", |x| x == 1.0 || x == -1.0);
 pub(crate) const POISSON: Range = Range::new("(-1, 0.5)", |x| x > -1.0 && x < 0.5);
+pub(crate) const QUALITY: Range = Range::new("[1, 1e15]", |x| (1.0..=1e15).contains(&x));
 pub(crate) const TOLERANCE: Range = Range::new("[1e-9, 0.1]", |x| (1e-9..=0.1).contains(&x));
 
 /// A key of a scene.
@@ -98,6 +99,8 @@ const KEYS: &[Key] = keys! {
         Echoes::Legs(_) => return None,
         Echoes::Until(time_s) => time_s,
     };
+    target.quality_factor: QUALITY = |s, _| s.target.attenuation?.quality_factor();
+    target.reference_frequency_hz: POSITIVE = |s, _| s.target.attenuation?.reference_frequency();
     striker.material = |_, m| known(m)?.name.as_str();
     striker.shape = |s, _| match striker(s)?.shape? {
         Shape::Ball { .. } => Form::Ball,

@@ -7,9 +7,9 @@ use super::response::read_response;
 use super::section::{TomlSection, as_number, parse, read_standard, read_text};
 use crate::error::SceneError;
 use contact::{Choice, Conflict, Echoes, HalfSpace, Library, Settings};
-use halfspace::Plate;
+use halfspace::{Attenuation, Plate};
 use impact::response::{Fir, PolesZeros, Response, ResponseError};
-use impact::{Load, Probe, Reading, Scene, Section, Sensor, SensorResponse, Strike};
+use impact::{Load, Probe, Quantity, Reading, Scene, Section, Sensor, SensorResponse, Strike};
 use lookup::schema::FIELD_NAMES;
 use output::{Role, is_standard};
 use std::path::Path;
@@ -101,6 +101,8 @@ pub(crate) fn scene_with(
     let output = output.unwrap_or(TomlSection::of("output", &none));
     output.allow_keys_of("output")?;
     always_there(&output)?;
+    let quantities: Vec<Quantity> = output.choices("quantities")?;
+    check_strains(&target, &quantities)?;
     Ok(Scene {
         target,
         load,
@@ -110,7 +112,7 @@ pub(crate) fn scene_with(
         section,
         duration_s: output.number("duration_s")?,
         low_pass_hz: output.number("low_pass_hz")?,
-        quantities: output.choices("quantities")?,
+        quantities,
         peaks: output.flag("peaks")?,
     })
 }
@@ -152,7 +154,43 @@ fn read_target(root: &TomlSection<'_>, library: &Library) -> Result<HalfSpace, S
     half_space.radius_m = target.number("radius_m")?;
     half_space.echoes = read_echoes(&target)?;
     check_echoes(&target, &half_space)?;
+    half_space.attenuation = read_attenuation(&target)?;
     Ok(half_space)
+}
+
+/// Frequency in Hz at which wave speeds of materials are measured, by ultrasound.
+const REFERENCE_HZ: f64 = 1e6;
+
+/// Attenuation of the block, if there is any.
+fn read_attenuation(target: &TomlSection<'_>) -> Result<Option<Attenuation>, SceneError> {
+    let quality_factor = target.number("quality_factor")?;
+    let reference_hz = target.number("reference_frequency_hz")?;
+    let Some(quality_factor) = quality_factor else {
+        let hint = "a reference frequency is that of a quality factor";
+        return match reference_hz {
+            Some(_) => Err(target.missing("quality_factor", hint)),
+            None => Ok(None),
+        };
+    };
+    let law = Attenuation::new(quality_factor, reference_hz.unwrap_or(REFERENCE_HZ));
+    // the reader has checked the ranges
+    law.map(Some)
+        .map_err(|_| target.missing("quality_factor", "[1, 1e15]"))
+}
+
+/// Rejects strains of a block with attenuation, whose moduli depend on the frequency.
+fn check_strains(target: &HalfSpace, quantities: &[Quantity]) -> Result<(), SceneError> {
+    let strain = quantities
+        .iter()
+        .find(|quantity| quantity.name().contains("strain"));
+    match (strain, &target.attenuation) {
+        (Some(strain), Some(_)) => Err(SceneError::conflict(
+            "target.quality_factor",
+            format!("output.quantities = \"{}\"", strain.name()),
+            "strains follow from the stresses of an elastic block only: remove one of them",
+        )),
+        (Some(_) | None, _) => Ok(()),
+    }
 }
 
 /// How far the waves of a plate are followed, if a scene asks for that.

@@ -11,6 +11,7 @@ mod interpolation;
 mod segment;
 
 use crate::arrivals::Arrivals;
+use crate::damping::Damping;
 use crate::domain::{
     DomainError, FARTHEST, NEAREST, check, check_hertz, check_place_under, check_time,
 };
@@ -54,6 +55,7 @@ pub struct Trace {
     before: Six,
     segments: Vec<Segment>,
     breaks: Vec<f64>,
+    fronts: Vec<f64>,
     /// Estimated error of the response to the force for which the trace was made, over the peak of the force.
     pub error: Six,
 }
@@ -158,9 +160,88 @@ impl Trace {
             end,
             before: signal.before,
             breaks: segments.iter().flat_map(Segment::breaks).collect(),
+            fronts: signal.fronts.clone(),
             segments,
             error,
         })
+    }
+
+    /// The remainder in a body with attenuation, until an end: what is added to `static_part`, the static field of the elastic body
+    /// to which this trace is added, is the damped step response.
+    ///
+    /// `reference` is the reference frequency in the trace's unit of time, instead of that of the law; tolerance and rise are
+    /// those of [`Kernel::trace_under`]. This trace must reach [`Damping::reach`] of the end.
+    ///
+    /// The response is causal: zero until slightly before the first arrival, by a time that vanishes with 1/Q. It does not become
+    /// static: displacements grow as t^(2 g), which their remainder contains.
+    ///
+    /// # Errors
+    /// [`DomainError`] if this trace ends too early.
+    pub fn damped(
+        &self,
+        static_part: &Six,
+        (damping, reference): (&Damping, f64),
+        end: f64,
+        wanted: (Six, &dyn Fn(f64) -> Six),
+    ) -> Result<Self, DomainError> {
+        let reach = damping.reach(end, reference);
+        check(
+            reach <= self.end,
+            "end",
+            end,
+            "[0, end of the elastic trace)",
+        )?;
+        let breaks: Vec<f64> = self.segments.iter().map(|s| s.times[0]).collect();
+        let [_, first] = damping.arrival(self.first_arrival, reference);
+        let signal = Signal {
+            fronts: (self.fronts.iter())
+                .map(|tau| damping.arrival(*tau, reference)[0])
+                .collect(),
+            passing: None,
+            first,
+            before: static_part.map(|s| -s),
+            size: static_part.map(f64::abs),
+            most_segments: MOST_SEGMENTS,
+        };
+        let value = |t: f64| {
+            let mut sums = [Six::default(); 2];
+            damping.for_each_group((t, reference), (self.first_arrival, &breaks), |group| {
+                self.add_group(static_part, group, &mut sums);
+            });
+            let creep = damping.creep(t, reference);
+            let factor = |f: usize| if f < 2 { creep } else { 1.0 };
+            Ok(Estimate {
+                value: std::array::from_fn(|f| factor(f) * sums[0][f] - static_part[f]),
+                error: std::array::from_fn(|f| factor(f) * damping.tolerance() * sums[1][f]),
+            })
+        };
+        let mut damped = Self::of(&signal, end, wanted, value)?;
+        let creep = damping.creep(end, reference).max(1.0);
+        for (all, own) in damped.error.iter_mut().zip(self.error) {
+            *all += creep * own;
+        }
+        Ok(damped)
+    }
+
+    /// Adds the weighted step responses of a group of instants between two breaks, and their moduli.
+    fn add_group(
+        &self,
+        static_part: &Six,
+        group: &[(f64, [f64; 2])],
+        [values, moduli]: &mut [Six; 2],
+    ) {
+        const TOGETHER: usize = 4;
+        for some in group.chunks(TOGETHER) {
+            let own: [_; TOGETHER] = std::array::from_fn(|i| some[i.min(some.len() - 1)]);
+            let rest = self.at_each(own.map(|(tau, _)| tau));
+            for (f, rest) in rest.iter().enumerate() {
+                for (i, (_, weights)) in own.iter().enumerate().take(some.len()) {
+                    let value = weights[usize::from(f >= 2)] * (static_part[f] + rest[i]);
+                    values[f] += value;
+                    moduli[f] += value.abs();
+                }
+            }
+        }
     }
 
     /// Ascending times, including fronts, between which R is a polynomial of few terms in the root of the time from a

@@ -7,7 +7,7 @@
 use crate::error::ImpactError;
 use crate::kernels::{CellPlan, Cells, KernelSource};
 use contact::{Echoing, HalfSpace};
-use halfspace::{DomainError, Kernel, Medium, Plate};
+use halfspace::{DomainError, Kernel, Medium, Plate, Six};
 use std::sync::Arc;
 
 /// A plate whose echoes are summed.
@@ -47,14 +47,17 @@ impl PlateEchoes {
         &self,
         [r_m, z_m]: [f64; 2],
         disc_radius_m: f64,
-        wanted: &CellPlan,
+        wanted: &CellPlan<'_>,
     ) -> Result<Cells, ImpactError> {
         let domain = |source| ImpactError::OutsideBlock { r_m, z_m, source };
         let plate = self.over(disc_radius_m).map_err(domain)?;
         let [r, z] = [r_m, z_m].map(|x| x / disc_radius_m);
-        let trace = wanted.trace(|end, wanted| plate.trace_under(r, z, end, wanted));
+        let static_part = Six::default();
+        let trace = wanted.trace(&static_part, |end, wanted| {
+            plate.trace_under(r, z, end, wanted)
+        });
         let trace = trace.map_err(domain)?;
-        Cells::of_trace(trace, Default::default(), wanted).map_err(domain)
+        Cells::of_trace(trace, static_part, wanted).map_err(domain)
     }
 }
 

@@ -161,9 +161,12 @@ impl Convolution<'_> {
         let (_, disc_radius_m, wanted) = self.wanted_of(farthest_m, discs.radii[0], 1.0);
         let domain = |source| ImpactError::OutsideBlock { r_m, z_m, source };
         let (over, z) = (face.over(disc_radius_m)?, z_m / disc_radius_m);
-        let trace = wanted.trace(|end, wanted| kernel.mean_trace_under(&over, z, end, wanted));
         let static_part = kernel.static_mean(&over, z).map_err(domain)?;
-        let cells = Cells::of_trace(trace.map_err(domain)?, static_part, &wanted);
+        let trace = wanted.trace(&static_part, |end, wanted| {
+            kernel.mean_trace_under(&over, z, end, wanted)
+        });
+        let trace = trace.map_err(domain)?;
+        let cells = Cells::of_trace(trace, static_part, &wanted);
         self.summed(
             discs,
             (face.nearest_m(), None),

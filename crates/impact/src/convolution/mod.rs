@@ -30,7 +30,6 @@ pub(crate) mod tuning;
 pub(crate) use exact::Past;
 
 use crate::error::ImpactError;
-use crate::excitation::PressureRadius;
 use crate::grid::Grid;
 use crate::kernels::{CellPlan, Cells, KernelSource};
 use crate::quantity::{Derivative, Quantity};
@@ -39,7 +38,7 @@ use crate::sampled::low_passed::LowPassed;
 use crate::sampled::projection::largest;
 use contact::HalfSpace;
 use echoes::PlateEchoes;
-use halfspace::Six;
+use halfspace::{Damping, Six};
 use loads::{Forcing, Loads, Reading};
 use lookup::BEYOND;
 use plan::{Integrated, PointPlan, Sets};
@@ -80,6 +79,8 @@ pub(crate) struct Convolution<'a> {
     past: Option<Past<'a>>,
     /// Of a plate.
     echoes: Option<PlateEchoes>,
+    /// Attenuation of the block, with its reference frequency in Hz.
+    damping: Option<Damping>,
 }
 
 /// The kernels of a point, for sums at any instants.
@@ -120,6 +121,12 @@ impl<'a> Convolution<'a> {
                 derivatives.push(derivative);
             }
         }
+        let law = excitation.attenuation.as_ref();
+        if let Some(law) = law.filter(|_| reach.is_some()) {
+            let quality_factor = law.quality_factor();
+            return Err(ImpactError::DampedTable { quality_factor });
+        }
+        let damping = law.map(|law| Damping::new(law, tuning::DAMPED * tolerance));
         let asked = (grid.all(), derivatives.len() > 1);
         let sets = Sets::new(excitation, tolerance, reach, asked);
         let unit_s = excitation.units().time_s();
@@ -130,11 +137,9 @@ impl<'a> Convolution<'a> {
             None => wanted.to_vec(),
         };
         let forcing = |derivative| Forcing::new(grid, &all, derivative, (sets.count(), parts));
-        let past = match (excitation.radius(), reach) {
-            (PressureRadius::Following { .. }, None) => {
-                Some(Past::new(excitation, PART_OF_PAST * tolerance)?)
-            }
-            (PressureRadius::Following { .. } | PressureRadius::Fixed(_), _) => None,
+        let past = match sets.has_windows() {
+            true => Some(Past::new(excitation, PART_OF_PAST * tolerance)?),
+            false => None,
         };
         Ok(Self {
             forcings: derivatives.into_iter().map(forcing).collect(),
@@ -144,6 +149,7 @@ impl<'a> Convolution<'a> {
                 Some(block) => PlateEchoes::of(block, excitation.medium(), tolerance)?,
                 None => None,
             },
+            damping,
             source,
             grid,
             wanted,
@@ -368,7 +374,7 @@ impl<'a> Convolution<'a> {
 
     /// The place in radii of a disc of a radius `over` the largest, this radius in m, and the cells as far as the outputs need them,
     /// to a part of their tolerance.
-    fn wanted_of(&self, place_m: [f64; 2], over: f64, part: f64) -> ([f64; 2], f64, CellPlan) {
+    fn wanted_of(&self, place_m: [f64; 2], over: f64, part: f64) -> ([f64; 2], f64, CellPlan<'_>) {
         let (excitation, grid) = (self.grid.excitation, self.grid);
         let units = excitation.units();
         let disc_radius_m = over * units.disc_radius_m;
@@ -389,6 +395,10 @@ impl<'a> Convolution<'a> {
             pulse: excitation.pulse(over),
             rates: self.forcings.len() > 1,
             tolerance: (part * grid.tolerance).min(tuning::COARSEST),
+            damping: self.damping.as_ref().map(|damping| {
+                let reference_hz = damping.law().reference_frequency();
+                (damping, reference_hz * over * units.time_s())
+            }),
         };
         (place_m.map(|x| x / disc_radius_m), disc_radius_m, plan)
     }

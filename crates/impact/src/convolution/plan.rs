@@ -14,6 +14,8 @@ pub(crate) struct Sets {
     /// Largest r and z in radii of a disc at which a table has kernels; none where they are computed.
     reach: Option<[f64; 2]>,
     follows: bool,
+    /// Whether waves are damped, whose past is not integrated.
+    damped: bool,
     /// Inverse distance up to which two discs serve between fronts, of fields and of what is asked for.
     two_serve: [f64; 2],
     /// Whether one does outside the contact, and for echoes.
@@ -40,7 +42,7 @@ pub(crate) struct Integrated {
 
 impl Sets {
     /// For kernels that are computed, or that a table has up to a reach in r and z; `samples` limits the discs that are held, and
-    /// `rates` of the fields have shorter waves than these.
+    /// `rates` of the fields have shorter waves than these. Damped waves are summed over discs alone.
     pub(crate) fn new(
         excitation: &Excitation,
         tolerance: f64,
@@ -83,6 +85,7 @@ impl Sets {
             computed,
             reach,
             follows,
+            damped: excitation.attenuation.is_some(),
             two_serve,
             one_serves,
         }
@@ -92,6 +95,11 @@ impl Sets {
     #[cfg(test)]
     pub(crate) fn replace(&mut self, discs: &Discs) {
         self.all[self.computed..].fill(discs.clone());
+    }
+
+    /// Whether there are windows of time in which the past is integrated.
+    pub(crate) fn has_windows(&self) -> bool {
+        self.follows && self.reach.is_none() && !self.damped
     }
 
     /// The discs of a set.
@@ -130,7 +138,7 @@ impl Sets {
             () if distance < tuning::INSIDE => 2,
             () if self.one_serves[0] => 4,
             () if distance > tuning::FAR => 3,
-            () if self.two_serve[1] > distance.recip() => 1,
+            () if self.two_serve[1] > distance.recip() && !self.damped => 1,
             () => 0,
         };
         self.computed + chosen
@@ -158,7 +166,7 @@ impl PointPlan {
         place_m: [f64; 2],
     ) -> Self {
         let set = sets.choose_for(excitation, place_m);
-        if !sets.follows || sets.reach.is_some() {
+        if !sets.has_windows() {
             return Self {
                 set,
                 integrated: vec![Vec::new(); asked.len()],

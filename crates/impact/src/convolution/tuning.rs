@@ -62,6 +62,10 @@ pub(crate) const ONE_DISC: f64 = 2.0;
 pub(crate) const KERNELS: f64 = 0.5;
 pub(crate) const COARSEST: f64 = 3e-3;
 
+/// Tolerance of the weights of attenuation over that of the fields: a tenth of that of the kernels, since nodes are cheap
+/// (`damped_fields_are_those_of_spectra`).
+pub(crate) const DAMPED: f64 = 0.05;
+
 /// Error of few discs between fronts, over chi^(3/2) times the peak of a field, and of rates over chi^(1/2): where it is
 /// above the tolerance, samples near fronts of the first and last instants are integrated.
 /// `rates_of_growing_contacts_are_within_their_estimates` fails at 1e-6.

@@ -17,6 +17,9 @@ const KERNELS: f64 = 16.0;
 const KERNELS_A_DIGIT: f64 = 16.0;
 const WITH_RATES: f64 = 1.5;
 
+/// A trace with attenuation over one without.
+const DAMPED: f64 = 2.5;
+
 /// Moments of a cell, and the lookup of a cell.
 const CELL_S: f64 = 4e-7;
 const LOOKED_UP_S: f64 = 1.5e-7;
@@ -233,7 +236,15 @@ impl<'a> Prices<'a> {
             plate: EchoCost::of(scene, grid),
             looked_up: reach.is_some(),
             kernels_s: match reach {
-                None => more * (KERNELS + KERNELS_A_DIGIT * digits) * KERNEL_S + samples * CELL_S,
+                None => {
+                    let kernels_s = more * (KERNELS + KERNELS_A_DIGIT * digits) * KERNEL_S;
+                    kernels_s
+                        * match excitation.attenuation {
+                            Some(_) => DAMPED,
+                            None => 1.0,
+                        }
+                        + samples * CELL_S
+                }
                 Some(_) => samples * LOOKED_UP_S,
             },
             harder: (speeds.p / speeds.s / 3.0_f64.sqrt())

@@ -37,7 +37,7 @@ impl Excitation {
     }
 
     /// The six fields at one instant under a contact, in m and Pa: an integral over the force's past to about `tolerance`
-    /// of their peaks, without cells, discs or tables; none for a record.
+    /// of their peaks, without cells, discs or tables; none for a record, and none with attenuation.
     ///
     /// Slow compared with [`Fields::at`]: about a millisecond per time, but exact where that is an approximation.
     /// Fields are in the order of [`halfspace::FIELDS`]; stresses are positive in tension.
@@ -50,7 +50,7 @@ impl Excitation {
         time_s: f64,
         tolerance: f64,
     ) -> Result<Option<Six>, ImpactError> {
-        if self.record().is_some() {
+        if self.record().is_some() || self.attenuation.is_some() {
             return Ok(None);
         }
         Ok(Some(Past::new(self, tolerance)?.at(place_m, time_s)?))

@@ -105,6 +105,7 @@ pub(crate) fn computed(
         pulse: Pulse::Smooth(length),
         rates: false,
         tolerance,
+        damping: None,
     };
     Ok(source.cells(POISSON_RATIO, place, 1.0, plan)?)
 }

@@ -1,0 +1,320 @@
+//! Attenuation in time: the weight of each instant of an elastic response in the damped one.
+//!
+//! The damped step response is the elastic one, averaged over the logarithm of time:
+//!
+//! ```text
+//! D(t) = (omega0 t)^((v - 1) g) int q_v(x) U(tau) dx,     omega0 tau = (omega0 t e^(-y))^(1 - g),     y = g (x + ln g)
+//! ```
+//!
+//! v is 3 for displacements and 1 for stresses, and g the exponent of the law. The density q_v is near a stable one, whose
+//! width in x is of order 1 for any quality factor; for g to 0 it is Landau's.
+//!
+//! Theory: `docs/theory.md` (T78).
+
+use crate::attenuation::Attenuation;
+use crate::numeric::gauss;
+use crate::numeric::polynomial::chebyshev;
+use num_complex::Complex64;
+use std::f64::consts::{FRAC_PI_2, PI};
+
+/// Exponent of the density at its smallest x, where it is below 1e-18 (`densities_have_mass_one`).
+const LEAST_EXPONENT: f64 = -42.0;
+
+/// Largest logarithm of the ratio of times that counts; the density falls as its exponential.
+const LONGEST: f64 = 60.0;
+
+/// Terms of the density on a panel: with fewer `densities_have_mass_one` fails.
+const TERMS: usize = 20;
+
+/// Number of digits for which a panel has one node more, and their least number.
+const DIGITS_A_NODE: f64 = 1.0;
+const LEAST_NODES: f64 = 4.0;
+
+/// Densities of both kinds of fields: displacements, stresses.
+type Both = [f64; 2];
+
+/// v of both kinds.
+const KINDS: Both = [3.0, 1.0];
+
+/// An attenuation, prepared for traces of about one tolerance.
+#[derive(Debug, Clone)]
+pub struct Damping {
+    law: Attenuation,
+    g: f64,
+    /// x before which the density is zero.
+    first: f64,
+    /// Ascending in x from there, without gaps.
+    panels: Vec<Panel>,
+    /// Number of nodes of a part of a panel.
+    nodes: usize,
+    tolerance: f64,
+}
+
+/// Densities on an interval of x.
+#[derive(Debug, Clone)]
+struct Panel {
+    x: [f64; 2],
+    series: [Vec<f64>; 2],
+    /// Nodes of the whole panel: ratio of tau to its value at y = 0, and weights.
+    rule: Vec<(f64, Both)>,
+}
+
+impl Damping {
+    /// For traces of a tolerance in [1e-14, 0.1]. It takes about a millisecond.
+    pub fn new(law: &Attenuation, tolerance: f64) -> Self {
+        /// Width of the first panels, and widest panel in y, within which an elastic response between fronts is smooth.
+        const NARROW: f64 = 1.0;
+        const WIDE: f64 = 0.5;
+        /// Width over y for large y, where weights are small.
+        const LATE: f64 = 0.3;
+        /// x from which panels widen with the distance from the peak.
+        const PEAK: f64 = 2.0;
+        let g = law.exponent();
+        let digits = -tolerance.log10();
+        let nodes = (LEAST_NODES + DIGITS_A_NODE * digits).round() as usize;
+        let panels = Vec::new();
+        let mut first = PEAK;
+        while saddle(g, first)[1] > LEAST_EXPONENT {
+            first -= 0.25;
+        }
+        let mut damping = Self {
+            law: *law,
+            g,
+            first,
+            panels,
+            nodes,
+            tolerance,
+        };
+        let mut from = first;
+        while damping.y(from) < LONGEST {
+            let smooth = WIDE.max(LATE * damping.y(from)) / g;
+            let width = NARROW.max(0.6 * (from - PEAK)).min(smooth.max(NARROW));
+            damping.panels.push(damping.panel([from, from + width]));
+            from += width;
+        }
+        damping
+    }
+
+    /// The law.
+    pub fn law(&self) -> &Attenuation {
+        &self.law
+    }
+
+    /// The tolerance.
+    pub(crate) fn tolerance(&self) -> f64 {
+        self.tolerance
+    }
+
+    fn panel(&self, x: [f64; 2]) -> Panel {
+        let [middle, half] = [0.5 * (x[0] + x[1]), 0.5 * (x[1] - x[0])];
+        let angle = |i: usize| PI * (i as f64 + 0.5) / TERMS as f64;
+        let values: Vec<Both> = (0..TERMS)
+            .map(|i| self.density(middle + half * angle(i).cos()))
+            .collect();
+        let series = [0, 1].map(|kind| {
+            let term = |k: usize| {
+                let sum: f64 = (0..TERMS)
+                    .map(|i| values[i][kind] * (k as f64 * angle(i)).cos())
+                    .sum();
+                sum * if k == 0 { 1.0 } else { 2.0 } / TERMS as f64
+            };
+            (0..TERMS).map(term).collect()
+        });
+        let mut panel = Panel {
+            x,
+            series,
+            rule: Vec::new(),
+        };
+        panel.rule = rounded(self.nodes, x)
+            .map(|(x, weight)| (self.ratio(x), panel.at(x).map(|q| q * weight)))
+            .collect();
+        panel
+    }
+
+    /// Logarithm of the ratio of times at x.
+    fn y(&self, x: f64) -> f64 {
+        self.g * (x + self.g.ln())
+    }
+
+    /// x of a ratio of times.
+    fn x(&self, ratio: f64) -> f64 {
+        ratio.ln() / self.g - self.g.ln()
+    }
+
+    /// Factor of tau at x.
+    fn ratio(&self, x: f64) -> f64 {
+        (-(1.0 - self.g) * self.y(x)).exp()
+    }
+
+    /// q_v at x, by the trapezoidal rule on a parabola through the saddle point or near the origin.
+    fn density(&self, x: f64) -> Both {
+        /// Vertex of the parabola times the rate at which the integrand falls, for large x.
+        const VERTEX: f64 = 3.0;
+        /// Exponent that is left out.
+        const FALLEN: f64 = 42.0;
+        let (g, one) = (self.g, Complex64::from(1.0));
+        let y = self.y(x);
+        let a = y.exp_m1() / g;
+        // the exponent is S (a - h(S)), h = ((S/g)^-g - 1)/g
+        let h = |log: Complex64| {
+            let power = -g * (log - g.ln());
+            (power * 0.5).exp() * 2.0 * (power * 0.5).sinh() / g
+        };
+        let [saddle, _] = saddle(g, x);
+        let rate = a - (g * g.ln()).exp_m1() / g;
+        let vertex = saddle.max(VERTEX / (rate.max(0.0) + VERTEX));
+        let step = (0.35 / vertex.sqrt()).min(0.1);
+        let mut sums = [Complex64::default(); 2];
+        let mut largest = f64::NEG_INFINITY;
+        for i in 0..2000 {
+            let u = step * f64::from(i);
+            let root = Complex64::new(1.0, u);
+            let s = vertex * root * root;
+            let log = s.ln();
+            let exponent = s * (a - h(log));
+            largest = largest.max(exponent.re);
+            if exponent.re < largest - FALLEN {
+                break;
+            }
+            let slope = 2.0 * Complex64::i() * vertex * root;
+            let weight = if i == 0 { 0.5 } else { 1.0 } * step;
+            for (sum, v) in sums.iter_mut().zip(KINDS) {
+                *sum += weight * slope * (exponent - v * g * (log - g.ln()) * one).exp();
+            }
+        }
+        // both halves of the parabola are conjugates
+        let [displacements, stresses] = sums.map(|sum| (1.0 - g) * sum.im / PI);
+        [displacements * (-2.0 * y).exp().powf(g), stresses]
+    }
+
+    /// Time until which the elastic response is needed for the damped one until `end`, for a unit of time of which the
+    /// reference frequency is `reference`.
+    pub fn reach(&self, end: f64, reference: f64) -> f64 {
+        self.elastic(end, reference) * self.ratio(self.first)
+    }
+
+    /// tau at y = 0.
+    fn elastic(&self, t: f64, reference: f64) -> f64 {
+        let omega = std::f64::consts::TAU * reference;
+        t * (omega * t).powf(-self.g)
+    }
+
+    /// Time at which an elastic response at tau has its largest weight, and the one before which it has none.
+    pub(crate) fn arrival(&self, tau: f64, reference: f64) -> [f64; 2] {
+        let omega = std::f64::consts::TAU * reference;
+        let t = tau * (omega * tau).powf(self.g / (1.0 - self.g));
+        [0.0, self.first].map(|x| t * self.y(x).exp())
+    }
+
+    /// Factor of displacements at a time.
+    pub(crate) fn creep(&self, t: f64, reference: f64) -> f64 {
+        (std::f64::consts::TAU * reference * t).powf(2.0 * self.g)
+    }
+
+    /// Calls `add` with groups of instants tau and weights of displacements and stresses for D at a time, from the instant that has
+    /// no weight back to `first`. The `breaks` of the elastic response, ascending, are not within a group.
+    pub(crate) fn for_each_group(
+        &self,
+        (t, reference): (f64, f64),
+        (first, breaks): (f64, &[f64]),
+        mut add: impl FnMut(&[(f64, Both)]),
+    ) {
+        let tau = self.elastic(t, reference);
+        let last = self.x((tau / first).powf(1.0 / (1.0 - self.g)));
+        let mut left = breaks.partition_point(|at| *at < tau * self.ratio(self.first));
+        let mut group = Vec::with_capacity(self.nodes);
+        for panel in &self.panels {
+            if panel.x[0] >= last {
+                break;
+            }
+            let end = tau * self.ratio(panel.x[1]);
+            let is_whole = panel.x[1] <= last && (left == 0 || breaks[left - 1] <= end);
+            if is_whole {
+                group.clear();
+                group.extend(
+                    panel
+                        .rule
+                        .iter()
+                        .map(|(ratio, weights)| (tau * ratio, *weights)),
+                );
+                add(&group);
+                continue;
+            }
+            let mut from = panel.x[0];
+            let until = panel.x[1].min(last);
+            while from < until {
+                let next = match left.checked_sub(1).map(|i| breaks[i]) {
+                    Some(at) if at > end => {
+                        left -= 1;
+                        self.x((tau / at).powf(1.0 / (1.0 - self.g))).min(until)
+                    }
+                    Some(_) | None => until,
+                };
+                if next > from {
+                    group.clear();
+                    group.extend(
+                        rounded(self.nodes, [from, next]).map(|(x, weight)| {
+                            (tau * self.ratio(x), panel.at(x).map(|q| q * weight))
+                        }),
+                    );
+                    add(&group);
+                    from = next;
+                }
+            }
+        }
+    }
+}
+
+/// The place S of the saddle point of the exponent at x, and the exponent there.
+fn saddle(g: f64, x: f64) -> [f64; 2] {
+    let a = (g * (x + g.ln())).exp_m1() / g;
+    let h = (a + 1.0) / (1.0 - g);
+    let s = g * (-(g * h).ln_1p() / g).exp();
+    [s, s * (a - h)]
+}
+
+impl Panel {
+    fn at(&self, x: f64) -> Both {
+        let place = (2.0 * x - self.x[0] - self.x[1]) / (self.x[1] - self.x[0]);
+        [0, 1].map(|kind| chebyshev(&self.series[kind], place))
+    }
+}
+
+/// Gauss's rule in the angle of [from, to], which makes roots at the ends smooth.
+fn rounded(nodes: usize, [from, to]: [f64; 2]) -> impl Iterator<Item = (f64, f64)> {
+    gauss::rule(nodes).on(0.0, 1.0).map(move |(s, weight)| {
+        let (sin, cos) = (FRAC_PI_2 * s).sin_cos();
+        (
+            from + (to - from) * sin * sin,
+            weight * PI * (to - from) * sin * cos,
+        )
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A constant elastic stress stays as it is, and the density of displacements has the mass 1/Gamma(1 + 2g) of the creep.
+    #[test]
+    fn densities_have_mass_one() {
+        // Q, Gamma(1 + 2 atan(1/Q)/pi)
+        for (quality, gamma) in [
+            (1.0, 0.886_226_925_452_758),
+            (20.0, 0.982_614_178_102_258_4),
+            (1e3, 0.999_632_933_832_342_2),
+            (1e12, 1.0),
+        ] {
+            let damping = Damping::new(&Attenuation::new(quality, 1.0).unwrap(), 1e-12);
+            let mut mass = [0.0; 2];
+            for panel in &damping.panels {
+                for (_, weights) in &panel.rule {
+                    mass = [0, 1].map(|kind| mass[kind] + weights[kind]);
+                }
+            }
+            println!("{quality}: {mass:?} {}", damping.panels.len());
+            assert!((mass[1] - 1.0).abs() < 1e-11, "{quality}: {mass:?}");
+            assert!((mass[0] * gamma - 1.0).abs() < 1e-11, "{quality}: {mass:?}");
+        }
+    }
+}
