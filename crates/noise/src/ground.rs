@@ -52,15 +52,16 @@ pub struct Ground {
 }
 
 impl Ground {
-    /// Of a half-space, with a law of attenuation whose reference frequency is in Hz.
+    /// Of a half-space with its attenuation.
     ///
     /// # Errors
     /// [`NoiseError`] for a Poisson's ratio outside the physics.
-    pub fn new(block: &HalfSpace, attenuation: Option<Attenuation>) -> Result<Self, NoiseError> {
+    pub fn new(block: &HalfSpace) -> Result<Self, NoiseError> {
         /// The tolerance has no effect on spectra.
         const TOLERANCE: f64 = 1e-10;
         let medium = Medium::new(block.material().poisson_ratio)?;
         let kernel = Kernel::new(&medium, Profile::Point, TOLERANCE)?;
+        let attenuation = block.attenuation;
         let unit_law =
             attenuation.map(|law| Attenuation::new(law.quality_factor(), unit_frequency(&medium)));
         Ok(Self {
@@ -253,24 +254,36 @@ impl Sheet {
         let ends = [from * distances_m[0], to * distances_m[1]];
         let depths = (depth_m > 0.0)
             .then(|| Spacing::new([from * depth_m, to * depth_m], STEP, STEP / FAR_STEP));
-        let zetas = depths.map_or(vec![0.0], |nodes| {
-            (0..nodes.count).map(|i| nodes.node(i as f64)).collect()
-        });
-        let curves = zetas.into_iter().map(|zeta| Curve::new(ground, zeta, ends));
+        // a node serves the frequencies up to two nodes away
+        let around = |nodes: &Spacing, i: f64| {
+            let low = nodes.node(i - 2.0) * distances_m[0];
+            let high = nodes.node(i + 2.0) * distances_m[1];
+            Curve::new(ground, nodes.node(i), [low / depth_m, high / depth_m])
+        };
+        let curves = match &depths {
+            None => vec![Curve::new(ground, 0.0, ends)?],
+            Some(nodes) => {
+                let curves = (0..nodes.count).map(|i| around(nodes, i as f64));
+                curves.collect::<Result<_, _>>()?
+            }
+        };
         let mut sheet = Self {
             depth_m,
             slowness: ground.rayleigh_slowness(),
             depths,
-            curves: curves.collect::<Result<_, _>>()?,
+            curves,
             error: 0.0,
         };
         if let Some(nodes) = depths {
             // at other places the values are those of a curve in between
-            let middle = nodes.node(nodes.count as f64 - 2.5);
+            let place = nodes.count as f64 - 2.5;
+            let middle = nodes.node(place);
+            let ends = distances_m.map(|r| r * middle / depth_m);
             let other = Curve::new(ground, middle, ends)?;
             let at = sheet.at(middle / depth_m, 1.0);
             let checks = (0..other.spacing.count).step_by(CHECKED);
             let checks = checks.map(|i| other.spacing.node(i as f64));
+            let checks = checks.filter(|x| (ends[0]..=ends[1]).contains(x));
             let checks = checks.map(|x| (x, (other.scaled(x), 0.0)));
             sheet.error = other.worst(&checks.collect::<Vec<_>>(), |x| at.scaled(x));
         }
@@ -359,8 +372,9 @@ mod tests {
     fn ground(poisson_ratio: f64, quality_factor: Option<f64>) -> Ground {
         let mut rock = Material::named("granite").unwrap();
         rock.poisson_ratio = poisson_ratio;
-        let law = quality_factor.map(|q| Attenuation::new(q, 10.0).unwrap());
-        Ground::new(&HalfSpace::new(rock).unwrap(), law).unwrap()
+        let mut block = HalfSpace::new(rock).unwrap();
+        block.attenuation = quality_factor.map(|q| Attenuation::new(q, 10.0).unwrap());
+        Ground::new(&block).unwrap()
     }
 
     /// mu |G| c2/omega of an independent program (a complex integral over wave number): elastic and nu 0.25.
@@ -407,7 +421,12 @@ mod tests {
             let mut worst = 0.0_f64;
             for _ in 0..100 {
                 let x = random.log(1e-3_f64.max(2.0 * ABOVE * depth), high);
-                let depth = depth * random.log(0.5, 2.0);
+                let factor = random.log(0.5, 2.0);
+                let (x, depth) = if depth > 0.0 {
+                    (x * factor, factor)
+                } else {
+                    (x, depth)
+                };
                 let (exact, _) = ground.exact(x, depth).unwrap();
                 let at = sheet.at(if depth > 0.0 { depth } else { 1.0 }, 1.0);
                 let found = at.value(x / at.wave_number);

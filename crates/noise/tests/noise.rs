@@ -49,10 +49,11 @@ fn blows(diameters_m: &[f64]) -> (Vec<Blow>, Pulses) {
 }
 
 fn noise(source: Source, receivers: &[[f64; 3]], quality_factor: Option<f64>) -> Noise {
-    let law = quality_factor.map(|q| Attenuation::new(q, 100.0).unwrap());
+    let mut damped = block();
+    damped.attenuation = quality_factor.map(|q| Attenuation::new(q, 100.0).unwrap());
     let (blows, pulses) = blows(&[0.01, 0.012, 0.02, 0.05]);
     Noise {
-        ground: Ground::new(&block(), law).unwrap(),
+        ground: Ground::new(&damped).unwrap(),
         source,
         nearest_m: 0.0,
         receivers: receivers
@@ -85,7 +86,7 @@ fn far_away_it_is_the_rayleigh_wave() {
         rate_per_m2_s: rate,
     };
     let noise = noise(source, &[[0.0, 0.0, 0.0]], None);
-    let ground = Ground::new(&block(), None).unwrap();
+    let ground = Ground::new(&block()).unwrap();
     let frequency_hz = [50.0, 100.0, 200.0, 500.0];
     let spectra = noise.spectra(&frequency_hz).unwrap();
     let power = spectra.power(0, Motion::Vertical, 0);

@@ -165,7 +165,7 @@ impl NoiseSpec {
             Ok::<_, NoiseFault>(Pulse::new(force, contact.end() / contact_time))
         })?;
         Ok(Some(Noise {
-            ground: Ground::new(&target, None)?,
+            ground: Ground::new(&target)?,
             source: self.source.clone(),
             nearest_m: self.nearest_m,
             receivers: self.receivers.clone(),
