@@ -132,6 +132,7 @@ impl Pulses {
         let mut checked: Vec<usize> = between.chain(drawn).map(|place| order[place]).collect();
         checked.sort_unstable();
         checked.dedup();
+        checked.retain(|&i| chosen.iter().all(|&place| order[place] != i));
         let peaks: Vec<f64> = chosen.iter().map(|&place| peak(place)).collect();
         let place_of = |blow: &Blow| {
             let above = peaks.partition_point(|&at| at < blow.peak_at);

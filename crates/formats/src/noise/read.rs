@@ -82,31 +82,18 @@ impl NoiseSpec {
             (None, Some(impacts)) => {
                 impacts.allow(schema::IMPACTS)?;
                 let path = directory.join(impacts.needed_text("file", "a table of impacts")?);
-                let text = read_text_up_to(&path, MOST_OF_RECORD)?;
-                identity = identity.with("impacts", &text);
-                let (times_s, places_m, keys) = listed(&text).map_err(|(line, reason)| {
-                    SceneError::in_sentence(
-                        &path,
-                        format!("{} line {line}: {reason}", path.display()),
-                    )
-                })?;
-                inputs.push(("the table of impacts", path));
-                let hint = "the power of listed impacts is a mean over this time";
-                let duration_s = duration_s.ok_or_else(|| output.missing("duration_s", hint))?;
                 if root.value("random").is_some() {
                     let reason = "the bodies are those of the file";
                     return Err(SceneError::conflict("[random]", "[impacts]", reason));
                 }
-                let bodies =
-                    Spec::of_columns(&scene, directory, constant(keys, &scene, times_s.len()))?;
-                (
-                    Source::Listed {
-                        times_s,
-                        places_m,
-                        duration_s,
-                    },
-                    bodies,
-                )
+                let hint = "the power of listed impacts is a mean over this time";
+                let duration_s = duration_s.ok_or_else(|| output.missing("duration_s", hint))?;
+                let text = read_text_up_to(&path, MOST_OF_RECORD)?;
+                identity = identity.with("impacts", &text);
+                let (source, keys, rows) = source_of(&path, &text, duration_s)?;
+                inputs.push(("the table of impacts", path));
+                let keys = constant(keys, &scene, rows);
+                (source, Spec::of_columns(&scene, directory, keys)?)
             }
             (Some(_), Some(_)) => {
                 let reason = "the impacts are either drawn or listed";
@@ -136,6 +123,25 @@ impl NoiseSpec {
             sha256: identity.hex(),
         })
     }
+}
+
+/// The source of the impacts of a file, the columns of the striker, and the number of rows.
+fn source_of(
+    path: &Path,
+    text: &str,
+    duration_s: f64,
+) -> Result<(Source, Vec<SweptKey>, usize), SceneError> {
+    let (times_s, places_m, keys) = listed(text).map_err(|(line, reason)| {
+        let sentence = format!("{} line {line}: {reason}", path.display());
+        SceneError::in_sentence(path, sentence)
+    })?;
+    let rows = times_s.len();
+    let source = Source::Listed {
+        times_s,
+        places_m,
+        duration_s,
+    };
+    Ok((source, keys, rows))
 }
 
 /// The receivers.
