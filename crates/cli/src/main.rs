@@ -14,7 +14,8 @@ use clap::error::ErrorKind;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use clap_complete::{Shell, generate};
 use commands::{
-    chart, demo, export, impact, infer, materials, noise, paper, plot, sweep, table, tabulate,
+    chart, compare, demo, export, impact, infer, lamb, materials, noise, paper, plot, sweep, table,
+    tabulate,
 };
 use failure::Failure;
 use std::process::ExitCode;
@@ -44,6 +45,10 @@ enum Command {
     Sweep(sweep::Arguments),
     /// Infers the yield pressure or the velocity from a measured rebound, contact time or peak force, or the force from traces of sensors.
     Infer(infer::Arguments),
+    /// Computes exact histories of Lamb's problem, for the tests of wave codes.
+    Lamb(lamb::Arguments),
+    /// Compares histories of another code with a reference.
+    Compare(compare::Arguments),
     /// Computes the ground motion of many impacts: spectra and traces at receivers.
     Noise(noise::Arguments),
     /// Writes inputs for particle codes, or a table of the rebound over velocity.
@@ -89,6 +94,8 @@ fn run(command: Command) -> Result<(), Failure> {
         Command::Impact(arguments) => impact::run(&arguments),
         Command::Sweep(arguments) => sweep::run(&arguments),
         Command::Infer(arguments) => infer::run(&arguments),
+        Command::Lamb(arguments) => lamb::run(&arguments),
+        Command::Compare(arguments) => compare::run(&arguments),
         Command::Noise(arguments) => noise::run(&arguments),
         Command::Export(arguments) => export::run(&arguments),
         Command::Plot(arguments) => plot::run(&arguments),

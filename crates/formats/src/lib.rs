@@ -42,6 +42,8 @@ pub mod stored;
 #[cfg(feature = "hdf5")]
 pub mod results;
 #[cfg(feature = "hdf5")]
+pub mod lamb;
+#[cfg(feature = "hdf5")]
 pub mod parts;
 
 pub use error::SceneError;

@@ -1,6 +1,6 @@
 //! Attenuation with a constant quality factor, the same for longitudinal and shear waves.
 //!
-//! Theory: `docs/theory.md` (T76).
+//! Theory: `docs/theory.md` (T78).
 
 use crate::domain::{DomainError, check};
 use num_complex::Complex64;

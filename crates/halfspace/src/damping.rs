@@ -9,7 +9,7 @@
 //! v is 3 for displacements and 1 for stresses, and g the exponent of the law. The density q_v is near a stable one, whose
 //! width in x is of order 1 for any quality factor; for g to 0 it is Landau's.
 //!
-//! Theory: `docs/theory.md` (T78).
+//! Theory: `docs/theory.md` (T80).
 
 use crate::attenuation::Attenuation;
 use crate::numeric::gauss;
@@ -17,8 +17,8 @@ use crate::numeric::polynomial::chebyshev;
 use num_complex::Complex64;
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// Exponent of the density at its smallest x, where it is below 1e-18 (`densities_have_mass_one`).
-const LEAST_EXPONENT: f64 = -42.0;
+/// Exponent of the density at its smallest x, below the logarithm of the tolerance (`densities_have_mass_one`).
+const LEAST_EXPONENT: f64 = -4.0;
 
 /// Largest logarithm of the ratio of times that counts; the density falls as its exponential.
 const LONGEST: f64 = 60.0;
@@ -26,9 +26,20 @@ const LONGEST: f64 = 60.0;
 /// Terms of the density on a panel: with fewer `densities_have_mass_one` fails.
 const TERMS: usize = 20;
 
-/// Number of digits for which a panel has one node more, and their least number.
-const DIGITS_A_NODE: f64 = 1.0;
-const LEAST_NODES: f64 = 4.0;
+/// Digits of a panel with one group of nodes, and more of each further group (`densities_have_mass_one`,
+/// `damped_fields_are_those_of_spectra`).
+const FIRST_DIGITS: f64 = 6.0;
+const DIGITS_A_GROUP: f64 = 3.5;
+
+/// Number of instants that are evaluated together.
+pub(crate) const TOGETHER: usize = 8;
+
+/// Instants tau, or their ratios to another, and weights of displacements and stresses.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Group {
+    pub(crate) tau: [f64; TOGETHER],
+    pub(crate) weights: [[f64; TOGETHER]; 2],
+}
 
 /// Densities of both kinds of fields: displacements, stresses.
 type Both = [f64; 2];
@@ -45,8 +56,8 @@ pub struct Damping {
     first: f64,
     /// Ascending in x from there, without gaps.
     panels: Vec<Panel>,
-    /// Number of nodes of a part of a panel.
-    nodes: usize,
+    /// Places in (0, 1) and weights of the nodes of a part of a panel.
+    nodes: Vec<[f64; 2]>,
     tolerance: f64,
 }
 
@@ -55,26 +66,27 @@ pub struct Damping {
 struct Panel {
     x: [f64; 2],
     series: [Vec<f64>; 2],
-    /// Nodes of the whole panel: ratio of tau to its value at y = 0, and weights.
-    rule: Vec<(f64, Both)>,
+    /// Nodes of the whole panel, with ratios to tau at y = 0.
+    rule: Vec<Group>,
 }
 
 impl Damping {
     /// For traces of a tolerance in [1e-14, 0.1]. It takes about a millisecond.
     pub fn new(law: &Attenuation, tolerance: f64) -> Self {
         /// Width of the first panels, and widest panel in y, within which an elastic response between fronts is smooth.
-        const NARROW: f64 = 1.0;
-        const WIDE: f64 = 0.5;
+        const NARROW: f64 = 2.0;
+        const WIDE: f64 = 0.7;
         /// Width over y for large y, where weights are small.
         const LATE: f64 = 0.3;
-        /// x from which panels widen with the distance from the peak.
-        const PEAK: f64 = 2.0;
+        /// x of the peak, and width of later panels over their x.
+        const PEAK: f64 = 0.0;
+        const WIDENING: f64 = 1.5;
         let g = law.exponent();
         let digits = -tolerance.log10();
-        let nodes = (LEAST_NODES + DIGITS_A_NODE * digits).round() as usize;
+        let groups = 1 + ((digits - FIRST_DIGITS) / DIGITS_A_GROUP).ceil().max(0.0) as usize;
         let panels = Vec::new();
         let mut first = PEAK;
-        while saddle(g, first)[1] > LEAST_EXPONENT {
+        while saddle(g, first)[1] > tolerance.ln() + LEAST_EXPONENT {
             first -= 0.25;
         }
         let mut damping = Self {
@@ -82,13 +94,13 @@ impl Damping {
             g,
             first,
             panels,
-            nodes,
+            nodes: rounded(groups * TOGETHER).collect(),
             tolerance,
         };
         let mut from = first;
         while damping.y(from) < LONGEST {
             let smooth = WIDE.max(LATE * damping.y(from)) / g;
-            let width = NARROW.max(0.6 * (from - PEAK)).min(smooth.max(NARROW));
+            let width = NARROW.max(WIDENING * (from - PEAK)).min(smooth.max(NARROW));
             damping.panels.push(damping.panel([from, from + width]));
             from += width;
         }
@@ -125,10 +137,28 @@ impl Damping {
             series,
             rule: Vec::new(),
         };
-        panel.rule = rounded(self.nodes, x)
-            .map(|(x, weight)| (self.ratio(x), panel.at(x).map(|q| q * weight)))
-            .collect();
+        let mut rule = Vec::new();
+        self.groups(&panel, x, |group| rule.push(*group));
+        panel.rule = rule;
         panel
+    }
+
+    /// Calls `add` with the nodes of a part of a panel.
+    fn groups(&self, panel: &Panel, [from, to]: [f64; 2], mut add: impl FnMut(&Group)) {
+        for nodes in self.nodes.chunks_exact(TOGETHER) {
+            let mut group = Group {
+                tau: [0.0; TOGETHER],
+                weights: [[0.0; TOGETHER]; 2],
+            };
+            for (i, [place, weight]) in nodes.iter().enumerate() {
+                let x = from + (to - from) * place;
+                group.tau[i] = self.ratio(x);
+                for (weights, q) in group.weights.iter_mut().zip(panel.at(x)) {
+                    weights[i] = (to - from) * weight * q;
+                }
+            }
+            add(&group);
+        }
     }
 
     /// Logarithm of the ratio of times at x.
@@ -217,12 +247,17 @@ impl Damping {
         &self,
         (t, reference): (f64, f64),
         (first, breaks): (f64, &[f64]),
-        mut add: impl FnMut(&[(f64, Both)]),
+        mut add: impl FnMut(&Group),
     ) {
         let tau = self.elastic(t, reference);
         let last = self.x((tau / first).powf(1.0 / (1.0 - self.g)));
         let mut left = breaks.partition_point(|at| *at < tau * self.ratio(self.first));
-        let mut group = Vec::with_capacity(self.nodes);
+        let mut scaled = |group: &Group| {
+            add(&Group {
+                tau: group.tau.map(|ratio| tau * ratio),
+                ..*group
+            });
+        };
         for panel in &self.panels {
             if panel.x[0] >= last {
                 break;
@@ -230,14 +265,7 @@ impl Damping {
             let end = tau * self.ratio(panel.x[1]);
             let is_whole = panel.x[1] <= last && (left == 0 || breaks[left - 1] <= end);
             if is_whole {
-                group.clear();
-                group.extend(
-                    panel
-                        .rule
-                        .iter()
-                        .map(|(ratio, weights)| (tau * ratio, *weights)),
-                );
-                add(&group);
+                panel.rule.iter().for_each(&mut scaled);
                 continue;
             }
             let mut from = panel.x[0];
@@ -251,13 +279,7 @@ impl Damping {
                     Some(_) | None => until,
                 };
                 if next > from {
-                    group.clear();
-                    group.extend(
-                        rounded(self.nodes, [from, next]).map(|(x, weight)| {
-                            (tau * self.ratio(x), panel.at(x).map(|q| q * weight))
-                        }),
-                    );
-                    add(&group);
+                    self.groups(panel, [from, next], &mut scaled);
                     from = next;
                 }
             }
@@ -280,14 +302,11 @@ impl Panel {
     }
 }
 
-/// Gauss's rule in the angle of [from, to], which makes roots at the ends smooth.
-fn rounded(nodes: usize, [from, to]: [f64; 2]) -> impl Iterator<Item = (f64, f64)> {
-    gauss::rule(nodes).on(0.0, 1.0).map(move |(s, weight)| {
+/// Gauss's rule in the angle of [0, 1], which makes roots at the ends smooth.
+fn rounded(count: usize) -> impl Iterator<Item = [f64; 2]> {
+    gauss::rule(count).on(0.0, 1.0).map(|(s, weight)| {
         let (sin, cos) = (FRAC_PI_2 * s).sin_cos();
-        (
-            from + (to - from) * sin * sin,
-            weight * PI * (to - from) * sin * cos,
-        )
+        [sin * sin, weight * PI * sin * cos]
     })
 }
 
@@ -308,8 +327,8 @@ mod tests {
             let damping = Damping::new(&Attenuation::new(quality, 1.0).unwrap(), 1e-12);
             let mut mass = [0.0; 2];
             for panel in &damping.panels {
-                for (_, weights) in &panel.rule {
-                    mass = [0, 1].map(|kind| mass[kind] + weights[kind]);
+                for group in &panel.rule {
+                    mass = [0, 1].map(|kind| mass[kind] + group.weights[kind].iter().sum::<f64>());
                 }
             }
             println!("{quality}: {mass:?} {}", damping.panels.len());

@@ -22,6 +22,8 @@
 //! - [`Medium`]: wave speeds and Rayleigh function of a Poisson ratio.
 //! - [`Kernel`]: static field, step-response remainder, impulse response and time integral.
 //! - [`Trace`]: the remainder at one place over time, with averages and moments over cells of any width.
+//! - [`Kernel::spectrum`]: the response to a force at one frequency.
+//! - [`Attenuation`]: a constant quality factor, in spectra and, by [`Damping`], in traces.
 //! - [`Face`]: the mean over a circular face, such as that of a sensor.
 //! - [`Plate`]: the echoes that a second free face adds, to sixteen transits.
 //! - [`SurfaceResponse`]: the deflection under the load itself, with finite memory.

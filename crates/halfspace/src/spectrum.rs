@@ -9,7 +9,7 @@
 //! e^(+-ikd - kz), and each continues on the ray on which it falls fastest, so that neither a shallow point nor a near edge needs
 //! many nodes.
 //!
-//! Theory: `docs/theory.md` (T77).
+//! Theory: `docs/theory.md` (T79).
 
 use crate::attenuation::Attenuation;
 use crate::domain::{DomainError, check, check_place_under};

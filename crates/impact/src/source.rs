@@ -182,12 +182,8 @@ pub(crate) fn choose_source(
         let kernel = KernelSource::for_fields(medium, tolerance)?;
         Ok(Some((KernelSource::Direct(kernel), reason)))
     };
-    if let Some(law) = &excitation.attenuation {
-        let quality_factor = law.quality_factor();
-        return match kernels {
-            KernelChoice::Table(_) => Err(ImpactError::DampedTable { quality_factor }),
-            _ => direct("tables are of elastic blocks: computed".to_owned()),
-        };
+    if is_damped(excitation, kernels)? {
+        return direct("tables are of elastic blocks: computed".to_owned());
     }
     let radius_m = excitation.units().disc_radius_m;
     let faces = faces(scene, radius_m);
@@ -250,6 +246,19 @@ pub(crate) fn choose_source(
     }
     let reason = format!("{then}the table's error is {error:.1e}: looked up");
     Ok(Some((table, reason)))
+}
+
+/// Whether the block has attenuation, which no table has.
+fn is_damped(excitation: &Excitation, kernels: &KernelChoice) -> Result<bool, ImpactError> {
+    let Some(law) = &excitation.attenuation else {
+        return Ok(false);
+    };
+    match kernels {
+        KernelChoice::Table(_) => Err(ImpactError::DampedTable {
+            quality_factor: law.quality_factor(),
+        }),
+        KernelChoice::Direct | KernelChoice::Auto(_) | KernelChoice::Within(_) => Ok(true),
+    }
 }
 
 /// The place of a sensor in m and the radii in m of the smallest and the largest disc that stands for its face.

@@ -493,6 +493,44 @@ def test_kernels_are_right_and_broadcast():
     assert hl.kernels.medium(0.3).arrivals(0.0, 3.0).first == 3.0
 
 
+def test_spectra_are_right_and_broadcast():
+    # mu r G on the surface at omega r/c2 = 1 and 3 from a direct integral of another program, moduli times exp(i atan(1/Q))
+    c2 = hl.kernels.medium(0.25).shear_speed
+    f = np.array([1.0, 3.0]) * c2 / (2 * np.pi)
+    for quality, wanted in (
+        (20.0, [3.290568780107e-02 - 1.133417449432e-01j, -1.063594356415e-01 + 6.746642474715e-02j]),
+        (100.0, [3.838442232433e-02 - 1.147118626428e-01j, -1.172091402257e-01 + 6.738921343302e-02j]),
+    ):
+        own = hl.kernels.spectrum(0.25, 1.0, 0.0, f, profile="point", quality_factor=quality)
+        assert own.displacement_z.shape == (2,) and np.max(np.abs(own.displacement_z - wanted)) < 1e-10
+        same_law = hl.kernels.spectrum(0.25, 1.0, 0.0, f[1], profile="point", quality_factor=quality, reference_frequency=f[1])
+        assert same_law.displacement_z == own.displacement_z[1]
+    wide = hl.kernels.spectrum(0.3, [[0.5], [1.5]], 0.6, np.linspace(0, 2, 9))
+    assert wide.stress_zz.shape == (2, 9) and wide.error.stress_zz.shape == (2, 9) and wide.frequency.shape == (2, 9)
+    assert same(wide.array[:, 0].real, hl.kernels.static(0.3, [0.5, 1.5], 0.6).array)
+    assert np.array_equal(wide.velocity_z, 2j * np.pi * wide.frequency * wide.displacement_z)
+    assert same(pickle.loads(pickle.dumps(wide)).array, wide.array)
+    with pytest.raises(hl.DomainError, match="frequency = 0 is outside"):
+        hl.kernels.spectrum(0.3, 0.5, 0.6, 0.0, quality_factor=20)
+    with pytest.raises(hl.DomainError, match="quality_factor = 0.5 is outside"):
+        hl.kernels.spectrum(0.3, 0.5, 0.6, 1.0, quality_factor=0.5)
+    with pytest.raises(hl.SceneError, match="without quality_factor"):
+        hl.kernels.spectrum(0.3, 0.5, 0.6, 1.0, reference_frequency=1.0)
+
+
+def test_attenuation_damps_fields_and_not_the_contact():
+    soft = {**BALL, "target": {**BALL["target"], "quality_factor": 30, "reference_frequency_hz": 1e5}}
+    elastic, damped = hl.impact(BALL), hl.impact(soft)
+    assert damped.peak_force_n == elastic.peak_force_n
+    peaks = [np.max(np.abs(run.probes.displacement_z)) for run in (elastic, damped)]
+    assert peaks[1] < peaks[0]
+    assert any("quality_factor" in warning for warning in damped.warnings)
+    with pytest.raises(hl.SceneError, match="reference_frequency_hz|quality_factor"):
+        hl.impact({**BALL, "target": {**BALL["target"], "reference_frequency_hz": 1e5}})
+    with pytest.raises(hl.SceneError, match="strain"):
+        hl.impact({**soft, "output": {"quantities": ["strain_rr"]}})
+
+
 def test_a_table_answers_as_the_command_says(table, tmp_path):
     opened = hl.Table.open(table)
     assert opened.info() == run_well("table", "info", table)

@@ -10,4 +10,5 @@ mod write;
 
 pub use identity::{check_results, scene_sha256};
 pub use section::beside;
+pub(crate) use write::{ending, write_columns};
 pub use write::{stage_results, stage_results_csv, write_results};

@@ -166,18 +166,27 @@ pub fn stage_results_csv<'a>(
                 words[0], words[1]
             )?;
         }
-        let columns = columns(outcome);
-        let names: Vec<&str> = columns.iter().map(|(name, _)| name.as_str()).collect();
-        writeln!(file, "{}", names.join(","))?;
-        for i in 0..outcome.series.time_s.len() {
-            for (k, (_, samples)) in columns.iter().enumerate() {
-                let comma = if k == 0 { "" } else { "," };
-                write!(file, "{comma}{:?}", samples[i])?;
-            }
-            writeln!(file)?;
-        }
+        write_columns(&mut file, &columns(outcome))?;
         file.flush()
     })
+}
+
+/// Writes columns of one length as text: their names, then a line for each sample.
+pub(crate) fn write_columns(
+    file: &mut impl Write,
+    columns: &[(String, &[f64])],
+) -> std::io::Result<()> {
+    let names: Vec<&str> = columns.iter().map(|(name, _)| name.as_str()).collect();
+    writeln!(file, "{}", names.join(","))?;
+    let count = columns.first().map_or(0, |(_, samples)| samples.len());
+    for i in 0..count {
+        for (k, (_, samples)) in columns.iter().enumerate() {
+            let comma = if k == 0 { "" } else { "," };
+            write!(file, "{comma}{:?}", samples[i])?;
+        }
+        writeln!(file)?;
+    }
+    Ok(())
 }
 
 /// Column names, which end with the unit, and samples.
@@ -199,7 +208,7 @@ fn columns(outcome: &Outcome) -> Vec<(String, &[f64])> {
 }
 
 /// Suffix of a name for a unit: `m/s` becomes `_m_s`.
-fn ending(unit: &str) -> String {
+pub(crate) fn ending(unit: &str) -> String {
     if unit == "1" {
         return String::new();
     }

@@ -14,7 +14,7 @@ pub(crate) mod section;
 pub use body::{parse_materials, read_materials};
 pub(crate) use keys::Form;
 pub use keys::{resolved, resolved_table, sections_of};
-pub(crate) use read::{bodies_of, scene_with};
+pub(crate) use read::{bodies_of, read_library, read_target, scene_with};
 pub use read::{parse_scene, read_scene, read_with_inputs, scene_of};
 pub use record::read_record;
 pub use response::read_response;

@@ -140,7 +140,10 @@ pub(crate) fn bodies_of(table: &Table) -> Result<(HalfSpace, Option<Strike>), Sc
     Ok((target, strike.transpose()?))
 }
 
-fn read_target(root: &TomlSection<'_>, library: &Library) -> Result<HalfSpace, SceneError> {
+pub(crate) fn read_target(
+    root: &TomlSection<'_>,
+    library: &Library,
+) -> Result<HalfSpace, SceneError> {
     let target = root
         .section("target")?
         .ok_or_else(|| root.missing("target", "describe the half-space in a section [target]"))?;
@@ -223,7 +226,10 @@ fn check_echoes(target: &TomlSection<'_>, block: &HalfSpace) -> Result<(), Scene
     }
 }
 
-fn read_library(root: &TomlSection<'_>, directory: &Path) -> Result<Library, SceneError> {
+pub(crate) fn read_library(
+    root: &TomlSection<'_>,
+    directory: &Path,
+) -> Result<Library, SceneError> {
     let Some(section) = root.section("materials")? else {
         return Ok(Library::built_in().clone());
     };

@@ -11,6 +11,7 @@ mod triangle;
 mod write;
 
 pub use read::read_traces;
+pub(crate) use read::{Columns, read_columns};
 #[cfg(feature = "hdf5")]
 pub use write::stage_force;
 

@@ -11,7 +11,7 @@ mod interpolation;
 mod segment;
 
 use crate::arrivals::Arrivals;
-use crate::damping::Damping;
+use crate::damping::{Damping, Group};
 use crate::domain::{
     DomainError, FARTHEST, NEAREST, check, check_hertz, check_place_under, check_time,
 };
@@ -204,15 +204,16 @@ impl Trace {
             most_segments: MOST_SEGMENTS,
         };
         let value = |t: f64| {
-            let mut sums = [Six::default(); 2];
+            let mut sums = Six::default();
             damping.for_each_group((t, reference), (self.first_arrival, &breaks), |group| {
                 self.add_group(static_part, group, &mut sums);
             });
             let creep = damping.creep(t, reference);
             let factor = |f: usize| if f < 2 { creep } else { 1.0 };
+            let value = std::array::from_fn(|f| factor(f) * sums[f] - static_part[f]);
             Ok(Estimate {
-                value: std::array::from_fn(|f| factor(f) * sums[0][f] - static_part[f]),
-                error: std::array::from_fn(|f| factor(f) * damping.tolerance() * sums[1][f]),
+                value,
+                error: value.map(|v| damping.tolerance() * v.abs()),
             })
         };
         let mut damped = Self::of(&signal, end, wanted, value)?;
@@ -223,24 +224,15 @@ impl Trace {
         Ok(damped)
     }
 
-    /// Adds the weighted step responses of a group of instants between two breaks, and their moduli.
-    fn add_group(
-        &self,
-        static_part: &Six,
-        group: &[(f64, [f64; 2])],
-        [values, moduli]: &mut [Six; 2],
-    ) {
-        const TOGETHER: usize = 4;
-        for some in group.chunks(TOGETHER) {
-            let own: [_; TOGETHER] = std::array::from_fn(|i| some[i.min(some.len() - 1)]);
-            let rest = self.at_each(own.map(|(tau, _)| tau));
-            for (f, rest) in rest.iter().enumerate() {
-                for (i, (_, weights)) in own.iter().enumerate().take(some.len()) {
-                    let value = weights[usize::from(f >= 2)] * (static_part[f] + rest[i]);
-                    values[f] += value;
-                    moduli[f] += value.abs();
-                }
-            }
+    /// Adds the weighted step responses of a group of instants between two breaks.
+    fn add_group(&self, static_part: &Six, group: &Group, sums: &mut Six) {
+        let rest = self.at_each(group.tau);
+        for (f, sum) in sums.iter_mut().enumerate() {
+            let weights = &group.weights[usize::from(f >= 2)];
+            let terms = weights.iter().zip(&rest[f]);
+            *sum += terms
+                .map(|(weight, rest)| weight * (static_part[f] + rest))
+                .sum::<f64>();
         }
     }
 
