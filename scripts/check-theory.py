@@ -8,13 +8,13 @@ Errors are relative unless the quantity is of order one.
 import sys
 from pathlib import Path
 
-from theory import attenuation, energy, faces, fields, impact, inversion, oracle, plastic, plates, radiation, responses, surface, transforms
+from theory import attenuation, energy, faces, fields, impact, inversion, noise, oracle, plastic, plates, radiation, responses, surface, transforms
 from theory.report import Report
 
 
 def main():
     report = Report()
-    for section in (transforms, fields, plates, faces, responses, inversion, oracle, attenuation, surface, impact, radiation, plastic, energy):
+    for section in (transforms, fields, plates, faces, responses, inversion, noise, oracle, attenuation, surface, impact, radiation, plastic, energy):
         section.check(report)
     report.compare_with((Path(__file__).resolve().parent.parent / "docs" / "theory.md").read_text(encoding="utf-8"))
     return report.end()

@@ -14,7 +14,7 @@ use clap::error::ErrorKind;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use clap_complete::{Shell, generate};
 use commands::{
-    chart, compare, demo, export, impact, infer, lamb, materials, paper, plot, sweep, table,
+    chart, compare, demo, export, impact, infer, lamb, materials, noise, paper, plot, sweep, table,
     tabulate,
 };
 use failure::Failure;
@@ -49,6 +49,8 @@ enum Command {
     Lamb(lamb::Arguments),
     /// Compares histories of another code with a reference.
     Compare(compare::Arguments),
+    /// Computes the ground motion of many impacts: spectra and traces at receivers.
+    Noise(noise::Arguments),
     /// Writes inputs for particle codes, or a table of the rebound over velocity.
     Export(export::Arguments),
     /// Draws the results of impacts, sweeps and tables.
@@ -94,6 +96,7 @@ fn run(command: Command) -> Result<(), Failure> {
         Command::Infer(arguments) => infer::run(&arguments),
         Command::Lamb(arguments) => lamb::run(&arguments),
         Command::Compare(arguments) => compare::run(&arguments),
+        Command::Noise(arguments) => noise::run(&arguments),
         Command::Export(arguments) => export::run(&arguments),
         Command::Plot(arguments) => plot::run(&arguments),
         Command::Demo(arguments) => demo::run(&arguments),

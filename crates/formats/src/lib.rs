@@ -36,6 +36,8 @@ pub mod traces;
 #[cfg(feature = "hdf5")]
 pub mod sweep;
 #[cfg(feature = "hdf5")]
+pub mod noise;
+#[cfg(feature = "hdf5")]
 pub mod stored;
 #[cfg(feature = "hdf5")]
 pub mod results;

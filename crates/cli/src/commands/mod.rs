@@ -8,6 +8,7 @@ pub(crate) mod impact;
 pub(crate) mod infer;
 pub(crate) mod lamb;
 pub(crate) mod materials;
+pub(crate) mod noise;
 pub(crate) mod paper;
 pub(crate) mod plot;
 pub(crate) mod sweep;

@@ -2,5 +2,6 @@
 
 pub mod force;
 pub mod lamb;
+pub mod noise;
 pub mod results;
 pub mod sweep;

@@ -42,7 +42,7 @@ impl Values {
     }
 
     /// The values that a key lists, or that a range defines.
-    pub(super) fn read(section: &TomlSection<'_>, key: &str) -> Result<Self, SceneError> {
+    pub(crate) fn read(section: &TomlSection<'_>, key: &str) -> Result<Self, SceneError> {
         if let Some(range) = section.inner(key) {
             return spaced(&range).map(Self::Numbers);
         }

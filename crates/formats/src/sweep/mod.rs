@@ -35,3 +35,4 @@ pub(crate) use rows::{Cells, Footer, MAGIC, NOT_HELD, What, columns, stage_hdf5}
 pub use run::{Computed, check_at_once, compute_columns, compute_rows, fields_bytes, run_rows};
 pub use shard::{BLOCK, Part, Selection, grain};
 pub use spec::Spec;
+pub(crate) use template::{Memory, Templates};
