@@ -20,6 +20,7 @@ impact : computes one impact of a scene, which is a dictionary, a file or TOML t
 collide : computes many impacts; any key of the scene may be an array
 sweep : computes a sweep file, or some of its rows
 infer : infers a yield pressure or a velocity from a measured rebound
+noise : computes the ground motion of many impacts
 resolve : returns a scene with every default and material property written out
 materials : lists the materials that a scene can name
 kernels : module with the exact response of the half-space to a suddenly applied force
@@ -47,6 +48,7 @@ from hertzlamb._fields import Fields
 from hertzlamb._force import Force, infer_force
 from hertzlamb._impact import Impact, Inferred, Probes, Section, impact, infer, resolve
 from hertzlamb._materials import Material, Materials, materials
+from hertzlamb._noise import Noise, noise
 from hertzlamb._sensors import Response, Sensor
 from hertzlamb._sweep import Collisions, Sweep, collide, sweep
 from hertzlamb._table import Table, Trace, tabulate
@@ -65,6 +67,7 @@ __all__ = [
     "Inferred",
     "Material",
     "Materials",
+    "Noise",
     "OutputError",
     "OutputExists",
     "OutsideTable",
@@ -85,6 +88,7 @@ __all__ = [
     "infer_force",
     "kernels",
     "materials",
+    "noise",
     "resolve",
     "sweep",
     "tabulate",

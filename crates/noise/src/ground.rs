@@ -37,8 +37,8 @@ pub(crate) const ABOVE: f64 = 1e-3;
 /// Part of the largest tabulated value below which an error is not relative to the value itself.
 const FLOOR: f64 = 1e-4;
 
-/// Most nodes of a table.
-const MOST_NODES: usize = 200_000;
+/// Most nodes at one depth, which take some minutes.
+const MOST_NODES: f64 = 3e5;
 
 /// A half-space, perhaps with attenuation.
 #[derive(Debug, Clone)]
@@ -151,13 +151,6 @@ impl Curve {
             high.min(RAYLEIGH_ONLY.max(low))
         };
         let spacing = Spacing::new([low, end], STEP, STEP / FAR_STEP);
-        NoiseError::unless(
-            spacing.count <= MOST_NODES,
-            "the distance in wavelengths",
-            high / TAU,
-            "(0, 1600)",
-            ": use lower frequencies, or a smaller area",
-        )?;
         let loss = ground.unit_law.map_or(Complex64::from(1.0), |law| {
             law.speed_factor(unit_frequency(ground.kernel.medium()))
                 .inv()
@@ -257,13 +250,26 @@ impl Sheet {
         // a node serves the frequencies up to two nodes away
         let around = |nodes: &Spacing, i: f64| {
             let low = nodes.node(i - 2.0) * distances_m[0];
-            let high = nodes.node(i + 2.0) * distances_m[1];
-            Curve::new(ground, nodes.node(i), [low / depth_m, high / depth_m])
+            [
+                low / depth_m,
+                nodes.node(i + 2.0) * distances_m[1] / depth_m,
+            ]
         };
+        let of_curve = |nodes: &Spacing, i: usize| around(nodes, i as f64)[1] / FAR_STEP;
+        let nodes = depths.map_or(0.0, |all| (0..all.count).map(|i| of_curve(&all, i)).sum());
+        NoiseError::unless(
+            nodes <= MOST_NODES,
+            format!("the number of responses at z_m = {depth_m}"),
+            nodes,
+            "[0, 3e5]",
+            ": use lower frequencies, a smaller area, or z_m = 0",
+        )?;
         let curves = match &depths {
             None => vec![Curve::new(ground, 0.0, ends)?],
             Some(nodes) => {
-                let curves = (0..nodes.count).map(|i| around(nodes, i as f64));
+                let ends = |i: usize| around(nodes, i as f64);
+                let curves =
+                    (0..nodes.count).map(|i| Curve::new(ground, nodes.node(i as f64), ends(i)));
                 curves.collect::<Result<_, _>>()?
             }
         };

@@ -70,7 +70,7 @@ impl Pulse {
     /// At a frequency times contact time.
     fn at(&self, place: f64) -> Complex64 {
         let place = place / STEP;
-        if !(place < END / STEP) {
+        if place.is_nan() || place >= END / STEP {
             return Complex64::default();
         }
         let first = place as usize;

@@ -5,6 +5,7 @@ use crate::error::NoiseError;
 use crate::ground::{ABOVE, AtFrequency, Ground, Sheet};
 use crate::pulses::{Blow, Pulses};
 use crate::spacing::Spacing;
+use std::f64::consts::TAU;
 use std::ops::{AddAssign, Mul};
 
 /// A place at which the motion is computed.
@@ -134,6 +135,15 @@ impl Noise {
                 None => depths.push((receiver.depth_m, [low, high])),
             }
         }
+        let most = depths.iter().map(|(_, ends)| ends[1]).fold(0.0, f64::max);
+        let waves = most * self.ground.wave_number(frequencies_hz[1]) / TAU;
+        NoiseError::unless(
+            waves <= MOST_WAVES,
+            "the largest distance in wavelengths of shear waves",
+            waves,
+            "[0, 8000]",
+            ": use lower frequencies, or a smaller area",
+        )?;
         // the nodes of bins lie beyond the impacts by up to two steps
         let wave_number = self.ground.wave_number(frequencies_hz[1]);
         let most_m = 2.5 * FAR_BIN_STEP / wave_number;
@@ -144,6 +154,25 @@ impl Noise {
         let made =
             made.map(|(depth_m, ends)| Sheet::new(&self.ground, depth_m, frequencies_hz, ends));
         made.collect()
+    }
+
+    /// The nodes in distance of all receivers, up to a frequency in Hz; at each there are sums at `together` frequencies.
+    pub(crate) fn bins(&self, highest_hz: f64, together: usize) -> Result<Vec<Bins>, NoiseError> {
+        let wave_number = self.ground.wave_number(highest_hz);
+        let bins = self.receivers.iter().map(|one| {
+            let ends_m = self.distances_m(one)?;
+            Ok(Bins::new(one.depth_m, ends_m, wave_number))
+        });
+        let bins: Vec<Bins> = bins.collect::<Result<_, NoiseError>>()?;
+        let sums = together * bins.iter().map(|one| one.spacing.count).sum::<usize>();
+        NoiseError::unless(
+            sums as f64 <= MOST_SUMS,
+            "the number of sums over impacts",
+            sums as f64,
+            "[0, 3e7]",
+            ": use lower frequencies, a larger step_s, fewer receivers or a smaller area",
+        )?;
+        Ok(bins)
     }
 
     /// The responses for a receiver at a frequency in Hz.
@@ -163,6 +192,12 @@ impl Noise {
 /// off by 3e-3 (`listed_impacts_add_their_powers`).
 const BIN_STEP: f64 = 0.1;
 const FAR_BIN_STEP: f64 = 0.5;
+
+/// Largest distance in wavelengths of shear waves: a spectrum takes a second there.
+const MOST_WAVES: f64 = 8000.0;
+
+/// Most sums that are held in memory for each thread: 480 MB.
+const MOST_SUMS: f64 = 3e7;
 
 /// Nodes in distance between which impacts are interpolated, for one receiver.
 #[derive(Debug, Clone, Copy)]

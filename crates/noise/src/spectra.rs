@@ -149,11 +149,12 @@ impl Noise {
         let edges_m: Vec<Vec<f64>> = (self.receivers.iter().zip(&ends_m))
             .map(|(receiver, ends_m)| edges(receiver.depth_m, *ends_m))
             .collect();
-        let wave_number = self.ground.wave_number(ends[1]);
-        let bins = self.receivers.iter().zip(&ends_m);
-        let bins = bins.map(|(one, ends_m)| Bins::new(one.depth_m, *ends_m, wave_number));
+        let bins = match &self.source {
+            Source::Poisson { .. } => Vec::new(),
+            Source::Listed { .. } => self.bins(ends[1], CHUNK)?,
+        };
         let around = Around {
-            bins: bins.collect(),
+            bins,
             sheets,
             ends_m,
             edges_m,
@@ -222,10 +223,8 @@ impl Noise {
             Source::Poisson { .. } => None,
             Source::Listed { places_m, .. } => Some(places_m),
         };
-        let counts = bins
-            .iter()
-            .map(|bins| places_m.map_or(0, |_| bins.spacing.count));
-        let mut listed: Vec<Vec<f64>> = counts.map(|n| vec![0.0; n * chunk.len()]).collect();
+        let sizes = bins.iter().map(|bins| bins.spacing.count * chunk.len());
+        let mut listed: Vec<Vec<f64>> = sizes.map(|size| vec![0.0; size]).collect();
         let mut powers = vec![0.0; chunk.len()];
         for (i, blow) in self.blows.iter().enumerate() {
             for ((sum, power), &f) in sums.iter_mut().zip(&mut powers).zip(chunk) {

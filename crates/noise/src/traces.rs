@@ -44,7 +44,10 @@ const TILE: usize = 4;
 
 /// Largest number of samples of a tile, and of all traces.
 const MOST_OF_TILE: usize = 1 << 22;
-const MOST_SAMPLES: f64 = 1e9;
+const MOST_SAMPLES: f64 = 1e8;
+
+/// Most impacts of a tile, which are held in memory: 1.2 GB.
+const MOST_IMPACTS: f64 = 3e7;
 
 /// Frequencies that are summed together.
 const CHUNK: usize = 64;
@@ -90,7 +93,7 @@ impl<'a> Tiles<'a> {
             (1.0..=MOST_SAMPLES).contains(&count),
             "the number of samples of all traces",
             count,
-            "[1, 1e9]",
+            "[1, 1e8]",
             ": change duration_s or step_s",
         )?;
         let samples = (duration_s / step_s).round().max(1.0) as usize;
@@ -121,12 +124,17 @@ impl<'a> Tiles<'a> {
         let own = length - fading.ceil() as usize;
         let before = (fading / own as f64).ceil() as usize;
         let lowest_hz = 1.0 / (length as f64 * step_s);
-        let bins = noise.receivers.iter().zip(&ends_m);
-        let highest = noise.ground.wave_number(highest_hz);
-        let bins = bins.map(|(one, ends_m)| Bins::new(one.depth_m, *ends_m, highest));
+        let impacts = noise.rate_per_s() * own as f64 * step_s;
+        NoiseError::unless(
+            impacts <= MOST_IMPACTS,
+            "the number of impacts in a tile",
+            impacts,
+            "[0, 3e7]",
+            ": use a lower rate, a smaller step_s or a smaller area",
+        )?;
         Ok(Self {
             sheets: noise.sheets([lowest_hz, highest_hz])?,
-            bins: bins.collect(),
+            bins: noise.bins(highest_hz, CHUNK)?,
             count: before + samples.div_ceil(own),
             noise,
             recording,
@@ -277,12 +285,12 @@ impl<'a> Tiles<'a> {
             }
         }
         let mut found = Vec::with_capacity(width * noise.receivers.len());
-        for i in 0..noise.receivers.len() {
+        for (i, sums) in sums.iter().enumerate() {
             for j in 0..width {
                 let frequency_hz = unit_hz * (from + j) as f64;
                 let omega = TAU * frequency_hz;
                 let at = noise.at(&self.sheets, i, frequency_hz);
-                let nodes = sums[i].iter().skip(j).step_by(width).enumerate();
+                let nodes = sums.iter().skip(j).step_by(width).enumerate();
                 let nodes = nodes.filter(|(_, sum)| **sum != Complex64::default());
                 let displacement: Complex64 = nodes
                     .map(|(node, sum)| {

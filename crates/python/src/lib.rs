@@ -26,6 +26,7 @@ mod table;
 mod tabulate;
 mod response;
 mod force;
+mod noise;
 mod impact_outcome;
 
 use pyo3::prelude::*;
@@ -39,6 +40,7 @@ mod _core {
         impact_outcome::{Outcome, infer, run_impact},
         kernels::{arrivals, kernel, medium, spectrum, static_field, surface, surface_centre},
         library::{describe, materials},
+        noise::{Noise, compute_noise},
         response::Response,
         scene::{resolved, sections_of},
         sweep::{Plan, check_at_once, plan, plan_of_columns},

@@ -18,7 +18,6 @@ use tabulator::Progress;
 
 const EXAMPLES: &str = "Examples:
   hertzlamb noise scenes/gravel.toml -o gravel.h5
-  hertzlamb plot gravel.h5 -o gravel.svg
 
 Traces that were interrupted are resumed by the same command.";
 

@@ -4,7 +4,7 @@
 mod read;
 mod write;
 
-pub use write::stage_noise;
+pub use write::{Described, Dimension, stage_noise};
 
 use crate::error::SceneError;
 use crate::quantities::QUANTITIES;

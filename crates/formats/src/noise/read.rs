@@ -22,6 +22,9 @@ const SAMPLES: i64 = 10_000;
 const MOST_FREQUENCIES: usize = 100_000;
 const MOST_RECEIVERS: usize = 10_000;
 
+/// Largest number of spectral values, each with its shares.
+const MOST_ROWS: usize = 1_000_000;
+
 /// Shape of an area.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Shape {
@@ -62,6 +65,11 @@ impl NoiseSpec {
         output.allow(schema::OUTPUT)?;
         let receivers = receivers(&root)?;
         let frequency_hz = frequencies(&output)?;
+        let rows = receivers.len() * frequency_hz.len();
+        if rows > MOST_ROWS {
+            let key = "the number of receivers times that of output.frequencies_hz";
+            return Err(SceneError::out_of_range(key, rows as f64, "[1, 1000000]"));
+        }
         let duration_s = output.number_in("duration_s", POSITIVE)?;
         let (mut inputs, mut identity) = (Vec::new(), Identity::default());
         let scene = schema::SCENE.into_iter();
@@ -253,10 +261,7 @@ fn drawn(root: &TomlSection<'_>, scene: &Table, directory: &Path) -> Result<Spec
     };
     let mut random = random.clone();
     random.entry("samples").or_insert(SAMPLES.into());
-    for section in random
-        .keys()
-        .filter(|key| schema::SCENE[..1].contains(&key.as_str()))
-    {
+    if let Some(section) = random.keys().find(|key| *key == schema::SCENE[0]) {
         let what = "all impacts are on the same half-space: draw keys of [striker]";
         return Err(SceneError::unknown_key(
             format!("random.{section}"),

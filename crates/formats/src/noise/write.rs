@@ -1,9 +1,8 @@
 //! Writes noise: `data-schema/noise.md`.
 
 use super::{NoiseResults, NoiseSpec};
-use crate::hdf::{
-    attach_scales, new_file, numbers, reason, scalar, scale, set_scale, text, texts, vector,
-};
+use crate::hdf::{attach_scales, new_file, numbers, reason, scalar, scale, set_scale, text, texts};
+use crate::quantities::Labels;
 use crate::schema::noise as schema;
 use hdf5::File;
 use noise::{Errors, Motion};
@@ -22,6 +21,20 @@ pub fn stage_noise<'a>(
     })
 }
 
+/// Dimension of an array.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Dimension {
+    /// Receivers.
+    Receiver,
+    /// Frequencies.
+    Frequency,
+    /// Distances at which shares are stated.
+    Edge,
+}
+
+/// An array of results: name with unit and meaning, dimensions, numbers.
+pub type Described = (Labels<'static>, Vec<Dimension>, Vec<f64>);
+
 /// Parts of an error, and all of it first.
 fn parts(errors: &Errors) -> [f64; 6] {
     let Errors {
@@ -31,14 +44,64 @@ fn parts(errors: &Errors) -> [f64; 6] {
         response,
         quadrature,
     } = *errors;
-    [
-        errors.total(),
-        sampling,
-        pulses,
-        contact_size,
-        response,
-        quadrature,
-    ]
+    let total = errors.total();
+    [total, sampling, pulses, contact_size, response, quadrature]
+}
+
+impl NoiseResults {
+    /// Length of a dimension.
+    pub fn length(&self, dimension: Dimension) -> usize {
+        match dimension {
+            Dimension::Receiver => self.noise.receivers.len(),
+            Dimension::Frequency => self.spectra.frequency_hz.len(),
+            Dimension::Edge => self.spectra.distance_m[0].len(),
+        }
+    }
+
+    /// Places, spectra, errors and shares; the first is the frequency.
+    pub fn arrays(&self) -> Vec<Described> {
+        use Dimension::{Edge, Frequency, Receiver};
+        let (noise, spectra) = (&self.noise, &self.spectra);
+        let each = 0..noise.receivers.len();
+        let mut found = vec![
+            (
+                schema::FREQUENCY,
+                vec![Frequency],
+                spectra.frequency_hz.clone(),
+            ),
+            (schema::FORCE, vec![Frequency], spectra.force_n2_s2.clone()),
+            (
+                schema::DISTANCE,
+                vec![Receiver, Edge],
+                spectra.distance_m.concat(),
+            ),
+        ];
+        let shares = each
+            .clone()
+            .flat_map(|i| spectra.share(i).flatten().copied());
+        let all = vec![Receiver, Frequency, Edge];
+        found.push((schema::SHARE, all, shares.collect()));
+        for (axis, described) in schema::PLACES.into_iter().enumerate() {
+            let place = |one: &noise::Receiver| match axis {
+                2 => one.depth_m,
+                axis => one.place_m[axis],
+            };
+            let places = noise.receivers.iter().map(place);
+            found.push((described, vec![Receiver], places.collect()));
+        }
+        let motions = [Motion::Vertical, Motion::Horizontal].into_iter();
+        let motions = motions.flat_map(|motion| (0..3).map(move |rate| (motion, rate)));
+        for (described, (motion, rate)) in schema::POWERS.into_iter().zip(motions) {
+            let rows = each.clone().flat_map(|i| spectra.power(i, motion, rate));
+            found.push((described, vec![Receiver, Frequency], rows.collect()));
+        }
+        for (place, described) in schema::ERRORS.into_iter().enumerate() {
+            let rows = each.clone().flat_map(|i| spectra.errors(i));
+            let rows = rows.map(|errors| parts(errors)[place]);
+            found.push((described, vec![Receiver, Frequency], rows.collect()));
+        }
+        found
+    }
 }
 
 fn fill(file: &File, spec: &NoiseSpec, results: &NoiseResults) -> Result<(), hdf5::Error> {
@@ -65,50 +128,22 @@ fn fill(file: &File, spec: &NoiseSpec, results: &NoiseResults) -> Result<(), hdf
     let names: Vec<String> = noise.receivers.iter().map(|one| one.name.clone()).collect();
     let receiver = texts(file, &schema::RECEIVERS, &names)?;
     set_scale(&receiver, schema::RECEIVERS.0)?;
-    for (axis, described) in schema::PLACES.iter().enumerate() {
-        let place = |i: usize| match axis {
-            2 => noise.receivers[i].depth_m,
-            axis => noise.receivers[i].place_m[axis],
-        };
-        let places: Vec<f64> = (0..count).map(place).collect();
-        attach_scales(&vector(file, described, &places)?, &[&receiver])?;
-    }
+    let edges: Vec<i64> = (0..results.length(Dimension::Edge) as i64).collect();
+    let edge = scale(file, &schema::EDGE, &edges)?;
     let frequency = scale(file, &schema::FREQUENCY, &spectra.frequency_hz)?;
-    attach_scales(
-        &vector(file, &schema::FORCE, &spectra.force_n2_s2)?,
-        &[&frequency],
-    )?;
-    let shape = [count, spectra.frequency_hz.len()];
-    let motions = [Motion::Vertical, Motion::Horizontal].into_iter();
-    let motions = motions.flat_map(|motion| (0..3).map(move |derivatives| (motion, derivatives)));
-    for (described, (motion, derivatives)) in schema::POWERS.iter().zip(motions) {
-        let rows = (0..count).flat_map(|i| spectra.power(i, motion, derivatives));
-        let dataset = numbers(file, described, &shape, &rows.collect::<Vec<f64>>())?;
-        attach_scales(&dataset, &[&receiver, &frequency])?;
+    let scale_of = |dimension: &Dimension| match dimension {
+        Dimension::Receiver => &receiver,
+        Dimension::Frequency => &frequency,
+        Dimension::Edge => &edge,
+    };
+    for (described, dimensions, values) in results.arrays().iter().skip(1) {
+        let shape: Vec<usize> = dimensions.iter().map(|one| results.length(*one)).collect();
+        let dataset = numbers(file, described, &shape, values)?;
+        attach_scales(
+            &dataset,
+            &dimensions.iter().map(scale_of).collect::<Vec<_>>(),
+        )?;
     }
-    for (place, described) in schema::ERRORS.iter().enumerate() {
-        let rows =
-            (0..count).flat_map(|i| spectra.errors(i).map(move |errors| parts(errors)[place]));
-        let dataset = numbers(file, described, &shape, &rows.collect::<Vec<f64>>())?;
-        attach_scales(&dataset, &[&receiver, &frequency])?;
-    }
-    let edges = spectra.distance_m[0].len();
-    let edge = scale(
-        file,
-        &schema::EDGE,
-        &(0..edges as i64).collect::<Vec<i64>>(),
-    )?;
-    let distances = numbers(
-        file,
-        &schema::DISTANCE,
-        &[count, edges],
-        &spectra.distance_m.concat(),
-    )?;
-    attach_scales(&distances, &[&receiver, &edge])?;
-    let shares = (0..count).flat_map(|i| spectra.share(i).flatten().copied());
-    let shares = shares.collect::<Vec<f64>>();
-    let dataset = numbers(file, &schema::SHARE, &[shape[0], shape[1], edges], &shares)?;
-    attach_scales(&dataset, &[&receiver, &frequency, &edge])?;
     if let (Some(traces), Some(recording)) = (traces, spec.recording) {
         let group = file.create_group(schema::TRACES)?;
         let samples = traces.len() / count;
