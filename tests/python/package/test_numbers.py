@@ -519,9 +519,10 @@ def test_spectra_are_right_and_broadcast():
 
 
 def test_attenuation_damps_fields_and_not_the_contact():
-    soft = {**BALL, "target": {**BALL["target"], "quality_factor": 30, "reference_frequency_hz": 1e5}}
+    soft = {**BALL, "target": {**BALL["target"], "quality_factor": 30, "reference_frequency_hz": 1e3}}
     elastic, damped = hl.impact(BALL), hl.impact(soft)
     assert damped.peak_force_n == elastic.peak_force_n
+    # at the frequencies of a contact the block is stiffer than at the reference, and waves lose energy
     peaks = [np.max(np.abs(run.probes.displacement_z)) for run in (elastic, damped)]
     assert peaks[1] < peaks[0]
     assert any("quality_factor" in warning for warning in damped.warnings)
