@@ -261,13 +261,10 @@ fn drawn(root: &TomlSection<'_>, scene: &Table, directory: &Path) -> Result<Spec
     };
     let mut random = random.clone();
     random.entry("samples").or_insert(SAMPLES.into());
-    for section in random
-        .keys()
-        .filter(|key| schema::SCENE[..1].contains(&key.as_str()))
-    {
+    if random.contains_key("target") {
         let what = "all impacts are on the same half-space: draw keys of [striker]";
         return Err(SceneError::unknown_key(
-            format!("random.{section}"),
+            "random.target".to_owned(),
             None,
             what,
         ));
