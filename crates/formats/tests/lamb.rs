@@ -113,6 +113,11 @@ fn bad_cases_are_one_sentence() {
             "material = \"granite\"\nthickness_m = 1",
             "target.thickness_m cannot be combined",
         ),
+        (
+            "material = \"granite\"",
+            "material = \"granite\"\nquality_factor = 20",
+            "target.quality_factor cannot be combined",
+        ),
         ("[[receiver]]", "[receiver]", "write [[receiver]]"),
     ] {
         let error = told(from, to);

@@ -203,6 +203,11 @@ fn what_cannot_be_used_is_rejected_by_name() {
             "[impacts]\nfile = \"none.csv\"\n[area]",
             "[area] cannot be combined with [impacts]",
         ),
+        (
+            "[target]\n",
+            "[target]\nthickness_m = 1.0\nechoes = 2\n",
+            "target.echoes cannot be combined with noise",
+        ),
         ("[area]", "[map]\n[area]", "unknown key map"),
         ("diameter_m", "diameter", "unknown key striker.diameter"),
     ] {

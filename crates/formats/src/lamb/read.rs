@@ -64,6 +64,13 @@ fn case_of(table: &Table, folder: &Path) -> Result<LambCase, SceneError> {
             "the block is a half-space",
         ));
     }
+    if target.attenuation.is_some() {
+        return Err(SceneError::superfluous(
+            "target.quality_factor".to_owned(),
+            "Lamb's problem",
+            "the half-space is elastic",
+        ));
+    }
     let part =
         |name: &'static str, hint| root.section(name)?.ok_or_else(|| root.missing(name, hint));
     let source = part("source", "describe the force in a section [source]")?;

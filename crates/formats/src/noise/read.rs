@@ -256,15 +256,25 @@ fn area_of(section: &TomlSection<'_>) -> Result<Area, SceneError> {
 
 /// The drawn bodies as a sweep; one body without `[random]`.
 fn drawn(root: &TomlSection<'_>, scene: &Table, directory: &Path) -> Result<Spec, SceneError> {
+    let target = scene.get("target").and_then(Value::as_table);
+    let of_plates = ["echoes", "until_s"].into_iter();
+    let mut asked = of_plates.filter(|key| target.is_some_and(|own| own.contains_key(*key)));
+    if let Some(key) = asked.next() {
+        return Err(SceneError::superfluous(
+            format!("target.{key}"),
+            "noise",
+            "the responses are those of a half-space",
+        ));
+    }
     let Some(random) = root.value("random").and_then(Value::as_table) else {
         return Spec::of_columns(scene, directory, constant(Vec::new(), scene, 1));
     };
     let mut random = random.clone();
     random.entry("samples").or_insert(SAMPLES.into());
-    if let Some(section) = random.keys().find(|key| *key == schema::SCENE[0]) {
+    if random.contains_key("target") {
         let what = "all impacts are on the same half-space: draw keys of [striker]";
         return Err(SceneError::unknown_key(
-            format!("random.{section}"),
+            "random.target".to_owned(),
             None,
             what,
         ));
