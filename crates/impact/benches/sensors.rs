@@ -1,10 +1,12 @@
-//! A sensor with a face against a point at the same place, whole scenes: `cargo bench --package hertzlamb-impact --bench sensors`.
+//! A sensor with a face, and a point in a block with attenuation, against a point at the same place, whole scenes:
+//! `cargo bench --package hertzlamb-impact --bench sensors`.
 
 #![allow(missing_docs, reason = "criterion's macros make undocumented items")]
 #![allow(clippy::unwrap_used, reason = "a bench may panic")]
 
 use contact::{HalfSpace, Material, Settings, Striker};
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
+use halfspace::Attenuation;
 use impact::{
     ForceRecord, KernelChoice, Load, Measured, Probe, Quantity, Scene, Sensor, Strike, simulate,
 };
@@ -66,6 +68,8 @@ fn faces(c: &mut Criterion) {
                 let mut point = scene(&load, tolerance);
                 point.probes = vec![Probe { r_m, z_m }];
                 point.quantities = quantity.into_iter().collect();
+                let mut damped = point.clone();
+                damped.target.attenuation = Some(Attenuation::new(50.0, 1e6).unwrap());
                 let mut sensor = scene(&load, tolerance);
                 sensor.sensors = vec![Sensor {
                     r_m,
@@ -75,7 +79,7 @@ fn faces(c: &mut Criterion) {
                     response: None,
                 }];
                 let what = format!("{name} {measured:?} {tolerance:e}");
-                for (kind, scene) in [("point", point), ("sensor", sensor)] {
+                for (kind, scene) in [("point", point), ("damped", damped), ("sensor", sensor)] {
                     group.bench_function(BenchmarkId::new(kind, &what), |b| {
                         b.iter(|| black_box(simulate(&scene, &KernelChoice::Direct).unwrap()));
                     });

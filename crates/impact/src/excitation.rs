@@ -138,6 +138,10 @@ pub struct Motion {
     pub deflection_m: f64,
 }
 
+/// Quality factor from which a block is elastic: attenuation changes fields by its inverse times the wave lengths of the path, which
+/// is below 1e-10 then (`without_attenuation_fields_are_elastic`).
+const ELASTIC: f64 = 1e12;
+
 impl Excitation {
     /// The excitation of a contact: its history in collision units, and its duration in s; `radius` is that of the
     /// pressure.
@@ -197,7 +201,9 @@ impl Excitation {
             force,
             radius,
             relative_error,
-            attenuation: half_space.attenuation,
+            attenuation: half_space
+                .attenuation
+                .filter(|law| law.quality_factor() < ELASTIC),
         })
     }
 

@@ -154,7 +154,7 @@ fn damped_fields_are_those_of_spectra() {
 fn without_attenuation_fields_are_elastic() {
     let places = [[0.01, 0.0], [0.001, 0.002], [1e-4, 0.0]];
     for load in [ball(1.0), pulse(4e-6)] {
-        let [elastic, damped] = [None, Some(1e12)].map(|quality| {
+        let [elastic, damped, none] = [None, Some(9e11), Some(1e12)].map(|quality| {
             let mut asked = scene(block(quality), load.clone(), &places);
             asked.settings.tolerance = 1e-4;
             if matches!(load, Load::Record(_)) {
@@ -162,6 +162,7 @@ fn without_attenuation_fields_are_elastic() {
             }
             simulate(&asked, &KernelChoice::Direct).unwrap()
         });
+        assert_eq!(elastic.probes, none.probes);
         let count = elastic.series.time_s.len().min(damped.series.time_s.len());
         for probe in 0..places.len() {
             for sample in 0..count {

@@ -50,7 +50,7 @@ fn numbers_and_lengths() {
         ("valid_until_s", |p| {
             p.traces[0].valid_until_s = Some(f64::INFINITY);
         }),
-        ("the number of valid samples of trace 1", |p| {
+        ("the largest value of response 1", |p| {
             p.traces[0].valid_until_s = Some(0.2);
         }),
         ("the number of valid samples of trace 1", |p| {
