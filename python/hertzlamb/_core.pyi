@@ -13,6 +13,7 @@ _Path = str | PathLike[str]
 
 __all__ = [
     "Force",
+    "Noise",
     "Outcome",
     "Plan",
     "Response",
@@ -28,6 +29,7 @@ __all__ = [
     "kernel",
     "materials",
     "medium",
+    "noise",
     "plan",
     "plan_of_columns",
     "resolved",

@@ -212,12 +212,12 @@ class Spectrum(Fields):
     @property
     def velocity_r(self) -> Complexes:
         """Radial velocity (...) in P c1/(mu r0^2)."""
-        return 2j * np.pi * self.frequency * self.displacement_r
+        return np.asarray(2j * np.pi * self.frequency * self.displacement_r, dtype=np.complex128)
 
     @property
     def velocity_z(self) -> Complexes:
         """Axial velocity (...) in P c1/(mu r0^2), positive into the half-space."""
-        return 2j * np.pi * self.frequency * self.displacement_z
+        return np.asarray(2j * np.pi * self.frequency * self.displacement_z, dtype=np.complex128)
 
     def __getstate__(self) -> dict[str, Any]:
         return {"array": self.array, "error": self.error.array, "frequency": self.frequency}
