@@ -1,7 +1,7 @@
 //! Ground motion of many impacts on an elastic half-space.
 //!
 //! Impacts fall on an [`Area`] as a Poisson process, or are listed with their times and places ([`Source`]).
-//! [`Noise::spectra`] returns the power spectra at receivers by Campbell's theorem, [`Noise::block`] a part of the traces by
+//! [`Noise::spectra`] returns the power spectra at receivers by Campbell's theorem, [`Tiles::tile`] a part of the traces by
 //! superposition.
 //! Each impact is a vertical point force with the spectrum of its contact, [`Pulses`]; the half-space is exact ([`Ground`]).
 //! Nothing here reads or writes a file.

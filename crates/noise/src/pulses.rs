@@ -36,7 +36,7 @@ const END: f64 = 32.0;
 /// Nodes of the midpoint rule over a pulse; half as many change no digit that counts (`a_pulse_has_hertz_spectrum`).
 const INTEGRATED: usize = 1024;
 
-/// The spectrum of one pulse of unit area, at multiples of [`STEP`] from the first negative one on, with time from half of the
+/// The spectrum of one pulse of unit area, at multiples of a step from the first negative one on, with time from half of the
 /// contact.
 #[derive(Debug, Clone)]
 pub struct Pulse(Vec<Complex64>);
