@@ -23,8 +23,10 @@ const LEAST_EXPONENT: f64 = -4.0;
 /// Largest logarithm of the ratio of times that counts; the density falls as its exponential.
 const LONGEST: f64 = 60.0;
 
-/// Terms of the density on a panel: with fewer `densities_have_mass_one` fails.
-const TERMS: usize = 20;
+/// Terms of the density on a panel, in addition to one for each digit, and exponent that its integral leaves out, in addition to
+/// that of the tolerance: with fewer `densities_have_mass_one` fails.
+const TERMS: f64 = 8.0;
+const FALLEN: f64 = 14.0;
 
 /// Digits of a panel with one group of nodes, and more of each further group (`densities_have_mass_one`,
 /// `damped_fields_are_those_of_spectra`).
@@ -119,18 +121,19 @@ impl Damping {
 
     fn panel(&self, x: [f64; 2]) -> Panel {
         let [middle, half] = [0.5 * (x[0] + x[1]), 0.5 * (x[1] - x[0])];
-        let angle = |i: usize| PI * (i as f64 + 0.5) / TERMS as f64;
-        let values: Vec<Both> = (0..TERMS)
+        let terms = (TERMS - self.tolerance.log10()).round() as usize;
+        let angle = |i: usize| PI * (i as f64 + 0.5) / terms as f64;
+        let values: Vec<Both> = (0..terms)
             .map(|i| self.density(middle + half * angle(i).cos()))
             .collect();
         let series = [0, 1].map(|kind| {
             let term = |k: usize| {
-                let sum: f64 = (0..TERMS)
+                let sum: f64 = (0..terms)
                     .map(|i| values[i][kind] * (k as f64 * angle(i)).cos())
                     .sum();
-                sum * if k == 0 { 1.0 } else { 2.0 } / TERMS as f64
+                sum * if k == 0 { 1.0 } else { 2.0 } / terms as f64
             };
-            (0..TERMS).map(term).collect()
+            (0..terms).map(term).collect()
         });
         let mut panel = Panel {
             x,
@@ -180,8 +183,6 @@ impl Damping {
     fn density(&self, x: f64) -> Both {
         /// Vertex of the parabola times the rate at which the integrand falls, for large x.
         const VERTEX: f64 = 3.0;
-        /// Exponent that is left out.
-        const FALLEN: f64 = 42.0;
         let (g, one) = (self.g, Complex64::from(1.0));
         let y = self.y(x);
         let a = y.exp_m1() / g;
@@ -203,7 +204,7 @@ impl Damping {
             let log = s.ln();
             let exponent = s * (a - h(log));
             largest = largest.max(exponent.re);
-            if exponent.re < largest - FALLEN {
+            if exponent.re < largest - FALLEN + self.tolerance.ln() {
                 break;
             }
             let slope = 2.0 * Complex64::i() * vertex * root;
