@@ -3,10 +3,33 @@
 use crate::quantities::Labels;
 use hdf5::dataset::{AllocTime, FillTime};
 use hdf5::types::TypeDescriptor;
-use hdf5::{Dataset, Group, H5Type};
+use hdf5::{Dataset, File, Group, H5Type};
 use lookup::labels::unicode;
 pub(crate) use lookup::labels::{array, attach_scales, scalar, set_scale, text};
 pub(crate) use lookup::new::{new_file, reason};
+use output::{Output, OutputError, OutputFault, Staged};
+
+/// Writes a file into an output that was claimed before the work: its type and the version of its format, then the rest.
+///
+/// # Errors
+/// [`OutputError`].
+pub(crate) fn stage<'a>(
+    output: &'a Output,
+    [file_type, format_version]: [&str; 2],
+    fill: impl FnOnce(&File) -> Result<(), hdf5::Error>,
+) -> Result<Staged<'a>, OutputError> {
+    let all = |file: &File| {
+        text(file, "file_type", file_type)?;
+        text(file, "format_version", format_version)?;
+        text(file, "software_version", env!("CARGO_PKG_VERSION"))?;
+        fill(file)
+    };
+    output.stage_made(|name| {
+        new_file(name, |file, _| {
+            all(file).map_err(|error| OutputFault::from(reason(&error)))
+        })
+    })
+}
 
 /// A dataset of one dimension.
 pub(crate) fn vector<T: H5Type>(

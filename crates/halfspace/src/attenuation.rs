@@ -58,15 +58,6 @@ impl Attenuation {
         self.reference
     }
 
-    /// The same law where the unit of time is multiplied by `factor`.
-    #[must_use]
-    pub fn scaled(&self, factor: f64) -> Self {
-        Self {
-            reference: self.reference * factor,
-            ..*self
-        }
-    }
-
     /// The exponent g = atan(1/Q)/pi.
     pub(crate) fn exponent(&self) -> f64 {
         self.quality_factor.recip().atan() / PI

@@ -15,7 +15,7 @@ use crate::attenuation::Attenuation;
 use crate::numeric::gauss;
 use crate::numeric::polynomial::chebyshev;
 use num_complex::Complex64;
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// Exponent of the density at its smallest x, below the logarithm of the tolerance (`densities_have_mass_one`).
 const LEAST_EXPONENT: f64 = -4.0;
@@ -183,7 +183,10 @@ impl Damping {
     fn density(&self, x: f64) -> Both {
         /// Vertex of the parabola times the rate at which the integrand falls, for large x.
         const VERTEX: f64 = 3.0;
-        let (g, one) = (self.g, Complex64::from(1.0));
+        /// Largest step on the parabola, times the root of the vertex and as it is, and most nodes: a hundred are usual.
+        const STEPS: [f64; 2] = [0.35, 0.1];
+        const MOST: u32 = 2000;
+        let g = self.g;
         let y = self.y(x);
         let a = y.exp_m1() / g;
         // the exponent is S (a - h(S)), h = ((S/g)^-g - 1)/g
@@ -194,10 +197,10 @@ impl Damping {
         let [saddle, _] = saddle(g, x);
         let rate = a - (g * g.ln()).exp_m1() / g;
         let vertex = saddle.max(VERTEX / (rate.max(0.0) + VERTEX));
-        let step = (0.35 / vertex.sqrt()).min(0.1);
+        let step = (STEPS[0] / vertex.sqrt()).min(STEPS[1]);
         let mut sums = [Complex64::default(); 2];
         let mut largest = f64::NEG_INFINITY;
-        for i in 0..2000 {
+        for i in 0..MOST {
             let u = step * f64::from(i);
             let root = Complex64::new(1.0, u);
             let s = vertex * root * root;
@@ -210,12 +213,12 @@ impl Damping {
             let slope = 2.0 * Complex64::i() * vertex * root;
             let weight = if i == 0 { 0.5 } else { 1.0 } * step;
             for (sum, v) in sums.iter_mut().zip(KINDS) {
-                *sum += weight * slope * (exponent - v * g * (log - g.ln()) * one).exp();
+                *sum += weight * slope * (exponent - v * g * (log - g.ln())).exp();
             }
         }
         // both halves of the parabola are conjugates
         let [displacements, stresses] = sums.map(|sum| (1.0 - g) * sum.im / PI);
-        [displacements * (-2.0 * y).exp().powf(g), stresses]
+        [displacements * (-2.0 * g * y).exp(), stresses]
     }
 
     /// Time until which the elastic response is needed for the damped one until `end`, for a unit of time of which the
@@ -226,20 +229,18 @@ impl Damping {
 
     /// tau at y = 0.
     fn elastic(&self, t: f64, reference: f64) -> f64 {
-        let omega = std::f64::consts::TAU * reference;
-        t * (omega * t).powf(-self.g)
+        t * (TAU * reference * t).powf(-self.g)
     }
 
     /// Time at which an elastic response at tau has its largest weight, and the one before which it has none.
     pub(crate) fn arrival(&self, tau: f64, reference: f64) -> [f64; 2] {
-        let omega = std::f64::consts::TAU * reference;
-        let t = tau * (omega * tau).powf(self.g / (1.0 - self.g));
+        let t = tau * (TAU * reference * tau).powf(self.g / (1.0 - self.g));
         [0.0, self.first].map(|x| t * self.y(x).exp())
     }
 
     /// Factor of displacements at a time.
     pub(crate) fn creep(&self, t: f64, reference: f64) -> f64 {
-        (std::f64::consts::TAU * reference * t).powf(2.0 * self.g)
+        (TAU * reference * t).powf(2.0 * self.g)
     }
 
     /// Calls `add` with groups of instants tau and weights of displacements and stresses for D at a time, from the instant that has

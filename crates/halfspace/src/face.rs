@@ -232,7 +232,7 @@ impl Kernel {
             size: mean,
             most_segments: MOST_SEGMENTS,
         };
-        Trace::of(&signal, end, wanted, |t| {
+        Trace::of(signal, end, wanted, |t| {
             self.mean_remainder(face, z, t, &mean)
         })
     }

@@ -4,6 +4,7 @@
 //! pulse depends on the law, on radiation and on flow, which all show in the time of its peak over the contact time: a few solved
 //! contacts, equidistant in it, serve all impacts, linearly between two of them. Other solved contacts measure the error.
 
+use crate::spacing::cubic;
 use num_complex::Complex64;
 use std::f64::consts::{PI, TAU};
 
@@ -74,12 +75,9 @@ impl Pulse {
             return Complex64::default();
         }
         let first = place as usize;
-        let t = place - first as f64;
-        let [before, after, beyond] = [t + 1.0, t - 1.0, t - 2.0];
-        self.0[first] * (-t * after * beyond / 6.0)
-            + self.0[first + 1] * (before * after * beyond / 2.0)
-            + self.0[first + 2] * (-before * t * beyond / 2.0)
-            + self.0[first + 3] * (before * t * after / 6.0)
+        let weights = cubic(place - first as f64);
+        let terms = self.0[first..].iter().zip(weights);
+        terms.map(|(value, weight)| value * weight).sum()
     }
 }
 

@@ -44,16 +44,19 @@ impl Spacing {
         let place = (x.ln() + self.linear * x - self.start) / self.step;
         let place = place.clamp(1.0, (self.count - 2) as f64);
         let first = (place as usize - 1).min(self.count - 4);
-        let t = place - first as f64 - 1.0;
-        let [before, after, beyond] = [t + 1.0, t - 1.0, t - 2.0];
-        let weights = [
-            -t * after * beyond / 6.0,
-            before * after * beyond / 2.0,
-            -before * t * beyond / 2.0,
-            before * t * after / 6.0,
-        ];
-        (first, weights)
+        (first, cubic(place - first as f64 - 1.0))
     }
+}
+
+/// Weights of the values at -1, 0, 1 and 2 of the cubic through them, at t.
+pub(crate) fn cubic(t: f64) -> [f64; 4] {
+    let [before, after, beyond] = [t + 1.0, t - 1.0, t - 2.0];
+    [
+        -t * after * beyond / 6.0,
+        before * after * beyond / 2.0,
+        -before * t * beyond / 2.0,
+        before * t * after / 6.0,
+    ]
 }
 
 #[cfg(test)]

@@ -11,6 +11,7 @@ use crate::area::Area;
 use crate::error::NoiseError;
 use crate::ground::{AtFrequency, Sheet};
 use crate::source::{Bins, Noise, Receiver, Source, distance_m};
+use crate::spacing::cubic;
 use halfspace::gauss::rule;
 use rayon::prelude::*;
 use std::f64::consts::{PI, TAU};
@@ -290,10 +291,10 @@ fn summed(at: &AtFrequency<'_>, bins: &Bins, powers: &[f64], edges_m: &[f64]) ->
     }
     // the interpolation in the middle between nodes is as wrong as anywhere
     for (i, around) in responses.windows(4).enumerate() {
-        let cubic = [-1.0, 9.0, 9.0, -1.0].iter().zip(around);
-        let cubic: f64 = cubic.map(|(weight, node)| weight * node[1] / 16.0).sum();
+        let terms = cubic(0.5).into_iter().zip(around);
+        let between: f64 = terms.map(|(weight, node)| weight * node[1]).sum();
         let exact = at.power(bins.node_m(i as f64 + 1.5))[1];
-        row.errors.quadrature += powers[i + 1].abs() * (cubic - exact).abs();
+        row.errors.quadrature += powers[i + 1].abs() * (between - exact).abs();
     }
     row.over_power();
     row

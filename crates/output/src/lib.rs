@@ -37,7 +37,8 @@ pub use error::{OutputError, OutputFault};
 pub use folder::{Folder, is_hidden};
 pub use journal::{Journal, Record, Records, Title, packed, unpacked};
 pub use place::{
-    CSV, Ending, HDF5, PARQUET, ROWS, Role, SHARD, TABLE, apart, behind, folder, is_standard,
+    CSV, Ending, HDF5, HISTORIES, PARQUET, ROWS, Role, SHARD, TABLE, apart, behind, folder,
+    is_standard,
 };
 pub use room::{MOST_THREADS, free_address_space, free_disk, free_memory, processor_s};
 pub use temporary::abandon;

@@ -181,6 +181,12 @@ pub const ROWS: Ending = Ending(
     &["h5", "hdf5", "hdf", "vtkhdf", "parquet"],
 );
 
+/// Histories as text or HDF5.
+pub const HISTORIES: Ending = Ending(
+    "text in columns or an HDF5 file",
+    &["csv", "txt", "h5", "hdf5", "hdf", "vtkhdf"],
+);
+
 /// Text in columns.
 pub const CSV: Ending = Ending("text in columns", &["csv", "txt"]);
 

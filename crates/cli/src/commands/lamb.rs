@@ -3,7 +3,8 @@
 use crate::arguments::Overwrite;
 use crate::failure::{Failure, say, show};
 use clap::Args;
-use formats::lamb::{LambCase, LambHistory, check_lamb, read_lamb, stage_lamb};
+use formats::lamb::{LambCase, LambHistory, read_lamb, stage_lamb};
+use output::HISTORIES;
 use serde::Serialize;
 use std::fmt::{self, Display, Formatter};
 use std::path::PathBuf;
@@ -85,7 +86,7 @@ impl Display for Report {
 
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let path = &arguments.output;
-    check_lamb(path)?;
+    HISTORIES.check(path)?;
     let case = read_lamb(&arguments.case)?;
     let output = arguments.overwrite.claim(path, &case.inputs)?;
     if let Some(warning) = case.warning() {

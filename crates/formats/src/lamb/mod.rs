@@ -8,7 +8,7 @@ mod write;
 
 pub use columns::{Compared, compare_files};
 pub use read::read_lamb;
-pub use write::{check_lamb, stage_lamb};
+pub use write::stage_lamb;
 
 use contact::HalfSpace;
 use oracle::{COMPONENTS, Load, OracleError, Quantity, TimeFunction, histories};

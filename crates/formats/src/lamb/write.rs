@@ -1,25 +1,13 @@
 //! Writes histories as text or HDF5: `data-schema/lamb.md`.
 
 use super::{LambCase, LambHistory};
-use crate::hdf::{attach_scales, new_file, reason, scalar, scale, text, vector};
+use crate::hdf::{attach_scales, scalar, scale, stage, text, vector};
 use crate::results::{ending, write_columns};
 use crate::schema::lamb as schema;
 use hdf5::File;
-use output::{CSV, HDF5, Output, OutputError, OutputFault, Staged};
+use output::{CSV, Output, OutputError, Staged};
 use std::io::{BufWriter, Write};
 use std::path::Path;
-
-/// Checks that the file extension is that of text or of HDF5.
-///
-/// # Errors
-/// [`OutputError`].
-pub fn check_lamb(path: &Path) -> Result<(), OutputError> {
-    if CSV.is_of(path) {
-        Ok(())
-    } else {
-        HDF5.check(path)
-    }
-}
 
 /// Writes histories into an output that was claimed before the work; committing it gives the file its name.
 ///
@@ -63,22 +51,12 @@ pub fn stage_lamb<'a>(
             file.flush()
         });
     }
-    output.stage_made(|name| {
-        new_file(name, |file, _| {
-            fill(file, case, found).map_err(|error| OutputFault::from(reason(&error)))
-        })
-    })
+    let kind = [schema::FILE_TYPE, schema::FORMAT_VERSION];
+    stage(output, kind, |file| fill(file, case, found))
 }
 
 fn fill(file: &File, case: &LambCase, found: &[LambHistory]) -> Result<(), hdf5::Error> {
-    for (name, value) in [
-        ("file_type", schema::FILE_TYPE),
-        ("format_version", schema::FORMAT_VERSION),
-        ("software_version", env!("CARGO_PKG_VERSION")),
-        (schema::CASE, &case.text),
-    ] {
-        text(file, name, value)?;
-    }
+    text(file, schema::CASE, &case.text)?;
     let time = scale(file, &schema::TIME, &case.times_s)?;
     for (i, receiver) in case.receivers.iter().enumerate() {
         let group = file.create_group(&receiver.name)?;

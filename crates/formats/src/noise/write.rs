@@ -1,12 +1,12 @@
 //! Writes noise: `data-schema/noise.md`.
 
 use super::{NoiseResults, NoiseSpec};
-use crate::hdf::{attach_scales, new_file, numbers, reason, scalar, scale, set_scale, text, texts};
+use crate::hdf::{attach_scales, numbers, scalar, scale, set_scale, stage, text, texts};
 use crate::quantities::Labels;
 use crate::schema::noise as schema;
 use hdf5::File;
 use noise::{Errors, Motion};
-use output::{Output, OutputError, OutputFault, Staged};
+use output::{Output, OutputError, Staged};
 
 /// Writes noise into an output that was claimed before the work; committing it gives the file its name.
 pub fn stage_noise<'a>(
@@ -14,11 +14,8 @@ pub fn stage_noise<'a>(
     spec: &NoiseSpec,
     results: &NoiseResults,
 ) -> Result<Staged<'a>, OutputError> {
-    output.stage_made(|name| {
-        new_file(name, |file, _| {
-            fill(file, spec, results).map_err(|error| OutputFault::from(reason(&error)))
-        })
-    })
+    let kind = [schema::FILE_TYPE, schema::FORMAT_VERSION];
+    stage(output, kind, |file| fill(file, spec, results))
 }
 
 /// Dimension of an array.
@@ -110,13 +107,7 @@ fn fill(file: &File, spec: &NoiseSpec, results: &NoiseResults) -> Result<(), hdf
         spectra,
         traces,
     } = results;
-    for (name, value) in [
-        ("file_type", schema::FILE_TYPE),
-        ("format_version", schema::FORMAT_VERSION),
-        ("software_version", env!("CARGO_PKG_VERSION")),
-        ("noise", &spec.text),
-        ("noise_sha256", &spec.sha256),
-    ] {
+    for (name, value) in [("noise", &spec.text), ("noise_sha256", &spec.sha256)] {
         text(file, name, value)?;
     }
     let counts = [noise.blows.len(), noise.pulses.solved()].map(|count| count as f64);

@@ -4,8 +4,7 @@ use super::identity::scene_sha256;
 use super::section::{beside, waves, write_section};
 use super::sensors::write_sensors;
 use crate::hdf::{
-    attach_scales, new_file, numbers, reason, scalar, scale, set_scale, text, texts as words,
-    vector,
+    attach_scales, numbers, scalar, scale, set_scale, stage, text, texts as words, vector,
 };
 use crate::quantities::QUANTITIES;
 use crate::report::{choices, kernel_name, treatment};
@@ -14,7 +13,7 @@ use crate::schema::results as schema;
 use contact::Choice;
 use hdf5::{Dataset, File};
 use impact::{EchoArrivals, EnergySeries, Outcome, ProbeFields, Scene};
-use output::{Existing, Output, OutputError, OutputFault, Staged};
+use output::{Existing, Output, OutputError, Staged};
 use std::io::{BufWriter, Write};
 use std::path::Path;
 
@@ -35,11 +34,8 @@ pub fn stage_results<'a>(
     scene: &Scene,
     outcome: &Outcome,
 ) -> Result<Staged<'a>, OutputError> {
-    output.stage_made(|name| {
-        new_file(name, |file, _| {
-            fill(file, scene, outcome).map_err(|error| OutputFault::from(reason(&error)))
-        })
-    })
+    let kind = [schema::FILE_TYPE, schema::FORMAT_VERSION];
+    stage(output, kind, |file| fill(file, scene, outcome))
 }
 
 fn fill(file: &File, scene: &Scene, outcome: &Outcome) -> Result<(), hdf5::Error> {
@@ -220,15 +216,12 @@ pub(crate) fn ending(unit: &str) -> String {
 
 /// Text attributes of the root that identify the file and the method of the scene: its [`choices`], its kernel, and the
 /// source of the kernel.
-fn texts<'a>(scene: &Scene, outcome: &'a Outcome) -> [(&'static str, &'a str); 13] {
+fn texts<'a>(scene: &Scene, outcome: &'a Outcome) -> [(&'static str, &'a str); 10] {
     let [model, scheme, static_share, deflection, reason] = choices(scene, outcome);
     let used = outcome.used.as_ref();
     let table = used.and_then(|used| used.table.as_ref());
     let [id, version] = table.map_or(["", ""], |table| table.each_ref().map(String::as_str));
     [
-        ("file_type", schema::FILE_TYPE),
-        ("format_version", schema::FORMAT_VERSION),
-        ("software_version", env!("CARGO_PKG_VERSION")),
         ("model", model),
         ("scheme", scheme),
         ("static_share", static_share),

@@ -1,11 +1,11 @@
 //! Writes the force behind traces: `data-schema/force.md`.
 
 use super::{InferredForce, force_report};
-use crate::hdf::{attach_scales, new_file, numbers, reason, scalar, scale, text, vector};
+use crate::hdf::{attach_scales, numbers, scalar, scale, stage, text, vector};
 use crate::schema::force as schema;
 use hdf5::File;
 use inverse::LCurvePoint;
-use output::{Output, OutputError, OutputFault, Staged};
+use output::{Output, OutputError, Staged};
 
 /// Writes a force into an output that was claimed before the work; committing it gives the file its name.
 pub fn stage_force<'a>(
@@ -13,18 +13,12 @@ pub fn stage_force<'a>(
     scene: &str,
     force: &InferredForce,
 ) -> Result<Staged<'a>, OutputError> {
-    output.stage_made(|name| {
-        new_file(name, |file, _| {
-            fill(file, scene, force).map_err(|error| OutputFault::from(reason(&error)))
-        })
-    })
+    let kind = [schema::FILE_TYPE, schema::FORMAT_VERSION];
+    stage(output, kind, |file| fill(file, scene, force))
 }
 
 fn fill(file: &File, scene: &str, force: &InferredForce) -> Result<(), hdf5::Error> {
     for (name, value) in [
-        ("file_type", schema::FILE_TYPE),
-        ("format_version", schema::FORMAT_VERSION),
-        ("software_version", env!("CARGO_PKG_VERSION")),
         ("scene", scene),
         ("report", &force_report(force).to_string()),
     ] {

@@ -167,7 +167,7 @@ impl Plate {
             let t = t.min(self.latest());
             Ok(self.echoes_of(&waves, Point { r, z, t }))
         };
-        Trace::of(&signal, end, (tolerance, rise), value)
+        Trace::of(signal, end, (tolerance, rise), value)
     }
 
     fn check_inside(&self, r: f64, z: f64) -> Result<(), DomainError> {

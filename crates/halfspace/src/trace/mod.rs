@@ -55,6 +55,7 @@ pub struct Trace {
     before: Six,
     segments: Vec<Segment>,
     breaks: Vec<f64>,
+    /// When fronts arrive, ascending.
     fronts: Vec<f64>,
     /// Estimated error of the response to the force for which the trace was made, over the peak of the force.
     pub error: Six,
@@ -113,7 +114,7 @@ impl Kernel {
             size: static_field,
             most_segments: MOST_SEGMENTS,
         };
-        Trace::of(&signal, end, (tolerance, rise), |t| self.remainder(r, z, t))
+        Trace::of(signal, end, (tolerance, rise), |t| self.remainder(r, z, t))
     }
 }
 
@@ -136,12 +137,12 @@ pub(crate) struct Signal {
 impl Trace {
     /// Of the values of a signal until an end, for a force that changes by at most `rise` within a time.
     pub(crate) fn of(
-        signal: &Signal,
+        signal: Signal,
         end: f64,
         (tolerance, rise): (Six, &dyn Fn(f64) -> Six),
         value: impl Fn(f64) -> Result<Estimate, DomainError>,
     ) -> Result<Self, DomainError> {
-        let segments = segments(signal, end, (tolerance, rise), value)?;
+        let segments = segments(&signal, end, (tolerance, rise), value)?;
         // each segment is weighted with the change of the force during it
         let mut error = signal.before.map(|s| f64::EPSILON * s.abs());
         let mut truncation = Six::default();
@@ -160,7 +161,7 @@ impl Trace {
             end,
             before: signal.before,
             breaks: segments.iter().flat_map(Segment::breaks).collect(),
-            fronts: signal.fronts.clone(),
+            fronts: signal.fronts,
             segments,
             error,
         })
@@ -216,7 +217,7 @@ impl Trace {
                 error: value.map(|v| damping.tolerance() * v.abs()),
             })
         };
-        let mut damped = Self::of(&signal, end, wanted, value)?;
+        let mut damped = Self::of(signal, end, wanted, value)?;
         let creep = damping.creep(end, reference).max(1.0);
         for (all, own) in damped.error.iter_mut().zip(self.error) {
             *all += creep * own;
