@@ -380,10 +380,14 @@ impl Sums {
         }
     }
 
-    /// Sets the fields to zero before the first wave from the largest disc has arrived.
+    /// Sets the fields to zero before the first wave from the largest disc has arrived. With attenuation waves of high frequencies
+    /// are faster than those of the elastic block, and their kernels themselves are zero before.
     fn still_before_arrival(&mut self, forcing: &Forcing<'_>, [r_m, z_m]: [f64; 2]) {
         let excitation = forcing.excitation;
         let radius_m = excitation.units().disc_radius_m;
+        if excitation.attenuation.is_some() {
+            return;
+        }
         let travel_s = excitation.speeds().arrivals_s(r_m, z_m, radius_m)[0];
         let first_s = excitation.first_s() + travel_s;
         let early = forcing.times_s.iter().filter(|&&t| rounded_up(t) < first_s);
