@@ -15,7 +15,7 @@ use contact::{
     WaveSpeeds, Weights,
 };
 use halfspace::{
-    Attenuation, Deflection, DomainError, Medium, Profile, Six, SurfaceResponse, bisected, gauss,
+    Attenuation, Deflection, DomainError, Medium, Profile, Six, SurfaceResponse, gauss,
 };
 
 /// Consecutive samples.
@@ -141,6 +141,53 @@ pub struct Motion {
 /// Quality factor from which a block is elastic: attenuation changes fields by its inverse times the wave lengths of the path, which
 /// is below 1e-10 then (`without_attenuation_fields_are_elastic`).
 const ELASTIC: f64 = 1e12;
+
+impl Contact {
+    /// Nodes of a cell that begins at a time and has a length in s, with forces at its ends: graded toward the begin or end of a
+    /// contact, where the force has the power 3/2. The force is not read yet.
+    fn nodes(&self, [from_s, step_s]: [f64; 2], ends_n: [f64; 2], nodes: &mut Vec<Node>) {
+        /// A force that changes by more than this over a cell is near the end of a contact.
+        const STEEP: f64 = 0.5;
+        const PLAIN: usize = 4;
+        const GRADED: usize = 12;
+        let node = |(x, weight)| Node {
+            x,
+            weight,
+            force: 0.0,
+        };
+        let [low, high] = [ends_n[0].min(ends_n[1]), ends_n[0].max(ends_n[1])];
+        // one of which both ends are within the cell counts by its middle
+        if high <= 0.0 && self.force_n(from_s + 0.5 * step_s) <= 0.0 {
+            return;
+        }
+        if low > STEEP * high {
+            nodes.extend(gauss::rule(PLAIN).on(-0.5, 0.5).map(node));
+            return;
+        }
+        // from the begin or end of the contact, or from the lower end of the cell
+        let rising = ends_n[0] < ends_n[1];
+        let [mut zero, end] = if rising { [-0.5, 0.5] } else { [0.5, -0.5] };
+        if low <= 0.0 {
+            let mut ends_s = self.contacts_s.iter().flatten();
+            let inside = |&&end_s: &&f64| from_s <= end_s && end_s <= from_s + step_s;
+            zero = ends_s
+                .find(inside)
+                .map_or(zero, |end_s| (end_s - from_s) / step_s - 0.5);
+        }
+        let (length, first) = (end - zero, nodes.len());
+        let graded = gauss::rule(GRADED).on(0.0, 1.0);
+        let graded = graded.map(|(u, w)| (zero + length * u * u, 2.0 * u * w * length.abs()));
+        nodes.extend(graded.map(node));
+        if length < 0.0 {
+            nodes[first..].reverse();
+        }
+    }
+
+    /// The force at a time, in N.
+    fn force_n(&self, time_s: f64) -> f64 {
+        self.samples.force(time_s / self.units.time_s)[0] * self.units.force_n
+    }
+}
 
 impl Excitation {
     /// The excitation of a contact: its history in collision units, and its duration in s; `radius` is that of the
@@ -274,7 +321,18 @@ impl Excitation {
     /// Hertz pressures whose sum is the pressure at a time: two for a yielding contact with known pressure, one
     /// otherwise.
     pub(crate) fn pressures(&self, time_s: f64) -> [Pressed; 2] {
-        let [force_n, rate] = self.force_and_rate(time_s);
+        self.pressures_of(time_s, self.force_and_rate(time_s))
+    }
+
+    /// The same at several times, fastest where they ascend.
+    pub(crate) fn pressures_at(&self, times_s: &[f64]) -> Vec<[Pressed; 2]> {
+        let all = times_s.iter().zip(self.forces_and_rates(times_s));
+        all.map(|(&time_s, own)| self.pressures_of(time_s, own))
+            .collect()
+    }
+
+    /// The same of the force in N at a time and its rate.
+    fn pressures_of(&self, time_s: f64, [force_n, rate]: [f64; 2]) -> [Pressed; 2] {
         let one = |square: f64, square_rate: f64| Pressed {
             force_n,
             rate,
@@ -375,9 +433,22 @@ impl Excitation {
         let ahead_s = |k: i32| {
             let since_s = self.end_s() * RATIO.powi(k);
             let [one, other] = self.pressures(end_s + inside * since_s);
-            one.square.max(other.square).sqrt() * crossing_s - since_s
+            let square = one.square.max(other.square);
+            // so close to the end that rounding leaves no force
+            let is_lost = square == 0.0;
+            let ahead_s = square.sqrt() * crossing_s - since_s;
+            if is_lost { f64::NEG_INFINITY } else { ahead_s }
         };
-        (1..PARTS).map(ahead_s).fold(0.0, f64::max)
+        // the radius over time is concave: there is one largest part
+        let [mut before, mut after] = [1, PARTS];
+        while before < after {
+            let middle = (before + after) / 2;
+            match ahead_s(middle) < ahead_s(middle + 1) {
+                true => before = middle + 1,
+                false => after = middle,
+            }
+        }
+        ahead_s(before).max(0.0)
     }
 
     /// The force without its jumps in N long before a run.
@@ -403,51 +474,42 @@ impl Excitation {
         }
     }
 
-    /// Nodes in the cells between the samples of a run at which the force is read, with weights that integrate it.
-    pub(crate) fn cell_nodes(&self, run: &Run, step_s: f64) -> CellNodes {
+    /// The same at several times.
+    fn forces_and_rates(&self, times_s: &[f64]) -> Vec<[f64; 2]> {
+        let Force::Contact(contact) = &self.force else {
+            let all = times_s.iter();
+            return all.map(|&time_s| self.force_and_rate(time_s)).collect();
+        };
+        let units = &contact.units;
+        let times: Vec<f64> = times_s.iter().map(|t| t / units.time_s).collect();
+        let of = |[force, rate, _]: [f64; 3]| {
+            [force * units.force_n, rate * units.force_n / units.time_s]
+        };
+        contact.samples.forces(&times).into_iter().map(of).collect()
+    }
+
+    /// Nodes in the cells between the samples of a run in N at which the force is read, with weights that integrate it.
+    pub(crate) fn cell_nodes(&self, run: &Run, step_s: f64, force_n: &[f64]) -> CellNodes {
+        let mut found = self.unread_nodes(run, step_s, force_n);
+        if self.contact().is_some() {
+            let forces = self.forces_and_rates(&found.times_s(run.start_s, step_s));
+            found.read(|node| forces[node][0]);
+        }
+        found
+    }
+
+    /// The same without the forces of a contact.
+    pub(crate) fn unread_nodes(&self, run: &Run, step_s: f64, force_n: &[f64]) -> CellNodes {
         let start_s = |cell: usize| run.start_s + cell as f64 * step_s;
         CellNodes::new(run.count.saturating_sub(1), |cell, nodes| {
             match &self.force {
-                Force::Contact(_) => self.contact_nodes(start_s(cell), step_s, nodes),
+                Force::Contact(contact) => {
+                    let ends_n = [force_n[cell], force_n[cell + 1]];
+                    contact.nodes([start_s(cell), step_s], ends_n, nodes);
+                }
                 Force::Record(record) => record.nodes(start_s(cell), step_s, nodes),
             }
         })
-    }
-
-    /// Nodes of one cell: graded toward the begin or end of a contact, where the force has the power 3/2.
-    fn contact_nodes(&self, from_s: f64, step_s: f64, nodes: &mut Vec<Node>) {
-        /// A force that changes by more than this over a cell is near the end of a contact.
-        const STEEP: f64 = 0.5;
-        const PLAIN: usize = 4;
-        const GRADED: usize = 12;
-        let at = |x: f64| self.force_n(from_s + (x + 0.5) * step_s);
-        let node = |(x, weight)| Node {
-            x,
-            weight,
-            force: at(x),
-        };
-        let ends = [at(-0.5), at(0.5)];
-        let [low, high] = [ends[0].min(ends[1]), ends[0].max(ends[1])];
-        if high <= 0.0 && at(0.0) <= 0.0 {
-            return;
-        }
-        if low > STEEP * high {
-            nodes.extend(gauss::rule(PLAIN).on(-0.5, 0.5).map(node));
-            return;
-        }
-        // from the zero of the force, or from the lower end
-        let rising = ends[0] < ends[1];
-        let [mut zero, end] = if rising { [-0.5, 0.5] } else { [0.5, -0.5] };
-        if low <= 0.0 {
-            zero = bisected(zero, end, |x| at(x) <= 0.0);
-        }
-        let (length, first) = (end - zero, nodes.len());
-        let graded = gauss::rule(GRADED).on(0.0, 1.0);
-        let graded = graded.map(|(u, w)| (zero + length * u * u, 2.0 * u * w * length.abs()));
-        nodes.extend(graded.map(node));
-        if length < 0.0 {
-            nodes[first..].reverse();
-        }
     }
 
     /// The striker at a time; none for a record.

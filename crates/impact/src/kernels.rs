@@ -166,13 +166,13 @@ impl KernelSource {
         }
     }
 
-    /// Number of parts of a cell of a width in r0/c1 that the cells of a table resolve; 1 for computed kernels.
-    pub(crate) fn parts(&self, poisson_ratio: f64, step: f64) -> usize {
+    /// Number of parts of a cell of a width in r0/c1 that the cells of a table resolve; none for computed kernels.
+    pub(crate) fn parts(&self, poisson_ratio: f64, step: f64) -> Option<usize> {
         match self {
-            Self::Direct(_) => 1,
+            Self::Direct(_) => None,
             Self::Table(table) => {
                 let cell = table.cell_width(poisson_ratio).unwrap_or(step);
-                ((step / cell) as usize).max(1)
+                Some(((step / cell) as usize).max(1))
             }
         }
     }

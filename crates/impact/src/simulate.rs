@@ -309,7 +309,7 @@ fn add_fields(
 /// The most in N that the cells leave of the force.
 fn left_n(grid: &Grid<'_>, force_n: &[f64]) -> f64 {
     let left = grid.continuous(force_n).into_iter().map(|(run, force_n)| {
-        let nodes = grid.excitation.cell_nodes(&run, grid.step_s);
+        let nodes = grid.excitation.cell_nodes(&run, grid.step_s, &force_n);
         let rises = rises(run.base_n, &force_n);
         let projection = Projection::new(&force_n, &rises, &nodes, (0, f64::INFINITY));
         projection.left.most_n

@@ -7,10 +7,10 @@
 
 use crate::error::HdfError;
 use crate::seal::Sealed;
+use hdf5_reader::filters::{FILTER_SHUFFLE, FilterRegistry};
 use hdf5_reader::{
     Attribute, Datatype, H5Type, Hdf5File, OpenOptions, SliceInfo, SliceInfoElem, StringSize,
 };
-use rayon::prelude::*;
 use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
@@ -21,8 +21,6 @@ const GROWTH: usize = 1100;
 
 /// Size of a block in numbers from which several threads are used.
 const LARGE: usize = 1 << 18;
-/// Number of parts of such a block.
-const BLOCK_PARTS: usize = 16;
 
 /// An open file. If it has a checksum trailer, bytes are verified when they are read.
 #[derive(Debug, Clone)]
@@ -40,7 +38,11 @@ impl HdfFile {
     pub fn open(path: &Path) -> Result<Self, HdfError> {
         let bytes = Arc::new(Sealed::open(path)?);
         let most = (bytes.length as usize).saturating_mul(GROWTH);
+        let mut filters = FilterRegistry::new();
+        let unshuffle = |_: &_, data: &[u8], width| Ok(unshuffled(data, width));
+        filters.register(FILTER_SHUFFLE, Box::new(unshuffle));
         let options = OpenOptions::default()
+            .with_filter_registry(filters)
             .with_chunk_cache_bytes(0)
             .with_max_chunk_bytes(most)
             .with_max_read_bytes(most)
@@ -208,32 +210,15 @@ impl Dataset {
         if count == 0 {
             return Ok(Vec::new());
         }
-        let high = self.chunk().and_then(|chunk| chunk.first().copied());
-        let (Some(high @ 1..), true) = (high, count > LARGE) else {
-            return self.read(block, count);
+        let selection = SliceInfo {
+            selections: block.iter().map(range).collect(),
         };
-        let rows = &block[0];
-        let (first, end) = (rows.start / high, rows.end.div_ceil(high));
-        let step = (end - first).div_ceil(BLOCK_PARTS);
-        let parts = (first..end).into_par_iter().step_by(step).map(|k| {
-            let part = rows.start.max(k * high)..rows.end.min((k + step).saturating_mul(high));
-            let count = count / rows.len() * part.len();
-            self.read(&[&[part], &block[1..]].concat(), count)
-        });
-        // of several errors the first in order is returned, whatever the threads
-        let parts = parts.collect::<Vec<_>>().into_iter();
-        Ok(parts.collect::<Result<Vec<_>, _>>()?.concat())
-    }
-
-    /// Reads the `count` numbers of a block on this thread.
-    fn read<T: H5Type>(&self, block: &[Range<usize>], count: usize) -> Result<Vec<T>, HdfError> {
-        let slice = |range: &Range<usize>| SliceInfoElem::Slice {
-            start: range.start as u64,
-            end: range.end as u64,
-            step: 1,
+        let in_parallel = || self.data.read_slice_parallel::<T>(&selection);
+        // on one thread of several errors the first in order is returned
+        let found = match count > LARGE {
+            true => in_parallel().or_else(|_| self.data.read_slice::<T>(&selection))?,
+            false => self.data.read_slice::<T>(&selection)?,
         };
-        let selections = block.iter().map(slice).collect();
-        let found = self.data.read_slice::<T>(&SliceInfo { selections })?;
         if found.len() != count {
             let what = format!("{block:?} is not a block of {:?}", self.shape);
             return Err(HdfError::Damaged(what));
@@ -263,6 +248,34 @@ impl Dataset {
     pub fn texts(&self, limit: u64) -> Result<Vec<String>, HdfError> {
         admit(self.count(), 16, limit)?;
         Ok(self.data.read_strings()?)
+    }
+}
+
+/// Numbers of a width in bytes from all their first bytes, all their second bytes and so on; bytes behind the last whole number stay.
+///
+/// A register at a time for numbers of 4 and 8 bytes, which takes a quarter of the time of the filter of `hdf5_reader`.
+fn unshuffled(data: &[u8], width: usize) -> Vec<u8> {
+    fn of<const WIDTH: usize>(data: &[u8]) -> Vec<u8> {
+        let count = data.len() / WIDTH;
+        let planes: [&[u8]; WIDTH] = std::array::from_fn(|k| &data[k * count..(k + 1) * count]);
+        let numbers = (0..count).map(|i| planes.map(|plane| plane[i]));
+        let mut found = numbers.collect::<Vec<_>>().into_flattened();
+        found.extend(&data[WIDTH * count..]);
+        found
+    }
+    match width {
+        4 => of::<4>(data),
+        8 => of::<8>(data),
+        _ => hdf5_reader::filters::shuffle::unshuffle(data, width),
+    }
+}
+
+/// All of a range of an axis.
+fn range(range: &Range<usize>) -> SliceInfoElem {
+    SliceInfoElem::Slice {
+        start: range.start as u64,
+        end: range.end as u64,
+        step: 1,
     }
 }
 
@@ -326,4 +339,21 @@ fn admit(count: usize, width: usize, limit: u64) -> Result<(), HdfError> {
     refused(format!(
         "it needs {needed} bytes of memory, more than the limit {limit}"
     ))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_unshuffled_as_by_the_library() {
+        let data: Vec<u8> = (0..1027_usize).map(|i| (i * i % 251) as u8).collect();
+        for length in [0, 1, 3, 4, 8, 63, 64, 1024, 1027] {
+            for width in [1, 2, 4, 8, 16] {
+                let found = unshuffled(&data[..length], width);
+                let expected = hdf5_reader::filters::shuffle::unshuffle(&data[..length], width);
+                assert_eq!(found, expected, "{length} bytes, width {width}");
+            }
+        }
+    }
 }

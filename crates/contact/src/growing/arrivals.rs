@@ -44,15 +44,24 @@ impl State {
 impl ContactPiece {
     /// Force and its first two slopes in the place.
     pub(crate) fn force(&self, place: f64) -> [f64; 3] {
-        match &self.force {
-            Some(force) => force.jet(place),
-            None => {
-                let [a, slope, bend] = self.radius.jet(place);
-                let square = 3.0 * a * a;
-                let second = 6.0 * a * slope * slope + square * bend;
-                [a.powi(3), square * slope, second]
-            }
+        self.forces(&[place]).map(|[one]| one)
+    }
+
+    /// The same at several places together.
+    #[inline]
+    pub(crate) fn forces<const N: usize>(&self, places: &[f64; N]) -> [[f64; N]; 3] {
+        if let Some(force) = &self.force {
+            return force.jets(places);
         }
+        let [mut radius, mut slope, mut bend] = self.radius.jets(places);
+        for l in 0..N {
+            let [a, a1, a2] = [radius[l], slope[l], bend[l]];
+            let square = 3.0 * a * a;
+            radius[l] = a.powi(3);
+            slope[l] = square * a1;
+            bend[l] = 6.0 * a * a1 * a1 + square * a2;
+        }
+        [radius, slope, bend]
     }
 
     /// Power that leaves the law, per place: (p v T' - F u_a a').
@@ -123,8 +132,8 @@ pub(crate) struct Departure {
     pub(crate) radius_slope: f64,
 }
 
-/// Roots that are sought together.
-const LANES: usize = 4;
+/// Roots and places that are sought together.
+pub(crate) const LANES: usize = 4;
 
 /// Roots of T + X a - t in a piece.
 struct Roots<'a> {

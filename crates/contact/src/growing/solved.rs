@@ -1,12 +1,12 @@
 //! A contact that has been solved: its results, their errors, and its history at any time.
 
-use crate::growing::arrivals::ContactPiece;
+use crate::growing::arrivals::{ContactPiece, LANES};
 use crate::growing::equations::{Errors, March};
 use crate::growing::nodes::{LARGEST_DEGREE, RadauNodes};
 use crate::law::branch::Branch;
 use crate::law::cut::nested;
 use crate::law::yielding::{Flow, FlowLaw, Yielding};
-use crate::numeric::quadrature::{GAUSS_8, find_root, gauss, rising_root};
+use crate::numeric::quadrature::{CLOSE, GAUSS_8, find_root, gauss, rising_root};
 use crate::summary::{Estimates, Instant, SMALL_LOSS, Summary};
 use crate::units::INVERSE_MASS;
 
@@ -230,20 +230,46 @@ impl SolvedContact {
 
     /// Force, rate and second rate at a time; the second zero at the very ends, all outside.
     pub fn force(&self, time: f64) -> [f64; 3] {
-        if !(time > 0.0 && time < self.summary.contact_time) {
+        if !self.holds(time) {
             return [0.0; 3];
         }
         self.place(time).map_or([0.0; 3], |(piece, place)| {
-            let [force, p1, p2] = piece.force(place);
-            let [_, t1, t2] = piece.time.jet(place);
-            if force <= 0.0 || t1 <= 0.0 {
-                return [0.0; 3];
-            }
-            // slopes in the place to those in time
-            let per = 1.0 / t1;
-            let rate = p1 * per;
-            [force, rate, (p2 - rate * t2) * per * per]
+            in_time(piece.force(place), piece.time.jet(place))
         })
+    }
+
+    /// The same at several times, in a quarter of the time where they ascend: those of one piece are found together.
+    pub fn forces(&self, times: &[f64]) -> Vec<[f64; 3]> {
+        let mut found = Vec::with_capacity(times.len());
+        for some in times.chunks(LANES) {
+            match self.forces_in_piece(some) {
+                Some(all) => found.extend(all),
+                None => found.extend(some.iter().map(|&time| self.force(time))),
+            }
+        }
+        found
+    }
+
+    /// The same at as many times as are found together; none where they are not all within one piece.
+    fn forces_in_piece(&self, times: &[f64]) -> Option<[[f64; 3]; LANES]> {
+        let times: [f64; LANES] = times.try_into().ok()?;
+        let piece = self.pieces.get(self.index(times[0]))?;
+        let span = piece.start.time..=piece.end.time;
+        if !times
+            .iter()
+            .all(|time| self.holds(*time) && span.contains(time))
+        {
+            return None;
+        }
+        let places = places_of(piece, &times)?;
+        let (force, time) = (piece.forces(&places), piece.time.jets(&places));
+        let of = |l: usize| in_time(force.map(|own| own[l]), time.map(|own| own[l]));
+        Some(std::array::from_fn(of))
+    }
+
+    /// Whether a time is within the contact.
+    fn holds(&self, time: f64) -> bool {
+        time > 0.0 && time < self.summary.contact_time
     }
 
     /// The state at any time from the touch on; the deflection is not followed after the contact.
@@ -266,6 +292,16 @@ impl SolvedContact {
             deflection: deflected(piece, place),
         }
     }
+}
+
+/// Force and its slopes in time from those in the place, and the time with its slopes there; zeros outside the contact.
+fn in_time([force, p1, p2]: [f64; 3], [_, t1, t2]: [f64; 3]) -> [f64; 3] {
+    if force <= 0.0 || t1 <= 0.0 {
+        return [0.0; 3];
+    }
+    let per = 1.0 / t1;
+    let rate = p1 * per;
+    [force, rate, (p2 - rate * t2) * per * per]
 }
 
 /// Places of a piece among which the largest deflection of a contact that yields is.
@@ -319,6 +355,39 @@ fn work_of(piece: &ContactPiece, place: f64) -> f64 {
     2.0 * INVERSE_MASS * (losing(0.0) + losing(half))
 }
 
+/// Newton's steps for several places of a piece together; those that need more are found one by one.
+const TOGETHER: usize = 6;
+
+/// The places of some times in a piece, as [`place_of`] finds one; none where a step leaves the piece or more are needed.
+fn places_of(piece: &ContactPiece, times: &[f64; LANES]) -> Option<[f64; LANES]> {
+    if piece.time.degree == 2 {
+        return Some(times.map(|time| place_of(piece, time)));
+    }
+    let mut places = times.map(|time| secant(piece, time));
+    for _ in 0..TOGETHER {
+        let [values, slopes, _] = piece.time.jets(&places);
+        let mut largest = 0.0_f64;
+        for l in 0..LANES {
+            let step = (times[l] - values[l]) / slopes[l];
+            places[l] += step;
+            largest = largest.max(step.abs());
+        }
+        if !places.iter().all(|place| (0.0..=1.0).contains(place)) {
+            return None;
+        }
+        if largest < CLOSE {
+            return Some(places);
+        }
+    }
+    None
+}
+
+/// The place of a time if it rose evenly over a piece.
+fn secant(piece: &ContactPiece, time: f64) -> f64 {
+    let (from, until) = (piece.start.time, piece.end.time);
+    ((time - from) / (until - from)).clamp(0.0, 1.0)
+}
+
 /// The place of a time in a piece: its time rises.
 pub(crate) fn place_of(piece: &ContactPiece, time: f64) -> f64 {
     if piece.time.degree == 2 {
@@ -327,8 +396,7 @@ pub(crate) fn place_of(piece: &ContactPiece, time: f64) -> f64 {
         let root = (slope * slope + 4.0 * half * away).max(0.0).sqrt();
         return (0.5 + away / (slope + root)).clamp(0.0, 1.0);
     }
-    let (from, until) = (piece.start.time, piece.end.time);
-    let start = ((time - from) / (until - from)).clamp(0.0, 1.0);
+    let start = secant(piece, time);
     let late = |place: f64| {
         let [value, slope, _] = piece.time.jet(place);
         [value - time, slope]

@@ -74,6 +74,14 @@ impl Resampler {
         }
     }
 
+    /// The same at several times, fastest where they ascend.
+    pub fn forces(&self, times: &[f64]) -> Vec<[f64; 3]> {
+        match &self.history.pieces {
+            Some(solved) => solved.forces(times),
+            None => times.iter().map(|&time| self.force(time)).collect(),
+        }
+    }
+
     /// The state at a time in collision units, from the touch on.
     pub fn at(&self, time: f64) -> Instant {
         if let Some(solved) = &self.history.pieces {

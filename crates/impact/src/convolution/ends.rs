@@ -56,47 +56,47 @@ struct Part {
     series: [[f64; 1]; DEGREE],
 }
 
+/// When contacts begin and end and their force has kinks, in s, within a span.
+pub(crate) fn ends_within([from_s, to_s]: [f64; 2], smooth_s: &[[f64; 2]]) -> Vec<f64> {
+    let mut ends: Vec<f64> = smooth_s.as_flattened().to_vec();
+    ends.dedup();
+    ends.retain(|at_s| from_s <= *at_s && *at_s < to_s);
+    ends
+}
+
 /// Ranges of the cells of a run of `count` samples that a parabola does not follow; `steepest` is the largest rise over a
-/// step times the tolerance.
+/// step times the tolerance. Where no contact begins or ends cells serve as long as they follow the force to the tolerance.
 pub(crate) fn unresolved(
     projection: &Projection,
-    count: usize,
-    steepest: f64,
+    (count, steepest): (usize, f64),
+    has_end: impl Fn(&Range<usize>) -> bool,
 ) -> Vec<Range<usize>> {
     let mut found: Vec<Range<usize>> = Vec::new();
-    let is_open = |&cell: &usize| projection.taken(cell).left > tuning::UNRESOLVED * steepest;
+    let left = |cell: usize| projection.taken(cell).left;
+    let is_open = |&cell: &usize| left(cell) > tuning::UNRESOLVED * steepest;
     for cell in (1..count).filter(is_open) {
         match found.last_mut() {
             Some(last) if last.end == cell => last.end = cell + 1,
             Some(_) | None => found.push(cell..cell + 1),
         }
     }
+    found.retain(|cells| has_end(cells) || cells.clone().any(|cell| left(cell) > steepest));
     found
 }
 
 impl Zone {
-    /// Of some cells, with the forces on so many discs, which rise by `rise` at most over a cell; none where the integral would
-    /// be no better than the cells.
+    /// Of some cells and their span in s, with the forces on so many discs, which rise by `rise` at most over a cell; none where the
+    /// integral would be no better than the cells.
     pub(crate) fn new(
-        cells: Range<usize>,
+        (cells, span): (Range<usize>, [f64; 2]),
         smooth_s: &[[f64; 2]],
-        span_s: &dyn Fn(&Range<usize>) -> [f64; 2],
         (rise, tolerance): (f64, f64),
-        (count, projection): (usize, &Projection),
+        count: usize,
         force: impl Fn(usize, f64) -> f64,
     ) -> Option<Self> {
-        let steepest = tolerance * rise;
-        let span = span_s(&cells);
-        let mut ends: Vec<f64> = smooth_s.as_flattened().to_vec();
-        ends.dedup();
-        ends.retain(|at_s| span[0] <= *at_s && *at_s < span[1]);
-        // elsewhere cells lose less than the integral does, as long as they follow the force to the tolerance
-        let mut residuals = cells.clone().map(|cell| projection.taken(cell).left);
-        if ends.is_empty() && !residuals.any(|one| one > steepest) {
-            return None;
-        }
+        let ends = ends_within(span, smooth_s);
         let lost = tuning::LOST * rise;
-        let allowed = tuning::UNRESOLVED * steepest;
+        let allowed = tuning::UNRESOLVED * tolerance * rise;
         let of = |k: usize| DiscZone::new(span, &ends, smooth_s, allowed, |t| force(k, t));
         let discs: Vec<DiscZone> = (0..count).map(of).collect();
         // where a force has edges that nobody has named, such as a rate where pieces of a march meet, cells serve, too

@@ -10,13 +10,13 @@
 //! Theory: `docs/theory.md` (T24, T60, T61).
 
 use super::discs::Discs;
-use super::ends::{Zone, unresolved};
+use super::ends::{Zone, ends_within, unresolved};
 use super::tuning;
 use crate::excitation::{Excitation, Pressed, PressureRadius, Run};
 use crate::grid::Grid;
 use crate::quantity::Derivative;
 use crate::sampled::convolve::Convolver;
-use crate::sampled::projection::{CellNodes, Departure, Projection, Taken, largest};
+use crate::sampled::projection::{CellNodes, Departure, Projection, largest};
 use halfspace::Six;
 use std::ops::Range;
 use std::sync::OnceLock;
@@ -37,8 +37,8 @@ pub(crate) struct SampledRun {
     pub(crate) needed: Vec<usize>,
     /// Places in the cells between samples, with the force there.
     nodes: CellNodes,
-    /// Pressures at the samples, and at the nodes; empty on a fixed disc.
-    pressures: [Vec<[Pressed; 2]>; 2],
+    /// Pressures of a contact at the samples, and at the nodes; none of a record, which may be long.
+    pressures: Option<[Vec<[Pressed; 2]>; 2]>,
 }
 
 /// A force or its rate at times a step apart.
@@ -59,8 +59,8 @@ pub(crate) struct Forcing<'a> {
     pub(crate) outputs: Vec<usize>,
     /// The cell from which on the runs leave out what earlier ones have changed for good, and the sum of these changes in N.
     pub(crate) left_out: (usize, f64),
-    /// Parts of a cell of which a table has averages.
-    pub(crate) parts: usize,
+    /// Parts of a cell of which a table has averages; none where kernels are computed, whose traces are integrated over zones.
+    pub(crate) parts: Option<usize>,
     /// Loads of each set of discs, once a point has needed them.
     loads: Vec<OnceLock<Loads>>,
 }
@@ -124,7 +124,7 @@ impl<'a> Forcing<'a> {
         grid: &Grid<'a>,
         wanted: &[usize],
         derivative: Derivative,
-        (sets, parts): (usize, usize),
+        (sets, parts): (usize, Option<usize>),
     ) -> Self {
         let excitation = grid.excitation;
         let (reading, differences) = match (derivative, excitation.record()) {
@@ -263,54 +263,42 @@ impl<'a> Forcing<'a> {
         let least = tuning::NEGLIGIBLE_OF_ERROR * self.excitation.relative_error;
         let each = (0..discs.orders()).map(|j| {
             let base = base_n * discs.newton(j, 1.0);
-            let time_s = |n: f64| run.start_s + n * self.step_s;
-            let [samples, nodes] = if self.follows() {
-                sampled.pressures.each_ref().map(|all| {
-                    let loads = all.iter().map(|pressures| self.load(discs, j, pressures));
-                    loads.collect::<Vec<f64>>()
-                })
-            } else {
-                let at = |n: f64| self.load_at(discs, j, time_s(n));
-                let nodes = match self.reading {
-                    Reading::Force => Vec::new(),
-                    Reading::Rate => sampled.nodes.places().map(at).collect(),
-                };
-                [(0..run.count).map(|n| at(n as f64)).collect(), nodes]
-            };
-            if nodes.is_empty() {
+            let Some([samples, nodes]) = &sampled.pressures else {
+                let at = |n: usize| self.load_at(discs, j, run.start_s + n as f64 * self.step_s);
+                let samples: Vec<f64> = (0..run.count).map(at).collect();
                 return Sampled::new(base, &samples, &sampled.nodes, needed, least);
-            }
-            let nodes = sampled.nodes.with(|node| nodes[node]);
+            };
+            let load = |pressures: &[Pressed; 2]| self.load(discs, j, pressures);
+            let samples: Vec<f64> = samples.iter().map(load).collect();
+            let nodes = sampled.nodes.with(|node| load(&nodes[node]));
             Sampled::new(base, &samples, &nodes, needed, least)
         });
         let each: Vec<Sampled> = each.collect();
         let next = (self.follows() && !discs.are_prescribed()).then(|| self.next(sampled, discs));
         let (mut zones, mut sharp): (Vec<Zone>, Vec<SharpCell>) = Default::default();
         if self.excitation.record().is_none() {
-            let spans_s = self.excitation.smooth_s();
+            let smooth_s = self.excitation.smooth_s();
             let (rise, force) = (largest(&each[0].convolver.rises), &each[0].projection);
-            let cells = unresolved(force, run.count, self.tolerance * rise);
             let span_s = |cells: &Range<usize>| self.span_s(run, cells);
-            let of = |cells| {
-                let (steepness, discs_of) = ((rise, self.tolerance), (discs.count(), force));
-                let on_disc = |k, time_s| self.on_disc(discs, k, time_s);
-                Zone::new(cells, &spans_s, &span_s, steepness, discs_of, on_disc)
-            };
-            zones = cells.into_iter().filter_map(of).collect();
+            let has_end = |cells: &Range<usize>| !ends_within(span_s(cells), &smooth_s).is_empty();
+            let mut open = unresolved(force, (run.count, self.tolerance * rise), has_end);
+            if self.parts.is_none() {
+                let of = |cells: Range<usize>| {
+                    let span_s = span_s(&cells);
+                    let (steepness, count) = ((rise, self.tolerance), discs.count());
+                    let on_disc = |k, time_s| self.on_disc(discs, k, time_s);
+                    Zone::new((cells, span_s), &smooth_s, steepness, count, on_disc)
+                };
+                zones = open.into_iter().filter_map(of).collect();
+                open = zones.iter().map(|zone| zone.cells.clone()).collect();
+            }
             let least = tuning::SHARP * self.tolerance * each[0].largest;
             let counts = |cell: &usize| force.taken(*cell).left > least;
-            let cells = zones.iter().flat_map(|zone| zone.cells.clone());
             let of = |cell: usize| SharpCell {
                 cell,
-                rises: (0..discs.orders())
-                    .map(|j| {
-                        self.residual_rises(run, cell, each[j].projection.taken(cell), |t| {
-                            self.load_at(discs, j, t)
-                        })
-                    })
-                    .collect(),
+                rises: self.residual_rises(run, cell, discs, &each),
             };
-            sharp = cells.filter(counts).map(of).collect();
+            sharp = open.into_iter().flatten().filter(counts).map(of).collect();
         }
         RunLoads {
             each,
@@ -320,19 +308,26 @@ impl<'a> Forcing<'a> {
         }
     }
 
-    /// Rises of a load over the parts of a cell, the oldest first, less those of the parabola.
+    /// Rises over the parts of a cell, the oldest first, less those of the parabola, of the load times each of Newton's polynomials.
     fn residual_rises(
         &self,
         run: &Run,
         cell: usize,
-        taken: &Taken,
-        load: impl Fn(f64) -> f64,
-    ) -> Vec<f64> {
-        let parts = self.parts as f64;
-        let edge = |m: usize| m as f64 / parts - 0.5;
-        let at = |m: usize| load(run.start_s + (cell as f64 - 0.5 + edge(m)) * self.step_s);
-        let of = |m: usize| at(m + 1) - at(m) - taken.between(edge(m), edge(m + 1));
-        (0..self.parts).map(of).collect()
+        discs: &Discs,
+        each: &[Sampled],
+    ) -> Vec<Vec<f64>> {
+        let parts = self.parts.unwrap_or(1);
+        let edge = |m: usize| m as f64 / parts as f64 - 0.5;
+        let at_s = |m: usize| run.start_s + (cell as f64 - 0.5 + edge(m)) * self.step_s;
+        let times_s: Vec<f64> = (0..=parts).map(at_s).collect();
+        let pressures = self.excitation.pressures_at(&times_s);
+        let of = |(j, load): (usize, &Sampled)| {
+            let at = |m: usize| self.load(discs, j, &pressures[m]);
+            let taken = load.projection.taken(cell);
+            let rise = |m: usize| at(m + 1) - at(m) - taken.between(edge(m), edge(m + 1));
+            (0..parts).map(rise).collect()
+        };
+        each.iter().enumerate().map(of).collect()
     }
 
     /// The load of the term left out: so many times (a_max/c_R)^2 the second derivative of Newton's next polynomial of it, at
@@ -343,8 +338,8 @@ impl<'a> Forcing<'a> {
         let factor = discs.next() * (lag_s / self.step_s).powi(2);
         let load = |pressures: &[Pressed; 2]| self.load(discs, discs.count(), pressures);
         let beyond = |n: f64| load(&excitation.pressures(run.start_s + n * self.step_s));
-        let inside = sampled.pressures[0].iter().map(load);
-        let all = std::iter::once(beyond(-1.0)).chain(inside);
+        let inside = sampled.pressures.iter().flat_map(|[samples, _]| samples);
+        let all = std::iter::once(beyond(-1.0)).chain(inside.map(load));
         let all: Vec<f64> = all.chain([beyond(run.count as f64)]).collect();
         let bends = all.windows(3).map(|v| factor * (v[2] - 2.0 * v[1] + v[0]));
         let bends: Vec<f64> = bends.collect();
@@ -370,18 +365,18 @@ impl<'a> Forcing<'a> {
         found.filter(|cells| !cells.is_empty()).collect()
     }
 
-    /// The static field of the pressures of an instant in SI units, or its rate by a difference over a part of the force.
+    /// The static field of some pressures in SI units, or its rate by a difference over a part of the force.
     pub(crate) fn still(
         &self,
         place_m: [f64; 2],
-        time_s: f64,
+        pressures: [Pressed; 2],
     ) -> Result<Six, halfspace::DomainError> {
         let of = |one| self.excitation.static_si(place_m, [one]);
         let read = |one: Pressed| match self.reading {
             Reading::Force => of(one),
             Reading::Rate => one.rate_of(tuning::STATIC_DIFFERENCE, of),
         };
-        let [one, other] = self.excitation.pressures(time_s).map(read);
+        let [one, other] = pressures.map(read);
         let (one, other) = (one?, other?);
         Ok(std::array::from_fn(|f| one[f] + other[f]))
     }
@@ -404,21 +399,30 @@ impl<'a> Forcing<'a> {
 
 impl SampledRun {
     fn new(excitation: &Excitation, run: Run, needed: Vec<usize>, step_s: f64) -> Self {
-        let nodes = excitation.cell_nodes(&run, step_s);
-        let at = |n: f64| excitation.pressures(run.start_s + n * step_s);
-        let pressures = match excitation.radius() {
-            PressureRadius::Fixed(_) => Default::default(),
-            PressureRadius::Following { .. } => [
-                (0..run.count).map(|n| at(n as f64)).collect(),
-                nodes.places().map(at).collect(),
-            ],
-        };
+        let samples = excitation.contact().map(|_| {
+            let times_s = (0..run.count).map(|n| run.start_s + n as f64 * step_s);
+            excitation.pressures_at(&times_s.collect::<Vec<f64>>())
+        });
+        let force = |[one, other]: &[Pressed; 2]| one.force_n + other.force_n;
+        let force_n: Vec<f64> = samples.iter().flatten().map(force).collect();
+        let mut nodes = excitation.unread_nodes(&run, step_s, &force_n);
+        let pressures = samples.map(|samples| {
+            let own = excitation.pressures_at(&nodes.times_s(run.start_s, step_s));
+            nodes.read(|node| force(&own[node]));
+            [samples, own]
+        });
         Self {
             run,
             needed,
             nodes,
             pressures,
         }
+    }
+
+    /// Pressures of a contact at the samples needed.
+    pub(crate) fn needed_pressures(&self) -> impl Iterator<Item = [Pressed; 2]> {
+        let samples = self.pressures.iter().map(|[samples, _]| samples);
+        samples.flat_map(|samples| self.needed.iter().map(|&n| samples[n]))
     }
 }
 

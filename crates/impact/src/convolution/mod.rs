@@ -131,7 +131,8 @@ impl<'a> Convolution<'a> {
         let sets = Sets::new(excitation, tolerance, reach, asked);
         let unit_s = excitation.units().time_s();
         let ratio = excitation.medium().poisson_ratio();
-        let parts = source.parts(ratio, grid.step_s / unit_s).min(tuning::PARTS);
+        let parts = source.parts(ratio, grid.step_s / unit_s);
+        let parts = parts.map(|parts| parts.min(tuning::PARTS));
         let all: Vec<usize> = match grid.low_pass_hz {
             Some(_) => (0..grid.all()).collect(),
             None => wanted.to_vec(),
@@ -389,7 +390,10 @@ impl<'a> Convolution<'a> {
             .fold(0.0, f64::max);
         let until = ((last_s / grid.step_s) as usize).saturating_add(2);
         let plan = CellPlan {
-            parts: [self.forcings[0].parts, until.min(grid.longest())],
+            parts: [
+                self.forcings[0].parts.unwrap_or(1),
+                until.min(grid.longest()),
+            ],
             step: grid.step_s / (over * units.time_s()),
             count: grid.longest() + differences.max().unwrap_or(0) + BEYOND,
             pulse: excitation.pulse(over),

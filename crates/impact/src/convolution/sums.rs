@@ -5,7 +5,7 @@
 use super::discs::Discs;
 use super::ends::departures;
 use super::fronts::Fronts;
-use super::loads::{Forcing, Loads};
+use super::loads::{Forcing, Loads, SampledRun};
 use super::tuning;
 use crate::excitation::PressureRadius;
 use crate::kernels::Cells;
@@ -275,7 +275,7 @@ impl Sums {
             return;
         }
         let orders = 0..kernels.discs.orders();
-        let of = |order: usize| SharpKernel::new(kernels, order, forcing.parts);
+        let of = |order: usize| SharpKernel::new(kernels, order, forcing.parts.unwrap_or(1));
         let orders: Vec<SharpKernel> = orders.map(of).collect();
         let mut first = 0;
         for (run, sampled) in loads.runs.iter().zip(&forcing.runs) {
@@ -349,8 +349,9 @@ impl Sums {
 
     /// Adds the static field of the pressure of each instant.
     fn add_still(&mut self, forcing: &Forcing<'_>, place_m: [f64; 2]) -> Result<(), DomainError> {
-        for (i, &time_s) in forcing.times_s.iter().enumerate() {
-            let still = forcing.still(place_m, time_s)?;
+        let pressures = forcing.runs.iter().flat_map(SampledRun::needed_pressures);
+        for (i, pressures) in pressures.enumerate() {
+            let still = forcing.still(place_m, pressures)?;
             for (samples, value) in self.values.iter_mut().zip(still) {
                 samples[i] += value;
             }

@@ -248,6 +248,13 @@ impl CellNodes {
         found
     }
 
+    /// Sets the force at each node, as a function of its index.
+    pub(crate) fn read(&mut self, force: impl Fn(usize) -> f64) {
+        for (i, node) in self.nodes.iter_mut().enumerate() {
+            node.force = force(i);
+        }
+    }
+
     /// The same nodes with other forces, as a function of their index.
     pub(crate) fn with(&self, force: impl Fn(usize) -> f64) -> Self {
         let nodes = self.nodes.iter().enumerate();
@@ -262,13 +269,14 @@ impl CellNodes {
         }
     }
 
-    /// All nodes as times in cells from the start of the first.
-    pub(crate) fn places(&self) -> impl Iterator<Item = f64> {
+    /// Times of all nodes, of a run that starts at a time and has steps of a length.
+    pub(crate) fn times_s(&self, start_s: f64, step_s: f64) -> Vec<f64> {
         let cells = self.starts.windows(2).enumerate();
-        cells.flat_map(|(cell, ends)| {
+        let places = cells.flat_map(|(cell, ends)| {
             let own = self.nodes[ends[0]..ends[1]].iter();
             own.map(move |node| cell as f64 + 0.5 + node.x)
-        })
+        });
+        places.map(|place| start_s + place * step_s).collect()
     }
 
     /// The nodes of one cell.

@@ -173,7 +173,7 @@ fn rates_of_shares_are_those_of_their_forces() {
     };
     let grid = Grid::new(&wanted, &excitation, None).unwrap();
     let [forces, rates] = [Derivative::Field, Derivative::First]
-        .map(|derivative| Forcing::new(&grid, &[], derivative, (1, 1)));
+        .map(|derivative| Forcing::new(&grid, &[], derivative, (1, None)));
     let discs = Discs::between(0.04, 6);
     for k in 0..discs.count() {
         for t in [0.1, 0.23, 0.4, 0.61, 0.9].map(|part| part * duration) {
