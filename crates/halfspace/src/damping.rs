@@ -185,7 +185,7 @@ impl Damping {
         const VERTEX: f64 = 3.0;
         /// Largest step on the parabola, times the root of the vertex and as it is, and most nodes: a hundred are usual.
         const STEPS: [f64; 2] = [0.35, 0.1];
-        const MOST: u32 = 2000;
+        const MOST_NODES: u32 = 2000;
         let g = self.g;
         let y = self.y(x);
         let a = y.exp_m1() / g;
@@ -200,7 +200,7 @@ impl Damping {
         let step = (STEPS[0] / vertex.sqrt()).min(STEPS[1]);
         let mut sums = [Complex64::default(); 2];
         let mut largest = f64::NEG_INFINITY;
-        for i in 0..MOST {
+        for i in 0..MOST_NODES {
             let u = step * f64::from(i);
             let root = Complex64::new(1.0, u);
             let s = vertex * root * root;

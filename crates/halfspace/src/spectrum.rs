@@ -263,7 +263,7 @@ impl Integrand {
         const ACCEPTED: f64 = 1e-6;
         const HALVINGS: u32 = 40;
         /// Panels for each one at first, and some more, after which none is halved: only noise is left then.
-        const MOST: [usize; 2] = [20, 500];
+        const MOST_PANELS: [usize; 2] = [20, 500];
         let rule = gauss::rule(NODES);
         let last: Vec<[f64; 2]> = (rule.nodes().iter())
             .map(|&x| {
@@ -272,7 +272,7 @@ impl Integrand {
             .collect();
         let at = |i: usize| i as f64 / count as f64;
         let mut panels: Vec<_> = (0..count).rev().map(|i| (at(i), at(i + 1), 0)).collect();
-        let mut left = MOST[0] * count + MOST[1];
+        let mut left = MOST_PANELS[0] * count + MOST_PANELS[1];
         while let Some((from, to, halvings)) = panels.pop() {
             left = left.saturating_sub(1);
             let mut own = Sum::default();

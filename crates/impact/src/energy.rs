@@ -13,7 +13,7 @@
 //!
 //! Theory: `docs/theory.md` (T56).
 
-use crate::excitation::{Excitation, Run};
+use crate::excitation::{Excitation, Samples};
 use crate::grid::Grid;
 use crate::record::jump::Jump;
 use contact::{Chosen, Memory, Physics, StaticShare, work_until_j};
@@ -160,7 +160,7 @@ impl Lag<'_> {
     /// Adds the work until each sample of a run; between jumps of the force the samples are smooth.
     fn add_run(
         &mut self,
-        run: &Run,
+        run: &Samples,
         step_s: f64,
         [force_n, lag_m]: [&[f64]; 2],
         work_j: &mut Vec<f64>,

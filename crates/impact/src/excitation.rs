@@ -20,7 +20,7 @@ use halfspace::{
 
 /// Consecutive samples.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Run {
+pub struct Samples {
     /// Time of the first in s.
     pub start_s: f64,
     /// Force long before it in N.
@@ -452,7 +452,7 @@ impl Excitation {
     }
 
     /// The force without its jumps in N long before a run.
-    pub(crate) fn continuous_base_n(&self, run: &Run) -> f64 {
+    pub(crate) fn continuous_base_n(&self, run: &Samples) -> f64 {
         let earlier = self
             .jumps()
             .iter()
@@ -489,7 +489,7 @@ impl Excitation {
     }
 
     /// Nodes in the cells between the samples of a run in N at which the force is read, with weights that integrate it.
-    pub(crate) fn cell_nodes(&self, run: &Run, step_s: f64, force_n: &[f64]) -> CellNodes {
+    pub(crate) fn cell_nodes(&self, run: &Samples, step_s: f64, force_n: &[f64]) -> CellNodes {
         let mut found = self.unread_nodes(run, step_s, force_n);
         if self.contact().is_some() {
             let forces = self.forces_and_rates(&found.times_s(run.start_s, step_s));
@@ -499,7 +499,7 @@ impl Excitation {
     }
 
     /// The same without the forces of a contact.
-    pub(crate) fn unread_nodes(&self, run: &Run, step_s: f64, force_n: &[f64]) -> CellNodes {
+    pub(crate) fn unread_nodes(&self, run: &Samples, step_s: f64, force_n: &[f64]) -> CellNodes {
         let start_s = |cell: usize| run.start_s + cell as f64 * step_s;
         CellNodes::new(run.count.saturating_sub(1), |cell, nodes| {
             match &self.force {

@@ -46,7 +46,7 @@ const LARGEST_LOAD: f64 = 1.0;
 const GROWN: [f64; 3] = [0.0, 0.5, 1.0];
 
 /// The most circles.
-const MOST: usize = 24;
+const MOST_CIRCLES: usize = 24;
 
 /// Samples of a force by which its spectrum is known: the fewest, which resolve its beginning and end, and the most.
 const SAMPLES: [usize; 2] = [1024, 1 << 17];
@@ -215,12 +215,15 @@ impl Content {
             let circles = count as f64 * if is_beside { 1.0 } else { AROUND };
             waves.beyond_circles(circles) + bends.powf(-2.0 * circles)
         };
-        match ((1..=MOST).find(|&count| error(count) <= allowed), found) {
+        match (
+            (1..=MOST_CIRCLES).find(|&count| error(count) <= allowed),
+            found,
+        ) {
             (Some(count), _) => MeanPlan::Circles(count, error(count)),
             // rates of records are means over steps, and no better
             (None, _) if has_exact && derivative == Derivative::Field => MeanPlan::Exact,
             (None, Some(discs)) => MeanPlan::Discs(discs),
-            (None, None) => MeanPlan::Circles(MOST, f64::INFINITY),
+            (None, None) => MeanPlan::Circles(MOST_CIRCLES, f64::INFINITY),
         }
     }
 

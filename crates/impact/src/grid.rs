@@ -1,7 +1,7 @@
 //! Times of the output.
 
 use crate::error::ImpactError;
-use crate::excitation::{Excitation, Run};
+use crate::excitation::{Excitation, Samples};
 use crate::kernels::KernelSource;
 use crate::scene::Scene;
 use contact::law::hertz::CONTACT_TIME;
@@ -130,8 +130,8 @@ impl Wanted {
     }
 
     /// The runs of samples: there are none while a record is constant for a long time.
-    fn runs(&self, excitation: &Excitation, duration_s: f64, step_s: f64) -> Vec<Run> {
-        let run = |from_s: f64, to_s: f64, base_n: f64| Run {
+    fn runs(&self, excitation: &Excitation, duration_s: f64, step_s: f64) -> Vec<Samples> {
+        let run = |from_s: f64, to_s: f64, base_n: f64| Samples {
             start_s: from_s,
             base_n,
             // more than any memory, or the largest number of 32 bits in a browser: rejected by its number
@@ -194,7 +194,7 @@ pub(crate) struct Grid<'a> {
     /// Step in s.
     pub(crate) step_s: f64,
     /// Consecutive samples, in the order of time.
-    pub(crate) runs: Vec<Run>,
+    pub(crate) runs: Vec<Samples>,
     /// Largest requested step in s.
     pub(crate) wanted_s: f64,
     /// Time in s after which fields are taken as static between runs.
@@ -300,7 +300,7 @@ impl<'a> Grid<'a> {
         let after = self.runs.partition_point(|run| run.start_s <= time_s);
         let run = self.runs[after.saturating_sub(1)];
         let last = ((time_s - run.start_s) / self.step_s).ceil().max(0.0) as usize;
-        let moved = Run {
+        let moved = Samples {
             start_s: time_s - last as f64 * self.step_s,
             count: last + 1,
             ..run
@@ -320,7 +320,7 @@ impl<'a> Grid<'a> {
         force_n: &[f64],
     ) -> Vec<f64> {
         let excitation = self.excitation;
-        let of = |(run, force_n): (Run, Vec<f64>)| {
+        let of = |(run, force_n): (Samples, Vec<f64>)| {
             excitation.deflection_m(deflection, share, self.step_s, run.base_n, &force_n)
         };
         let mut found: Vec<f64> = self.continuous(force_n).into_iter().flat_map(of).collect();
@@ -339,24 +339,24 @@ impl<'a> Grid<'a> {
     }
 
     /// The samples of each run without the jumps of the force, relative to the base of the run long before.
-    pub(crate) fn continuous(&self, force_n: &[f64]) -> Vec<(Run, Vec<f64>)> {
-        let of = |(run, force_n): (Run, &[f64])| {
+    pub(crate) fn continuous(&self, force_n: &[f64]) -> Vec<(Samples, Vec<f64>)> {
+        let of = |(run, force_n): (Samples, &[f64])| {
             let time_s = |i: usize| run.start_s + i as f64 * self.step_s;
             let samples = force_n.iter().enumerate();
             let samples = samples.map(|(i, force)| force - self.excitation.jumped_n(time_s(i)));
             let base_n = self.excitation.continuous_base_n(&run);
-            (Run { base_n, ..run }, samples.collect())
+            (Samples { base_n, ..run }, samples.collect())
         };
         self.split(force_n).into_iter().map(of).collect()
     }
 
     /// The samples of each run, out of all samples.
-    pub(crate) fn split<'s>(&self, mut samples: &'s [f64]) -> Vec<(Run, &'s [f64])> {
-        let cut = |&run: &Run| {
+    pub(crate) fn split<'s>(&self, mut samples: &'s [f64]) -> Vec<(Samples, &'s [f64])> {
+        let cut = |&run: &Samples| {
             let (own, rest) = samples.split_at(run.count.min(samples.len()));
             samples = rest;
             let count = own.len();
-            (Run { count, ..run }, own)
+            (Samples { count, ..run }, own)
         };
         self.runs.iter().map(cut).collect()
     }

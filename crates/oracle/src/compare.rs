@@ -12,7 +12,7 @@ use realfft::num_complex::Complex64;
 const FEWEST: usize = 16;
 
 /// Largest number of samples that are compared: 64 MB for each spectrum.
-const MOST: usize = 1 << 22;
+const MOST_COMPARED: usize = 1 << 22;
 
 /// Largest shift, as a part of the common span.
 const LARGEST_SHIFT: f64 = 0.25;
@@ -112,8 +112,8 @@ pub fn compare(
         );
         return Err(OracleError::new("time", sentence));
     }
-    let step_s = (to_s - from_s) / (count.min(MOST) - 1) as f64;
-    let time_s: Vec<f64> = (0..count.min(MOST))
+    let step_s = (to_s - from_s) / (count.min(MOST_COMPARED) - 1) as f64;
+    let time_s: Vec<f64> = (0..count.min(MOST_COMPARED))
         .map(|i| (from_s + i as f64 * step_s).min(to_s))
         .collect();
     let values = both.map(|record| time_s.iter().map(|&t| record.at(t)).collect::<Vec<f64>>());

@@ -50,7 +50,7 @@ impl Panels {
         mut of: impl FnMut(&[f64; NODES]) -> Values,
     ) {
         /// Most panels of an interval.
-        const MOST: usize = 200;
+        const MOST_PANELS: usize = 200;
         /// Error of a Gauss rule over the power 3/2 of the last two Legendre coefficients, over the root of the largest value.
         const CAUTION: f64 = 4.0;
         /// Rounding error over the magnitudes of the terms, which are products over all legs; at 1e-15 twice as many
@@ -77,7 +77,7 @@ impl Panels {
             count += 1;
             let is_fine =
                 (0..6).all(|f| errors[f] <= allowed[f].max(rounding[usize::from(f >= 2)]));
-            if !is_fine && count + stack.len() < MOST {
+            if !is_fine && count + stack.len() < MOST_PANELS {
                 stack.push([middle, to]);
                 stack.push([from, middle]);
                 continue;

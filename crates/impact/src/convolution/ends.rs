@@ -40,13 +40,13 @@ pub(crate) struct Zone {
 /// The force on a disc within a zone.
 #[derive(Default)]
 struct DiscZone {
-    parts: Vec<Part>,
+    parts: Vec<ZonePart>,
     /// When it jumps, in s, and by how much, such as the rate of a contact that begins to yield.
     jumps: Vec<(f64, f64)>,
 }
 
 /// A part of a zone on one side of a beginning or an end.
-struct Part {
+struct ZonePart {
     origin_s: f64,
     /// Of time from the origin: 1 after a beginning, -1 before an end.
     sign: f64,
@@ -160,7 +160,7 @@ impl DiscZone {
             for side in [(low, 1.0), (high, -1.0)] {
                 let roots = [0.0, (middle - side.0).abs().sqrt()];
                 if roots[1] > 0.0 {
-                    Part::push(side, roots, &force, allowed, &mut found.parts);
+                    ZonePart::push(side, roots, &force, allowed, &mut found.parts);
                 }
             }
         }
@@ -177,7 +177,7 @@ impl DiscZone {
     }
 }
 
-impl Part {
+impl ZonePart {
     /// Adds the part on one side of an origin, halved until a polynomial follows the force.
     fn push(
         (origin_s, sign): (f64, f64),

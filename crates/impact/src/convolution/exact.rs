@@ -25,8 +25,8 @@ use std::ops::Range;
 use std::sync::LazyLock;
 
 /// Terms of a series at least and at most, and how often an interval is halved then.
-const LEAST: usize = 5;
-const MOST: usize = 21;
+const LEAST_TERMS: usize = 5;
+const MOST_TERMS: usize = 21;
 const HALVINGS: usize = 5;
 
 /// Radius over the distance from the largest edge below which kernels of a punch lose digits.
@@ -40,7 +40,7 @@ const LEAST_TOLERANCE: f64 = 1e-12;
 
 /// Integrals of the terms of a series. The argument x stands for an angle (1 + x) pi/2, and each term is the integral
 /// of a function times 1 - x^2, since stresses of a punch grow as 1/angle toward a front.
-static INTEGRALS: LazyLock<[f64; MOST]> = LazyLock::new(|| {
+static INTEGRALS: LazyLock<[f64; MOST_TERMS]> = LazyLock::new(|| {
     let rule = gauss::rule(gauss::MAX_NODES);
     std::array::from_fn(|k| {
         let terms = rule.on(-1.0, 1.0).map(|(x, weight)| {
@@ -319,7 +319,7 @@ impl<'a> Past<'a> {
         'panels: while let Some((pair, halvings)) = panels.pop() {
             let [from_s, to_s] = pair;
             let (mut values, mut series) = (Vec::new(), Vec::new());
-            for terms in (LEAST..=MOST).step_by(2) {
+            for terms in (LEAST_TERMS..=MOST_TERMS).step_by(2) {
                 for &node in &leja_nodes()[values.len()..terms] {
                     let weight = 0.5 * (to_s - from_s) * (1.0 - node * node);
                     let mut value = Six::default();
@@ -331,13 +331,13 @@ impl<'a> Past<'a> {
                 }
                 series = leja_series(&values);
                 // terms that fall as a power are many
-                let many = terms as f64 / LEAST as f64;
+                let many = terms as f64 / LEAST_TERMS as f64;
                 let last = |f: usize| series[terms - 1][f].abs() + series[terms - 2][f].abs();
                 if (0..6).all(|f| many * last(f) <= allowed[f]) {
                     break;
                 }
                 // such as of logarithms at the ends
-                if terms == MOST && halvings > 0 {
+                if terms == MOST_TERMS && halvings > 0 {
                     let middle_s = 0.5 * (from_s + to_s);
                     let halves = [[middle_s, to_s], [from_s, middle_s]];
                     panels.extend(halves.map(|half| (half, halvings - 1)));
@@ -628,9 +628,9 @@ impl<'a> Past<'a> {
         [(mut low, mut at_low), (mut high, mut at_high)]: [(f64, f64); 2],
         family: usize,
     ) -> f64 {
-        const MOST: usize = 40;
+        const MOST_SECANTS: usize = 40;
         let enough = 1e-13 * high;
-        for _ in 0..MOST {
+        for _ in 0..MOST_SECANTS {
             if high - low < enough || at_low == at_high {
                 break;
             }

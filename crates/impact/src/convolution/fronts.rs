@@ -127,6 +127,22 @@ impl<'a> Fronts<'a> {
         of_ends || self.of_kink(time_s)
     }
 
+    /// The part at a time of the error that looked-up fields have at fronts of the first and last instants: so many discs leave out a
+    /// term that falls with the time from a front as its derivative.
+    pub(crate) fn falls(&self, time_s: f64, discs: usize) -> f64 {
+        if self.of_kink(time_s) {
+            return 1.0;
+        }
+        let ends_s = self.excitation.contacts_s().iter().flatten();
+        let apart_s = |end_s: &f64| {
+            let fronts = self.arrivals_s.iter();
+            let apart = fronts.map(|front_s| (time_s - end_s - front_s).abs());
+            apart.fold(f64::INFINITY, f64::min)
+        };
+        let apart = ends_s.map(apart_s).fold(f64::INFINITY, f64::min) / self.crossing_s;
+        apart.max(1.0).powi(2 - 2 * discs as i32)
+    }
+
     fn of_kink(&self, time_s: f64) -> bool {
         let [near_s, far_s] = self.edges_s;
         let mut kinks_s = self.excitation.kinks_s().iter();

@@ -12,7 +12,7 @@
 use super::discs::Discs;
 use super::ends::{Zone, ends_within, unresolved};
 use super::tuning;
-use crate::excitation::{Excitation, Pressed, PressureRadius, Run};
+use crate::excitation::{Excitation, Pressed, PressureRadius, Samples};
 use crate::grid::Grid;
 use crate::quantity::Derivative;
 use crate::sampled::convolve::Convolver;
@@ -32,7 +32,7 @@ pub(crate) enum Reading {
 
 /// The samples of a run, the ones needed, and the pressures at all of them.
 pub(crate) struct SampledRun {
-    pub(crate) run: Run,
+    pub(crate) run: Samples,
     /// Numbers of the samples that the outputs need, ascending.
     pub(crate) needed: Vec<usize>,
     /// Places in the cells between samples, with the force there.
@@ -147,7 +147,7 @@ impl<'a> Forcing<'a> {
             needed.dedup();
             let before = times_s.len();
             outputs.extend(inside.map(|n| before + needed.partition_point(|&m| m < n)));
-            let run = Run {
+            let run = Samples {
                 start_s: run.start_s - 0.5 * differences as f64 * grid.step_s,
                 base_n: run.base_n,
                 count: run.count + differences,
@@ -200,7 +200,7 @@ impl<'a> Forcing<'a> {
     }
 
     /// When some cells of a run begin and end, in s.
-    pub(crate) fn span_s(&self, run: &Run, cells: &Range<usize>) -> [f64; 2] {
+    pub(crate) fn span_s(&self, run: &Samples, cells: &Range<usize>) -> [f64; 2] {
         [cells.start - 1, cells.end - 1].map(|n| run.start_s + n as f64 * self.step_s)
     }
 
@@ -311,7 +311,7 @@ impl<'a> Forcing<'a> {
     /// Rises over the parts of a cell, the oldest first, less those of the parabola, of the load times each of Newton's polynomials.
     fn residual_rises(
         &self,
-        run: &Run,
+        run: &Samples,
         cell: usize,
         discs: &Discs,
         each: &[Sampled],
@@ -355,7 +355,7 @@ impl<'a> Forcing<'a> {
     }
 
     /// The cells of each contact during a run.
-    pub(crate) fn contacts(&self, run: &Run) -> Vec<Range<usize>> {
+    pub(crate) fn contacts(&self, run: &Samples) -> Vec<Range<usize>> {
         let cell = |at_s: f64| (at_s - run.start_s) / self.step_s;
         let of = |[begin_s, end_s]: &[f64; 2]| {
             let from = cell(*begin_s).floor().max(0.0) as usize + 1;
@@ -398,7 +398,7 @@ impl<'a> Forcing<'a> {
 }
 
 impl SampledRun {
-    fn new(excitation: &Excitation, run: Run, needed: Vec<usize>, step_s: f64) -> Self {
+    fn new(excitation: &Excitation, run: Samples, needed: Vec<usize>, step_s: f64) -> Self {
         let samples = excitation.contact().map(|_| {
             let times_s = (0..run.count).map(|n| run.start_s + n as f64 * step_s);
             excitation.pressures_at(&times_s.collect::<Vec<f64>>())

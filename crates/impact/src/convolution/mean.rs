@@ -77,10 +77,7 @@ impl Convolution<'_> {
         let found: Vec<Vec<Trace>> = found.collect::<Result<_, _>>()?;
         for (arc, own) in arcs.iter().zip(found) {
             if sum.is_empty() {
-                let blank = |trace: &Trace| Trace {
-                    samples: vec![0.0; trace.samples.len()],
-                    error: 0.0,
-                };
+                let blank = |trace: &Trace| Trace::new(vec![0.0; trace.samples.len()], 0.0);
                 sum = own.iter().map(blank).collect();
             }
             self.add(arc, &own, &mut sum);
@@ -142,7 +139,7 @@ impl Convolution<'_> {
             let loads = forcing.loads_of(discs);
             let mut sums = Sums::new(forcing, &loads, &kernels)?;
             sums.integrate_zones(forcing, &loads, &kernels, |_| false);
-            Ok(self.traces(forcing, &kernels, &sums, false))
+            Ok(self.traces(forcing, &sums))
         };
         let sums = self.forcings.iter().map(of);
         let sums: Vec<[Trace; 6]> = sums.collect::<Result<_, ImpactError>>()?;

@@ -30,6 +30,7 @@ pub(crate) mod tuning;
 pub(crate) use exact::Past;
 
 use crate::error::ImpactError;
+use crate::excitation::Excitation;
 use crate::grid::Grid;
 use crate::kernels::{CellPlan, Cells, KernelSource};
 use crate::quantity::{Derivative, Quantity};
@@ -52,9 +53,25 @@ pub struct Trace {
     pub samples: Vec<f64>,
     /// Estimated absolute error of every sample.
     pub error: f64,
+    /// The same of each sample, where fronts have errors of their own; otherwise empty.
+    pub(crate) own_errors: Vec<f64>,
 }
 
 impl Trace {
+    /// Of samples with one error.
+    fn new(samples: Vec<f64>, error: f64) -> Self {
+        Self {
+            samples,
+            error,
+            own_errors: Vec::new(),
+        }
+    }
+
+    /// Estimated absolute error of a sample.
+    pub(crate) fn error_of(&self, sample: usize) -> f64 {
+        self.own_errors.get(sample).map_or(self.error, |own| *own)
+    }
+
     /// The sample of the largest magnitude, with its sign.
     pub fn peak(&self) -> f64 {
         let larger = |most: f64, &x: &f64| if x.abs() > most.abs() { x } else { most };
@@ -85,6 +102,7 @@ pub(crate) struct Convolution<'a> {
 
 /// The kernels of a point, for sums at any instants.
 pub(crate) struct Point<'a> {
+    excitation: &'a Excitation,
     /// Number of the set of discs.
     set: usize,
     kernels: PointKernels<'a>,
@@ -96,6 +114,14 @@ impl Point<'_> {
     /// Its place in m.
     pub(crate) fn place_m(&self) -> [f64; 2] {
         self.kernels.place_m
+    }
+
+    /// The time in s that the shortest waves of looked-up kernels take to pass; none of computed ones.
+    pub(crate) fn shortest_s(&self) -> Option<f64> {
+        let excitation = self.excitation;
+        let crossing_s = excitation.units().disc_radius_m / excitation.speeds().rayleigh;
+        let smallest_s = self.kernels.discs.smallest() * crossing_s;
+        (!self.kernels.are_traces()).then_some(smallest_s)
     }
 }
 
@@ -223,6 +249,7 @@ impl<'a> Convolution<'a> {
         let echoes = self.echoes.as_ref();
         let echoes = echoes.map(|echoes| self.echo_kernels(echoes, place_m));
         Ok(Point {
+            excitation: self.grid.excitation,
             set,
             kernels: PointKernels::new(&self.forcings[0], discs, (place_m, None), cells),
             echoes: echoes.transpose()?,
@@ -264,14 +291,14 @@ impl<'a> Convolution<'a> {
         });
         let seen = |component: usize, derivative: Derivative| {
             let (filter, fields) = filtered.as_ref()?;
-            let Trace { samples, error } = &fields[component];
+            let Trace { samples, error, .. } = &fields[component];
             let order = match derivative {
                 Derivative::Field => 0,
                 Derivative::First => 1,
                 Derivative::Second => 2,
             };
             let (samples, error) = filter.of((samples, *error), order, self.wanted);
-            Some(Trace { samples, error })
+            Some(Trace::new(samples, error))
         };
         for (component, shown) in sums[0].iter_mut().enumerate() {
             if let Some(own) = seen(component, Derivative::Field) {
@@ -310,16 +337,19 @@ impl<'a> Convolution<'a> {
         let found = self.traces_at(&forcings, point)?;
         Ok(found
             .iter()
-            .map(|trace| [trace.samples[0], trace.error])
+            .map(|trace| [trace.samples[0], trace.error_of(0)])
             .collect())
     }
 
     fn of_stresses(&self, quantity: Quantity, fields: &[Trace]) -> Trace {
         let (stresses, elastic) = ([2, 3, 4, 5], self.grid.excitation.elastic);
         let of = |i: usize| quantity.of(stresses.map(|f| fields[f].samples[i]), elastic);
+        let error_of = |i: usize| quantity.error(stresses.map(|f| fields[f].error_of(i)), elastic);
+        let count = fields[2].samples.len();
         Trace {
-            samples: (0..fields[2].samples.len()).map(of).collect(),
+            samples: (0..count).map(of).collect(),
             error: quantity.error(stresses.map(|f| fields[f].error), elastic),
+            own_errors: (0..count).map(error_of).collect(),
         }
     }
 
@@ -370,7 +400,7 @@ impl<'a> Convolution<'a> {
         let loads = forcing.loads(set, kernels.discs);
         let mut own = Sums::new(forcing, loads, kernels)?;
         own.integrate_zones(forcing, loads, kernels, |_| false);
-        Ok(self.traces(forcing, kernels, &own, false))
+        Ok(self.traces(forcing, &own))
     }
 
     /// The place in radii of a disc of a radius `over` the largest, this radius in m, and the cells as far as the outputs need them,
@@ -434,24 +464,11 @@ impl<'a> Convolution<'a> {
                 )?;
             }
         }
-        Ok(self.traces(forcing, kernels, &sums, !integrated.is_empty()))
+        Ok(self.traces(forcing, &sums))
     }
 
     /// The outputs of a forcing with their errors.
-    fn traces(
-        &self,
-        forcing: &Forcing<'_>,
-        kernels: &PointKernels<'_>,
-        sums: &Sums,
-        is_integrated: bool,
-    ) -> [Trace; 6] {
-        let zones = f64::from(u8::from(kernels.are_traces()));
-        // the last terms of the integrals of fields are counted one by one
-        let over_past = match (is_integrated && self.past.is_some(), forcing.derivative) {
-            (false, _) | (true, Derivative::Field) => 0.0,
-            (true, Derivative::First | Derivative::Second) => 1.0,
-        };
-        let quadrature = (zones + over_past) * tuning::QUADRATURE * forcing.tolerance;
+    fn traces(&self, forcing: &Forcing<'_>, sums: &Sums) -> [Trace; 6] {
         let own = tuning::FORCE_OVER_RESULTS * forcing.excitation.relative_error;
         let sensitivity = match forcing.derivative {
             Derivative::Field => 0.0,
@@ -462,14 +479,24 @@ impl<'a> Convolution<'a> {
         let per_step = (2.0 / forcing.step_s).powi(forcing.differences as i32);
         let of = |f: usize| {
             let left = sums.truncation[f].iter().zip(&sums.residual[f]);
-            let left = left.map(|(truncation, residual)| truncation.abs() + residual);
-            let left = left.fold(0.0, f64::max) * per_step;
+            let left: Vec<f64> = left
+                .map(|(truncation, residual)| per_step * (truncation.abs() + residual))
+                .collect();
             let samples = Sums::differenced(forcing, &sums.values[f]);
-            let error = sums.errors[f]
-                + left
-                + quadrature * largest(&sums.values[f])
-                + relative * largest(&samples);
-            Trace { samples, error }
+            let even = sums.errors[f] + relative * largest(&samples);
+            let quadrature = tuning::QUADRATURE * forcing.tolerance * largest(&sums.values[f]);
+            let short = sums.short_waves[f];
+            let own = |&first: &usize| {
+                let of = first..=first + forcing.differences;
+                let integrated = quadrature * largest(&sums.quadratures[of.clone()]);
+                let short = short * sums.falls.get(first).map_or(1.0, |part| *part);
+                even + largest(&left[of]) + integrated + short
+            };
+            Trace {
+                error: even + largest(&left) + quadrature * largest(&sums.quadratures) + short,
+                own_errors: forcing.outputs.iter().map(own).collect(),
+                samples,
+            }
         };
         std::array::from_fn(of)
     }
@@ -479,8 +506,9 @@ impl<'a> Convolution<'a> {
 fn add_traces(all: &mut [Trace; 6], own: [Trace; 6]) {
     for (all, own) in all.iter_mut().zip(own) {
         all.error += own.error;
-        for (all, own) in all.samples.iter_mut().zip(own.samples) {
-            *all += own;
+        for (i, sample) in all.samples.iter_mut().enumerate() {
+            *sample += own.samples[i];
+            all.own_errors[i] += own.error_of(i);
         }
     }
 }
@@ -532,6 +560,11 @@ fn integrate_past(
             by_discs[f] += cells[f] + zones[f];
         }
     }
+    // the last terms of the integrals of fields are counted one by one
+    sums.quadratures[i] += match forcing.derivative {
+        Derivative::Field => 0.0,
+        Derivative::First | Derivative::Second => 1.0,
+    };
     // of rates the last terms say too much: beside fronts they fall slowly, and have either sign
     let counts = forcing.reading == Reading::Force;
     for f in 0..components(forcing) {

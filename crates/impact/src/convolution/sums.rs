@@ -189,6 +189,11 @@ pub(crate) struct Sums {
     pub(crate) residual: [Vec<f64>; 6],
     /// Errors of every sample.
     pub(crate) errors: Six,
+    /// How many integrals each sample has whose error is that of a quadrature.
+    pub(crate) quadratures: Vec<f64>,
+    /// Errors of looked-up fields at fronts of the first and last instants, and which part of them each sample has.
+    pub(crate) short_waves: Six,
+    pub(crate) falls: Vec<f64>,
 }
 
 /// How many components a forcing has.
@@ -212,6 +217,9 @@ impl Sums {
             truncation: blank(),
             residual: blank(),
             errors: Six::default(),
+            quadratures: vec![0.0; forcing.times_s.len()],
+            short_waves: Six::default(),
+            falls: Vec::new(),
         };
         sums.add_cells(forcing, loads, kernels);
         sums.add_sharp(forcing, loads, kernels);
@@ -361,23 +369,22 @@ impl Sums {
 
     /// Adds the errors of looked-up fields and of echoes by the first and last instants of a contact.
     fn add_short_waves(&mut self, forcing: &Forcing<'_>, kernels: &PointKernels<'_>) {
-        let fronts = || Fronts::new(forcing.excitation, kernels.place_m);
-        let parts = if !kernels.are_traces() {
-            let [_, part] = fronts().looked_up_errors(
-                kernels.discs.smallest(),
-                forcing.step_s,
-                forcing.derivative.power(),
-            );
-            [part; 2]
-        } else if kernels.image_m.is_some() && forcing.follows() {
-            fronts().echo_errors(forcing.derivative)
-        } else {
-            return;
-        };
+        let fronts = Fronts::new(forcing.excitation, kernels.place_m);
         let peaks = self.values.each_ref().map(|samples| largest(samples));
-        for (f, error) in self.errors.iter_mut().enumerate() {
-            let kind = usize::from(f >= 2);
-            *error += parts[kind] * largest([&peaks[..2], &peaks[2..]][kind]);
+        let kinds = [&peaks[..2], &peaks[2..]].map(largest);
+        let of_kind = |f: usize| usize::from(f >= 2);
+        if !kernels.are_traces() {
+            let power = forcing.derivative.power();
+            let smallest = kernels.discs.smallest();
+            let [_, part] = fronts.looked_up_errors(smallest, forcing.step_s, power);
+            self.short_waves = std::array::from_fn(|f| part * kinds[of_kind(f)]);
+            let falls = |&time_s: &f64| fronts.falls(time_s, kernels.discs.count());
+            self.falls = forcing.times_s.iter().map(falls).collect();
+        } else if kernels.image_m.is_some() && forcing.follows() {
+            let parts = fronts.echo_errors(forcing.derivative);
+            for (f, error) in self.errors.iter_mut().enumerate() {
+                *error += parts[of_kind(f)] * kinds[of_kind(f)];
+            }
         }
     }
 
@@ -428,6 +435,7 @@ impl Sums {
             done.fill(false);
         }
         for i in (0..done.len()).filter(|&i| done[i]) {
+            self.quadratures[i] += 1.0;
             let change = by_zones(forcing, loads, kernels, i, &(0..usize::MAX));
             for (f, change) in change.into_iter().enumerate().take(components(forcing)) {
                 self.values[f][i] += change;

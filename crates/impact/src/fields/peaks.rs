@@ -83,11 +83,19 @@ pub(crate) fn peaks(
         time_s: time_s.to_vec(),
         values: traces.iter().map(|trace| trace.samples.clone()).collect(),
         errors: traces.iter().map(|trace| trace.error).collect(),
+        own_errors: traces.iter().map(widened).collect(),
+        hidden: vec![0.0; traces.len()],
         folds: Vec::new(),
     };
     let mut left = MOST_INSTANTS;
     let fronts = fronts(convolution.grid.excitation, point.place_m());
-    let mut wanted_s = history.at_fronts(&fronts);
+    let mut wanted_s = match point.shortest_s() {
+        None => history.at_fronts(&fronts),
+        Some(shortest_s) => {
+            history.hide(&fronts, shortest_s);
+            Vec::new()
+        }
+    };
     let is_narrow = |front: &Front| front.is_fold && front.width_s < history.step_s;
     history.folds = fronts.into_iter().filter(is_narrow).collect();
     // through a low pass the samples show all there is
@@ -190,45 +198,55 @@ fn fronts(excitation: &Excitation, [r_m, z_m]: [f64; 2]) -> Vec<Front> {
 struct History {
     step_s: f64,
     time_s: Vec<f64>,
-    /// Of each output.
+    /// Of each output, with the error of all values and that of each.
     values: Vec<Vec<f64>>,
     errors: Vec<f64>,
+    own_errors: Vec<Vec<f64>>,
+    /// The largest magnitude that each may have at fronts which its kernels do not resolve.
+    hidden: Vec<f64>,
     /// Those narrower than a step, which are not followed further than by their instants.
     folds: Vec<Front>,
 }
 
+/// The error of each sample: the largest of those next to it, since the bounds on some errors change their sign.
+fn widened(trace: &Trace) -> Vec<f64> {
+    /// Samples to both sides, in powers of two.
+    const BESIDE: [usize; 3] = [1, 2, 4];
+    let count = trace.samples.len();
+    let mut found: Vec<f64> = (0..count).map(|i| trace.error_of(i)).collect();
+    for shift in BESIDE {
+        let of = |i: usize| {
+            let sides = [i.checked_sub(shift), Some(i + shift)]
+                .into_iter()
+                .flatten();
+            let sides = sides.filter_map(|k| found.get(k));
+            sides.fold(found[i], |most, own| most.max(*own))
+        };
+        found = (0..count).map(of).collect();
+    }
+    found
+}
+
 /// A local crest of an output.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Default)]
 struct Crest {
+    /// Its error is the uncertainty of the place of the crest alone.
     peak: Peak,
+    /// Error of the values next to it.
+    of_values: f64,
     /// Where the output should be known next, in s.
     next_s: f64,
 }
 
 impl History {
-    /// The instants at fronts where an output may have a needle above its largest sample: it grows toward the front no faster than
-    /// as the root of the time to it, and already shows in the bends of the samples.
+    /// The instants at fronts where an output may have a needle above its largest sample.
     fn at_fronts(&self, fronts: &[Front]) -> Vec<f64> {
         let largest: Vec<f64> = self.values.iter().map(|own| largest(own)).collect();
         let mut found: Vec<(f64, [f64; 4])> = Vec::new();
         for front in fronts {
-            let after = self.time_s.partition_point(|&t| t <= front.at_s);
-            let Some(before) = after.checked_sub(1).filter(|i| self.joins(*i)) else {
-                continue;
-            };
-            let gap_s = self.time_s[after] - self.time_s[before];
-            if front.width_s >= gap_s {
-                continue;
-            }
-            let grows = (gap_s / front.width_s).sqrt();
-            let may_be = |j: usize| {
-                let own = &self.values[j];
-                let bends = (before.saturating_sub(1)..=after + 1).filter_map(|i| self.bend(j, i));
-                let most = own[before].abs().max(own[after].abs());
-                let may_be = most + grows * bends.fold(0.0, f64::max);
-                may_be / largest[j].max(f64::MIN_POSITIVE)
-            };
-            let highest = (0..self.values.len()).map(may_be).fold(0.0, f64::max);
+            let most = |j: usize| self.most_at(j, front, 0.0).unwrap_or(0.0);
+            let over = |j: usize| most(j) / largest[j].max(f64::MIN_POSITIVE);
+            let highest = (0..self.values.len()).map(over).fold(0.0, f64::max);
             if highest > 1.0 {
                 let mut instants_s = front.instants_s;
                 if front.is_fold {
@@ -252,6 +270,31 @@ impl History {
             }
         }
         wanted_s
+    }
+
+    /// Notes how large the outputs may be at fronts that looked-up kernels do not resolve, whose shortest waves take a time in s to
+    /// pass.
+    fn hide(&mut self, fronts: &[Front], shortest_s: f64) {
+        for j in 0..self.values.len() {
+            let folds = fronts.iter().filter(|front| front.is_fold);
+            let most = folds.filter_map(|front| self.most_at(j, front, shortest_s));
+            self.hidden[j] = most.fold(0.0, f64::max);
+        }
+    }
+
+    /// The largest magnitude that an output may have at a front, if this is narrower than the samples around it, and than a time in
+    /// s: it grows toward the front no faster than as the root of the time to it, and already shows in the bends of the samples.
+    fn most_at(&self, j: usize, front: &Front, shortest_s: f64) -> Option<f64> {
+        let after = self.time_s.partition_point(|&t| t <= front.at_s);
+        let before = after.checked_sub(1).filter(|i| self.joins(*i))?;
+        let gap_s = (self.time_s[after] - self.time_s[before]).max(shortest_s);
+        if front.width_s >= gap_s {
+            return None;
+        }
+        let own = &self.values[j];
+        let bends = (before.saturating_sub(1)..=after + 1).filter_map(|i| self.bend(j, i));
+        let most = own[before].abs().max(own[after].abs());
+        Some(most + (gap_s / front.width_s).sqrt() * bends.fold(0.0, f64::max))
     }
 
     /// Whether a place and the next one are in one run of samples.
@@ -285,8 +328,15 @@ impl History {
             let is_useless = *error > USELESS * self.errors[j] && *error > 0.1 * value.abs();
             let value = if is_useless { self.at(j, at_s) } else { *value };
             self.values[j].insert(place, value);
+            let beside = [place.saturating_sub(1), place].map(|i| self.own_errors[j].get(i));
+            let beside = beside
+                .into_iter()
+                .flatten()
+                .fold(0.0_f64, |most, own| most.max(*own));
+            self.own_errors[j].insert(place, beside);
             if !is_useless {
                 self.errors[j] = self.errors[j].max(*error);
+                self.own_errors[j][place] = *error;
             }
         }
         self.time_s.insert(place, at_s);
@@ -344,21 +394,21 @@ impl History {
             });
             sides[0].max(sides[1]).max(0.0)
         };
-        let higher = |most: Peak, crest: &Crest| {
-            let is_higher = crest.peak.value.abs() > most.value.abs();
-            if is_higher { crest.peak } else { most }
+        let higher = |most: Crest, crest: &Crest| {
+            let is_higher = crest.peak.value.abs() > most.peak.value.abs();
+            if is_higher { *crest } else { most }
         };
         let crests = self.crests(j);
-        let mut found = crests.iter().fold(Peak::default(), higher);
+        let highest = crests.iter().fold(Crest::default(), higher);
         let others = crests
             .iter()
-            .map(|one| one.peak.value.abs() + one.peak.error);
-        let may_be = others.fold(0.0, f64::max);
-        let left = found
-            .error
-            .max(may_be - found.value.abs())
-            .max(falls(&found));
-        found.error = left + self.errors[j];
+            .map(|one| one.peak.value.abs() + one.peak.error + one.of_values);
+        let values = self.values[j].iter().zip(&self.own_errors[j]);
+        let may_be = others.chain(values.map(|(value, error)| value.abs() + error));
+        let may_be = may_be.fold(self.hidden[j], f64::max);
+        let mut found = highest.peak;
+        let uncertain = found.error.max(falls(&found)) + highest.of_values;
+        found.error = uncertain.max(may_be - found.value.abs());
         if found.value == 0.0 {
             found.time_s = self.time_s.first().copied().unwrap_or_default();
         }
@@ -409,12 +459,15 @@ impl History {
             error: 0.0,
         };
         let has_both = i > 0 && self.joins(i - 1) && self.joins(i);
+        let errors = &self.own_errors[j];
         if !has_both {
             return Crest {
                 peak: known,
+                of_values: errors[i],
                 next_s: known.time_s,
             };
         }
+        let of_values = errors[i - 1].max(errors[i]).max(errors[i + 1]);
         let mut span = [i - 1, i + 1];
         if span[0] > 0 && self.joins(span[0] - 1) {
             span[0] -= 1;
@@ -451,6 +504,7 @@ impl History {
             let error = (own[i].abs() - own[i - 1].abs().min(own[i + 1].abs())).max(0.0);
             return Crest {
                 peak: Peak { error, ..known },
+                of_values,
                 next_s: if is_finest { known.time_s } else { next_s },
             };
         }
@@ -461,6 +515,7 @@ impl History {
                 time_s: high[0],
                 error: spread,
             },
+            of_values,
             next_s,
         }
     }

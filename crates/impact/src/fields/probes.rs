@@ -245,7 +245,7 @@ pub(crate) fn on_rows(
                 times.push(time);
             }
             let place = row * radii + column;
-            for (quantity, Trace { samples, error }) in found.into_iter().enumerate() {
+            for (quantity, Trace { samples, error, .. }) in found.into_iter().enumerate() {
                 for (frame, &n) in frames.iter().enumerate() {
                     fields.values[quantity][frame * size + place] = samples[n] as f32;
                 }

@@ -136,7 +136,7 @@ fn motion(
     let units = collision.units();
     let unit_m_s = units.length_m / units.time_s;
     let (samples, error_m_s) = match convolution.echo_velocity(place_m)? {
-        Some(Trace { samples, error }) => (samples, error),
+        Some(Trace { samples, error, .. }) => (samples, error),
         None => (Vec::new(), 0.0),
     };
     let motion = SurfaceMotion {

@@ -1,6 +1,6 @@
 //! A rational response of poles and zeros.
 
-use super::section::{Section, Way};
+use super::section::{FilterSection, Way};
 use super::{ResponseError, finite, within};
 use fault::rounded;
 use num_complex::Complex64;
@@ -121,14 +121,14 @@ impl PolesZeros {
 ///
 /// The samples between two sections are complex; after both of a conjugate pair they are real up to rounding.
 struct Chain {
-    sections: Vec<Section>,
+    sections: Vec<FilterSection>,
     gain: f64,
 }
 
 impl Chain {
     fn new(response: &PolesZeros, step_s: f64) -> Result<Self, ResponseError> {
         let of = |root: Complex64, is_pole: bool| {
-            Section::new(root, is_pole, step_s).ok_or_else(|| {
+            FilterSection::new(root, is_pole, step_s).ok_or_else(|| {
                 let frequency_hz = root.norm() / TAU;
                 let [step, at, least] = [step_s, frequency_hz, 0.1 / frequency_hz].map(rounded);
                 let sentence = format!("step_s = {step} is too large for the resonance of the response at {at} Hz: use a step of at most {least} s");

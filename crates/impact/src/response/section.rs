@@ -31,7 +31,7 @@ const MOST_STEPS: usize = 100;
 const FACTORED: f64 = 1e-13;
 
 /// One pole, which integrates over a step, or one zero, whose inverse does.
-pub(super) struct Section {
+pub(super) struct FilterSection {
     is_pole: bool,
     /// e^q - 1.
     growth: Complex64,
@@ -48,7 +48,7 @@ pub(super) enum Way {
     Back,
 }
 
-impl Section {
+impl FilterSection {
     /// Of a root in rad/s; none if the steps are too coarse for it.
     pub(super) fn new(root: Complex64, is_pole: bool, step_s: f64) -> Option<Self> {
         let q = root * step_s;
@@ -168,7 +168,7 @@ mod tests {
 
     #[test]
     fn the_sum_has_no_zero_on_the_circle() {
-        let turn = |q: Complex64| Section::new(q, true, 1.0);
+        let turn = |q: Complex64| FilterSection::new(q, true, 1.0);
         for damping in [0.0, 1e-6, 1e-3, 0.03, 0.5, 1.0] {
             for i in -60..=50 {
                 let size = 10_f64.powf(f64::from(i) * 0.1).min(3.1 + 100.0 * damping);
