@@ -32,11 +32,11 @@ const HALVINGS: usize = 5;
 /// Radius over the distance from the largest edge below which kernels of a punch lose digits.
 const NEAR_AXIS: f64 = 0.031;
 
-/// Part of the square of a radius over which kernels near the axis are differenced, and their tolerance: 1e-7 of them is lost in
-/// rounding, and beside fronts the square of this part over the distance to them (`scripts/check-close`, regions `axis` and
-/// `centre`).
+/// Part of the square of a radius over which kernels near the axis are differenced, and their tolerance over that of the fields: at
+/// most 1e-7 of them is lost in rounding, and beside fronts the square of this part over the distance to them
+/// (`scripts/check-close`, regions `axis` and `centre`).
 const DIFFERENCE: f64 = 1e-5;
-const LEAST_TOLERANCE: f64 = 1e-12;
+const OF_DIFFERENCES: f64 = 1e-7;
 
 /// Integrals of the terms of a series. The argument x stands for an angle (1 + x) pi/2, and each term is the integral
 /// of a function times 1 - x^2, since stresses of a punch grow as 1/angle toward a front.
@@ -86,7 +86,11 @@ impl<'a> Past<'a> {
             punch: kernels(Profile::Punch)?,
             hertz: kernels(Profile::Hertz)?,
             tolerance,
-            axial: Kernel::new(excitation.medium(), Profile::Hertz, LEAST_TOLERANCE)?,
+            axial: Kernel::new(
+                excitation.medium(),
+                Profile::Hertz,
+                (OF_DIFFERENCES * tolerance).clamp(1e-12, 1e-8),
+            )?,
         })
     }
 

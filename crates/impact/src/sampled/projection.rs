@@ -94,17 +94,22 @@ impl Projection {
 
     /// Adds the part that the cells have not absorbed to the fields at the samples `wanted`.
     pub(crate) fn add(&self, cells: &Moments, wanted: &[usize], out: &mut [Vec<f64>; 6]) {
+        // of each list, where the cells of a sample begin and end
+        let mut spans = [[0; 2]; 3];
         for (place, &n) in wanted.iter().enumerate() {
             let mut sum = Six::default();
             let newest = n as isize;
-            for (own, list) in self.unabsorbed.iter().enumerate() {
+            for (own, (list, span)) in self.unabsorbed.iter().zip(&mut spans).enumerate() {
                 let last = newest - own as isize;
                 let first = if own == 2 { isize::MIN } else { last };
                 // as far as there are cells
                 let first = first.max(newest + 1 - cells.first.len() as isize);
-                let from = list.partition_point(|missing| missing.cell < first);
-                let until = list.partition_point(|missing| missing.cell <= last);
-                let list = &list[from..until.max(from)];
+                let after = |place: usize, until: isize| {
+                    let later = list[place..].iter();
+                    place + later.take_while(|missing| missing.cell < until).count()
+                };
+                *span = [after(span[0], first), after(span[1], last + 1)];
+                let list = &list[span[0]..span[1].max(span[0])];
                 let of = |missing: &Unabsorbed| (newest - missing.cell) as usize;
                 let slopes = list.iter().map(|one| (one.slope, &cells.first[of(one)]));
                 let bends = list.iter().map(|one| (one.bend, &cells.second[of(one)]));
