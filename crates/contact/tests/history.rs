@@ -160,3 +160,31 @@ fn rates_are_those_of_the_force() {
         assert_eq!(found.force(1.001 * duration), [0.0; 3]);
     }
 }
+
+#[test]
+fn forces_at_many_times_are_those_at_each() {
+    for impact in IMPACTS {
+        for model in [Model::Growing, Model::AreaDashpot, Model::Wave] {
+            let (found, _, duration) = solved(impact, model, 1e-5);
+            let step = 1.1 * duration / f64::from(SAMPLES);
+            let times: Vec<f64> = (-20..i32::try_from(SAMPLES).unwrap())
+                .map(|i| f64::from(i) * step)
+                .collect();
+            let peaks = times.iter().map(|&time| found.force(time));
+            let peaks = peaks.fold([0.0_f64; 2], |most, own| {
+                [most[0].max(own[0]), most[1].max(own[1].abs())]
+            });
+            for (own, &time) in found.forces(&times).iter().zip(&times) {
+                let alone = found.force(time);
+                for k in 0..2 {
+                    let off = (own[k] - alone[k]).abs() / peaks[k];
+                    assert!(
+                        off < 1e-11,
+                        "{impact:?} {model:?} {}: {off:.1e}",
+                        time / duration
+                    );
+                }
+            }
+        }
+    }
+}

@@ -138,6 +138,12 @@ pub struct Motion {
     pub deflection_m: f64,
 }
 
+/// Force in N and its rate in N/s from those in collision units.
+#[inline(always)]
+fn in_si([force, rate, _]: [f64; 3], units: &CollisionUnits) -> [f64; 2] {
+    [force * units.force_n, rate * units.force_n / units.time_s]
+}
+
 /// Quality factor from which a block is elastic: attenuation changes fields by its inverse times the wave lengths of the path, which
 /// is below 1e-10 then (`without_attenuation_fields_are_elastic`).
 const ELASTIC: f64 = 1e12;
@@ -465,11 +471,10 @@ impl Excitation {
     #[inline(always)]
     pub(crate) fn force_and_rate(&self, time_s: f64) -> [f64; 2] {
         match &self.force {
-            Force::Contact(contact) => {
-                let units = &contact.units;
-                let [force, rate, _] = contact.samples.force(time_s / units.time_s);
-                [force * units.force_n, rate * units.force_n / units.time_s]
-            }
+            Force::Contact(contact) => in_si(
+                contact.samples.force(time_s / contact.units.time_s),
+                &contact.units,
+            ),
             Force::Record(record) => [record.continuous_n(time_s), f64::NAN],
         }
     }
@@ -482,10 +487,8 @@ impl Excitation {
         };
         let units = &contact.units;
         let times: Vec<f64> = times_s.iter().map(|t| t / units.time_s).collect();
-        let of = |[force, rate, _]: [f64; 3]| {
-            [force * units.force_n, rate * units.force_n / units.time_s]
-        };
-        contact.samples.forces(&times).into_iter().map(of).collect()
+        let all = contact.samples.forces(&times).into_iter();
+        all.map(|force| in_si(force, units)).collect()
     }
 
     /// Nodes in the cells between the samples of a run in N at which the force is read, with weights that integrate it.
@@ -602,5 +605,46 @@ impl Excitation {
         let all = force_n.iter().zip(delayed);
         all.map(|(p, delayed)| static_m_per_n * (factor * p - delayed))
             .collect()
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
+mod tests {
+    use crate::Impact;
+    use contact::{HalfSpace, Material, Striker};
+
+    /// The largest of many parts of the contact, one by one.
+    #[test]
+    fn a_fold_is_the_largest_lead_of_an_edge() {
+        for (target, velocity_m_s) in [
+            ("steel", 0.02),
+            ("steel", 5.0),
+            ("pmma", 1.0),
+            ("granite", 20.0),
+        ] {
+            let block = HalfSpace::new(Material::named(target).unwrap()).unwrap();
+            let ball = Material::named("bearing-steel").unwrap();
+            let ball = Striker::ball(ball, 0.005).unwrap();
+            let run = Impact::new(block, ball, velocity_m_s).solve().unwrap();
+            let excitation = run.excitation();
+            let end_s = excitation.contacts_s()[0][1];
+            for (at_s, sign) in [(0.0, 1.0), (end_s, -1.0)] {
+                for speed_m_s in [excitation.speeds().p, excitation.speeds().rayleigh] {
+                    let crossing_s = excitation.units().disc_radius_m / speed_m_s;
+                    let lead_s = |k: i32| {
+                        let since_s = excitation.end_s() * 0.9_f64.powi(k);
+                        let [one, _] = excitation.pressures(at_s + sign * since_s);
+                        one.square.sqrt() * crossing_s - since_s
+                    };
+                    let most_s = (1..240).map(lead_s).fold(0.0, f64::max);
+                    let found_s = excitation.fold_s(at_s, speed_m_s);
+                    assert!(
+                        (found_s / most_s - 1.0).abs() < 0.01,
+                        "{target} {velocity_m_s} {found_s} {most_s}"
+                    );
+                }
+            }
+        }
     }
 }

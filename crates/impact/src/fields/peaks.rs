@@ -10,7 +10,10 @@
 //! the velocity grows as the logarithm of the time. It is shown at a fixed part of the time by which the fold is ahead of the front
 //! from the centre: the same for any step, with an error that covers its fall over a sixtieth of a step.
 //!
-//! Theory: `docs/theory.md` (T75).
+//! The error of a peak is that of the samples next to it, or by how much another sample or a front may be higher. A table does not
+//! resolve narrow fronts: there no further instants are computed, and the error covers what the output may reach.
+//!
+//! Theory: `docs/theory.md` (T60, T75).
 
 use crate::convolution::{Convolution, Point, Trace};
 use crate::error::ImpactError;
