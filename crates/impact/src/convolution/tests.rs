@@ -610,3 +610,37 @@ fn beyond_two_radii_two_pressures_stand_for_one_that_was_cut() {
         }
     }
 }
+
+/// The largest of many parts of the contact, one by one.
+#[test]
+fn a_fold_is_the_largest_lead_of_an_edge() {
+    for (target, velocity_m_s) in [
+        ("steel", 0.02),
+        ("steel", 5.0),
+        ("pmma", 1.0),
+        ("granite", 20.0),
+    ] {
+        let block = HalfSpace::new(Material::named(target).unwrap()).unwrap();
+        let ball = Material::named("bearing-steel").unwrap();
+        let ball = Striker::ball(ball, 0.005).unwrap();
+        let run = Impact::new(block, ball, velocity_m_s).solve().unwrap();
+        let excitation = run.excitation();
+        let end_s = excitation.contacts_s()[0][1];
+        for (at_s, sign) in [(0.0, 1.0), (end_s, -1.0)] {
+            for speed_m_s in [excitation.speeds().p, excitation.speeds().rayleigh] {
+                let crossing_s = excitation.units().disc_radius_m / speed_m_s;
+                let lead_s = |k: i32| {
+                    let since_s = excitation.end_s() * 0.9_f64.powi(k);
+                    let [one, _] = excitation.pressures(at_s + sign * since_s);
+                    one.square.sqrt() * crossing_s - since_s
+                };
+                let most_s = (1..240).map(lead_s).fold(0.0, f64::max);
+                let found_s = excitation.fold_s(at_s, speed_m_s);
+                assert!(
+                    (found_s / most_s - 1.0).abs() < 0.01,
+                    "{target} {velocity_m_s} {found_s} {most_s}"
+                );
+            }
+        }
+    }
+}
