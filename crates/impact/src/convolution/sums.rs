@@ -212,12 +212,15 @@ impl Sums {
         kernels: &PointKernels<'_>,
     ) -> Result<Self, DomainError> {
         let blank = || std::array::from_fn(|_| vec![0.0; forcing.times_s.len()]);
+        // damped waves are summed over discs where fronts pass, too, and are as uncertain as an integral
+        // (`without_attenuation_fields_are_elastic`)
+        let own = f64::from(u8::from(forcing.excitation.attenuation.is_some()));
         let mut sums = Self {
             values: blank(),
             truncation: blank(),
             residual: blank(),
             errors: Six::default(),
-            quadratures: vec![0.0; forcing.times_s.len()],
+            quadratures: vec![own; forcing.times_s.len()],
             short_waves: Six::default(),
             falls: Vec::new(),
         };

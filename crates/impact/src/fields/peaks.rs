@@ -275,12 +275,14 @@ impl History {
         wanted_s
     }
 
-    /// Notes how large the outputs may be at fronts that looked-up kernels do not resolve, whose shortest waves take a time in s to
-    /// pass.
+    /// Notes how large the outputs may be at fronts that looked-up kernels do not resolve. The shortest waves of their discs take a
+    /// time in s to pass, which may be longer than a fold.
     fn hide(&mut self, fronts: &[Front], shortest_s: f64) {
         for j in 0..self.values.len() {
-            let folds = fronts.iter().filter(|front| front.is_fold);
-            let most = folds.filter_map(|front| self.most_at(j, front, shortest_s));
+            let most = fronts.iter().filter_map(|front| {
+                let shortest_s = if front.is_fold { shortest_s } else { 0.0 };
+                self.most_at(j, front, shortest_s)
+            });
             self.hidden[j] = most.fold(0.0, f64::max);
         }
     }
