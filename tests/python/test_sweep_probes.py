@@ -210,13 +210,13 @@ def test_auto_takes_the_table_where_the_stored_errors_are_within_the_tolerance(t
 
 
 def test_estimates_of_looked_up_fields_are_those_of_their_errors(table):
-    """Whole traces at random places beside computed ones: the median of estimate over error, and none below."""
+    """Whole traces and peaks at random places beside computed ones: the median of estimate over error of traces, and none below."""
     loader = importlib.machinery.SourceFileLoader("measure_lookups", str(ROOT / "scripts" / "measure-lookups"))
     lookups = importlib.util.module_from_spec(importlib.util.spec_from_loader("measure_lookups", loader))
     loader.exec_module(lookups)
     found, refused = lookups.measure(PROGRAM, table, range(5), seed=7)
-    rows = np.array(sum(found.values(), []))
+    rows = np.array(sum((own for (kind, _), own in found.items() if "peak" not in kind), []))
     assert not refused and len(rows) > 40
     # 70 over the sixteen impacts of seed 11, 61 of growing contacts and 78 of fixed discs
     assert np.median(rows[:, 1] / rows[:, 0]) < 100.0
-    assert not any(map(lookups.is_below, rows))
+    assert not any(map(lookups.is_below, sum(found.values(), [])))
