@@ -214,13 +214,13 @@ impl Sums {
         let blank = || std::array::from_fn(|_| vec![0.0; forcing.times_s.len()]);
         // damped waves are summed over discs where fronts pass, too, and are as uncertain as an integral
         // (`without_attenuation_fields_are_elastic`)
-        let own = f64::from(u8::from(forcing.excitation.attenuation.is_some()));
+        let damped = f64::from(u8::from(forcing.excitation.attenuation.is_some()));
         let mut sums = Self {
             values: blank(),
             truncation: blank(),
             residual: blank(),
             errors: Six::default(),
-            quadratures: vec![own; forcing.times_s.len()],
+            quadratures: vec![damped; forcing.times_s.len()],
             short_waves: Six::default(),
             falls: Vec::new(),
         };
@@ -372,22 +372,29 @@ impl Sums {
 
     /// Adds the errors of looked-up fields and of echoes by the first and last instants of a contact.
     fn add_short_waves(&mut self, forcing: &Forcing<'_>, kernels: &PointKernels<'_>) {
+        let of_echoes = kernels.image_m.is_some() && forcing.follows();
+        if kernels.are_traces() && !of_echoes {
+            return;
+        }
         let fronts = Fronts::new(forcing.excitation, kernels.place_m);
         let peaks = self.values.each_ref().map(|samples| largest(samples));
         let kinds = [&peaks[..2], &peaks[2..]].map(largest);
         let of_kind = |f: usize| usize::from(f >= 2);
-        if !kernels.are_traces() {
-            let power = forcing.derivative.power();
-            let smallest = kernels.discs.smallest();
-            let [_, part] = fronts.looked_up_errors(smallest, forcing.step_s, power);
-            self.short_waves = std::array::from_fn(|f| part * kinds[of_kind(f)]);
-            let falls = |&time_s: &f64| fronts.falls(time_s, kernels.discs.count());
-            self.falls = forcing.times_s.iter().map(falls).collect();
-        } else if kernels.image_m.is_some() && forcing.follows() {
+        if kernels.are_traces() {
             let parts = fronts.echo_errors(forcing.derivative);
             for (f, error) in self.errors.iter_mut().enumerate() {
                 *error += parts[of_kind(f)] * kinds[of_kind(f)];
             }
+            return;
+        }
+        let power = forcing.derivative.power();
+        let smallest = kernels.discs.smallest();
+        let [_, part] = fronts.looked_up_errors(smallest, forcing.step_s, power);
+        // a fixed disc has none
+        if part > 0.0 {
+            self.short_waves = std::array::from_fn(|f| part * kinds[of_kind(f)]);
+            let falls = |&time_s: &f64| fronts.falls(time_s, kernels.discs.count());
+            self.falls = forcing.times_s.iter().map(falls).collect();
         }
     }
 

@@ -262,16 +262,9 @@ impl CellNodes {
 
     /// The same nodes with other forces, as a function of their index.
     pub(crate) fn with(&self, force: impl Fn(usize) -> f64) -> Self {
-        let nodes = self.nodes.iter().enumerate();
-        Self {
-            starts: self.starts.clone(),
-            nodes: nodes
-                .map(|(i, node)| Node {
-                    force: force(i),
-                    ..*node
-                })
-                .collect(),
-        }
+        let mut found = self.clone();
+        found.read(force);
+        found
     }
 
     /// Times of all nodes, of a run that starts at a time and has steps of a length.
