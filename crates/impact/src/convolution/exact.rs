@@ -289,8 +289,11 @@ impl<'a> Past<'a> {
         let mut sum = Estimate::default();
         let mut nearer = Six::default();
         for (i, &radius) in radii.iter().enumerate() {
-            let found = self.off_axis(allowed, [radius, z_m], time_s, span_s, reading)?;
             let weights = weights_off_axis(r_m, &radii, i);
+            // what vanishes on the axis needs no digits beside it
+            let least = f64::MIN_POSITIVE;
+            let allowed = std::array::from_fn(|f| allowed[f] / weights[f].abs().max(least));
+            let found = self.off_axis(&allowed, [radius, z_m], time_s, span_s, reading)?;
             for (f, weight) in weights.into_iter().enumerate() {
                 sum.value[f] += weight * found.value[f];
                 sum.error[f] += (weight * found.error[f]).abs();

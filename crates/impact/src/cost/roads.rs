@@ -29,11 +29,12 @@ const STATIC_S: f64 = 3e-7;
 const STEP_S: f64 = 6e-8;
 
 /// Kernels of a sample that is integrated over all of the past, and over parts of it, over the square of the digits; on the
-/// axis so many times more, three of a difference at two radii.
+/// axis so many times more: for fields the three of a difference at two radii, for rates one at two.
 const KERNELS_OF_WHOLE: f64 = 12.0;
 const KERNELS_OF_PARTS: f64 = 6.0;
 const AXIS: f64 = 0.03;
 const ON_AXIS: f64 = 6.0;
+const RATES_ON_AXIS: f64 = 2.0;
 
 /// Power of the longitudinal over the shear speed, over that of a ratio of 1/4: a block that is nearly incompressible has as many
 /// more fronts between which its waves are integrated.
@@ -276,7 +277,11 @@ impl<'a> Prices<'a> {
         let sums_s = (discs as f64 + 1.0) * convolved_s(self.scene, samples, count) + still_s;
         let radius_m = excitation.units().disc_radius_m;
         let is_on_axis = place_m[0] < AXIS * place_m[1].hypot(radius_m);
-        let axis = if is_on_axis { ON_AXIS } else { 1.0 };
+        let axis = |derivative| match (is_on_axis, derivative) {
+            (false, _) => 1.0,
+            (true, Derivative::Field) => ON_AXIS,
+            (true, Derivative::First | Derivative::Second) => RATES_ON_AXIS,
+        };
         let each = |whole| {
             if whole {
                 KERNELS_OF_WHOLE
@@ -284,16 +289,17 @@ impl<'a> Prices<'a> {
                 KERNELS_OF_PARTS
             }
         };
-        // discs that stand for a face serve all samples
-        let integrated = || {
-            plan.integrated
-                .iter()
-                .flatten()
-                .filter(|_| stand_ins.is_none())
-        };
-        let past: f64 = integrated().map(|one| each(one.whole)).sum();
+        let integrated: Vec<(Derivative, bool)> = forcings
+            .iter()
+            .zip(&plan.integrated)
+            .flat_map(|((derivative, _), own)| own.iter().map(|one| (*derivative, one.whole)))
+            // discs that stand for a face serve all samples
+            .filter(|_| stand_ins.is_none())
+            .collect();
+        let kernels = |&(derivative, whole): &_| axis(derivative) * each(whole);
+        let past: f64 = integrated.iter().map(kernels).sum();
         let digits = -tolerance.log10();
-        let past_s = self.harder * axis * past * digits.powi(2) * KERNEL_S;
+        let past_s = self.harder * past * digits.powi(2) * KERNEL_S;
         let of_echoes = |plate: &EchoCost| plate.seconds(place_m, radius_m, (&self.sets, samples));
         let echoes_s = self.plate.as_ref().map_or(0.0, of_echoes);
         let fields_s = discs as f64 * self.kernels_s + forcings.len() as f64 * sums_s + past_s;
@@ -307,7 +313,7 @@ impl<'a> Prices<'a> {
             discs,
             looked_up: self.looked_up,
             samples: forcings.len() * count as usize,
-            integrated: points * integrated().count() as f64,
+            integrated: points * integrated.len() as f64,
             seconds: points * (of_mean * fields_s + echoes_s),
         }
     }
