@@ -272,10 +272,12 @@ impl<'a> Past<'a> {
         span_s: [f64; 2],
         reading: Reading,
     ) -> Result<Estimate, ImpactError> {
-        /// Radius over the distance from the largest edge from which the axis is continued, and the part of the difference of
-        /// two continuations that is their error (`scripts/check-close`, regions `axis` and `centre`).
+        /// Radius over the distance from the largest edge from which the axis is continued, the part of the difference of two
+        /// continuations that is their error, and the part of the allowed error that each may have: at 1 errors are twice as
+        /// large and a twentieth of the time is saved (`scripts/check-close`, regions `axis` and `centre`).
         const AXIS: f64 = 0.008;
         const CONTINUED: f64 = 0.3;
+        const OF_EACH: f64 = 0.3;
         // rates are those of a punch, which are not differenced
         let part = match reading {
             Reading::Force => AXIS,
@@ -291,8 +293,8 @@ impl<'a> Past<'a> {
         for (i, &radius) in radii.iter().enumerate() {
             let weights = weights_off_axis(r_m, &radii, i);
             // what vanishes on the axis needs no digits beside it
-            let least = f64::MIN_POSITIVE;
-            let allowed = std::array::from_fn(|f| allowed[f] / weights[f].abs().max(least));
+            let weight = |f: usize| weights[f].abs().max(f64::MIN_POSITIVE);
+            let allowed = std::array::from_fn(|f| OF_EACH * allowed[f] / weight(f));
             let found = self.off_axis(&allowed, [radius, z_m], time_s, span_s, reading)?;
             for (f, weight) in weights.into_iter().enumerate() {
                 sum.value[f] += weight * found.value[f];
