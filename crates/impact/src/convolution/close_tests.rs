@@ -544,3 +544,38 @@ fn fields_of_an_audit() {
         }
     }
 }
+
+#[test]
+fn the_first_instants_of_a_fast_contact_are_resolved() {
+    let [block, steel] = [8, 0].map(|i: usize| {
+        let [modulus, ratio, density] = SOLIDS[i];
+        Material::elastic(modulus, ratio, density).unwrap()
+    });
+    let ball = Striker::ball(steel, 1e-3).unwrap();
+    let mut impact = Impact::new(HalfSpace::new(block).unwrap(), ball, 40.0);
+    impact.settings.model = Model::Growing;
+    impact.settings.tolerance = 1e-6;
+    let excitation = impact.solve().unwrap().excitation().clone();
+    let units = excitation.units();
+    let place = [2.8, 0.006].map(|x| x * units.disc_radius_m);
+    let arrivals = excitation.speeds().arrivals_s(place[0], place[1], 0.0);
+    let mut largest = [0.0_f64; 2];
+    for part in [0.02, 0.05, 0.1, 0.2] {
+        for arrival in &arrivals[1..] {
+            let time = arrival + part * units.time_s();
+            let (exact, _) = exact(&excitation, place, time);
+            let found = excitation.instant(place, time, 1e-6).unwrap().unwrap();
+            for (kind, fields) in [0..2, 2..6].into_iter().enumerate() {
+                let peak = fields.clone().map(|f| exact[f].abs()).fold(0.0, f64::max);
+                for f in fields {
+                    largest[kind] = largest[kind].max((found[f] - exact[f]).abs() / peak);
+                }
+            }
+        }
+    }
+    println!(
+        "contact of {:.1} a/c1: errors {largest:?}",
+        excitation.end_s() / units.time_s()
+    );
+    assert!(largest.iter().all(|x| *x < 1e-5));
+}

@@ -25,8 +25,8 @@ use std::ops::Range;
 use std::sync::LazyLock;
 
 /// Terms of a series at least and at most, and how often an interval is halved then; more often in the first instants, this part
-/// of a contact, since the force of a fast one rises within 1e-4 of its duration. At 5 there fields of a contact of 62 a/c1 on
-/// a block with a Poisson's ratio of 0.49 are off by 7e-4 at 1e-6, at 8 by 6e-5 (`scripts/check-close 33 1e-6 72`).
+/// of a contact, since the force of a fast one rises within 1e-4 of its duration
+/// (`the_first_instants_of_a_fast_contact_are_resolved` fails at 5).
 const LEAST_TERMS: usize = 5;
 const MOST_TERMS: usize = 21;
 const HALVINGS: usize = 5;
